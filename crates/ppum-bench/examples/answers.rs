@@ -44,7 +44,7 @@ fn numbers(dataset: &Dataset) -> Value {
     };
     let warning = |w: &Warning| {
         let at = w.at.map(place);
-        json!({ "kind": w.kind, "value": w.value, "limit": w.limit, "at": at, "message": w.message })
+        json!({ "kind": w.kind.to_string(), "value": w.value, "limit": w.limit, "at": at, "message": w.message })
     };
     json!({
         "energy": record("energy"),

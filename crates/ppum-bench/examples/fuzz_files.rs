@@ -8,6 +8,9 @@
 //! search goes on. Without files it starts from those of `tests/data` and `tests/data/h5py` of that
 //! crate.
 
+#[path = "../../ppum-format/tests/damage/mod.rs"]
+mod damage;
+
 use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, ExitStatus};
@@ -19,8 +22,9 @@ use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::vec2::Vec2;
 use ppum_format::Series;
-use ppum_format::damage::{Damaged, damaged};
 use ppum_testkit::random::Random;
+
+use damage::{Damaged, damaged};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 

@@ -41,9 +41,9 @@ fn compared(file: &str) -> Result<String, Box<dyn std::error::Error>> {
     });
     Ok(format!(
         "{} unknowns, {} levels, {} steps, condition {:.2}, K {:.1e}, coefficients {:.1e}, energy {:.1e}, {:.2} s and {:.2} s",
-        number(report.unknowns),
-        number(report.solver_levels),
-        number(report.iterations),
+        number(report.unknowns.map(|n| n as f64)),
+        number(report.solver_levels.map(|n| n as f64)),
+        number(report.iterations.map(|n| n as f64)),
         number(report.preconditioned_condition),
         apart(&factors(&direct), &factors(&multilevel)),
         apart(&coefficients(&direct), &coefficients(&multilevel)),

@@ -68,11 +68,11 @@ impl SolverRun {
         let phases: Vec<_> = report.seconds.iter().map(|(phase, s)| (phase.name(), *s)).collect();
         Ok(Self {
             level,
-            unknowns: report.unknowns.context("the solver counts unknowns")? as u64,
+            unknowns: report.unknowns.context("the solver counts unknowns")?,
             kind: report.solver.map(LinearKind::word),
-            iterations: report.iterations,
+            iterations: report.iterations.map(|n| n as f64),
             condition: report.preconditioned_condition,
-            bytes: report.solver_bytes,
+            bytes: report.solver_bytes.map(|n| n as f64),
             seconds: phases.iter().map(|phase| phase.1).sum(),
             phases,
             energy: report.energy,

@@ -1,39 +1,75 @@
-//! Datasets from arrays in memory, by the names that files have for them.
+//! Named arrays: those of a dataset, by the names that files have for them, and of other formats.
 
 use ppum::dataset::Dataset;
 
 use crate::bytes::{all_errors, checked};
 use crate::content::{Array, ArrayValues, Content};
-use crate::error::ReadError;
+use crate::error::{ReadError, WriteError};
 use crate::limits::FORMAT_VERSION;
+use crate::{checksum, encode, hdf5};
 
-/// Arrays and attributes by their paths, as `FORMAT.md` names them.
-#[derive(Debug)]
+/// Named arrays and attributes, as `FORMAT.md` names them, or those of an HDF5 file of another
+/// format.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Arrays(Content);
 
-impl Default for Arrays {
-    fn default() -> Self {
-        let (major, minor) = FORMAT_VERSION;
-        let mut content = Content::new();
-        content.insert("@format".into(), Array::scalar("ppum".to_owned()));
-        content.insert("@format_version".into(), Array::vector([major, minor]));
-        Self(content)
-    }
-}
-
 impl Arrays {
-    /// Adds an array (`steps/0000/partition/center`) or an attribute (`steps/0000@load`, `@title`),
-    /// row-major, of shape `[]` if it is a scalar.
-    pub fn insert(&mut self, path: &str, shape: Vec<u64>, values: ArrayValues) {
-        self.0.insert(path.to_owned(), Array { shape, values });
+    /// Those of a dataset, which need not obey the rules, without a checksum.
+    ///
+    /// # Errors
+    /// [`WriteError::Object`]: something that the format cannot express.
+    pub fn of(dataset: &Dataset) -> Result<Self, WriteError> {
+        encode::content(dataset).map(Self)
     }
 
-    /// The dataset; it has passed [`Dataset::check`].
+    /// Those in the bytes of an HDF5 file.
+    ///
+    /// # Errors
+    /// [`ReadError::Hdf5`] or [`ReadError::Object`]: it cannot be read.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, ReadError> {
+        hdf5::from_bytes(bytes).map(Self)
+    }
+
+    /// Adds an array (`steps/0000/partition/center`) or an attribute (`steps/0000@load`, `@title`),
+    /// row-major, of shape `[]` if it is a scalar, and the groups that it is in. One of this path is
+    /// replaced.
+    pub fn insert(&mut self, path: &str, shape: impl Into<Vec<u64>>, values: ArrayValues) {
+        self.0.insert(path.to_owned(), Array { shape: shape.into(), values });
+    }
+
+    /// All paths, shapes and values, in the order of paths.
+    pub fn iter(&self) -> impl Iterator<Item = (&str, &[u64], &ArrayValues)> {
+        self.0.iter().map(|(path, array)| (path.as_str(), array.shape.as_slice(), &array.values))
+    }
+
+    /// Adds the checksums that a file of this program has, or makes them right: over all, or with
+    /// several steps one for each and one for the rest.
+    pub fn seal(&mut self) {
+        let second = self.0.has_group("steps/0001");
+        if second { checksum::seal_parts(&mut self.0) } else { checksum::seal(&mut self.0) }
+    }
+
+    /// The bytes of an HDF5 file. Long arrays that shrink are compressed.
+    ///
+    /// # Errors
+    /// [`WriteError::Object`]: a text with NUL or U+FFFD, or a type that is not stored;
+    /// [`WriteError::Hdf5`]: a name of more than 65,000 bytes.
+    pub fn to_bytes(&self) -> Result<Vec<u8>, WriteError> {
+        hdf5::to_compressed_bytes(&self.0)
+    }
+
+    /// The dataset, of this version of the format unless they name another one; it has passed
+    /// [`Dataset::check`].
     ///
     /// # Errors
     ///
     /// All that is wrong, each with the path of the array at fault.
-    pub fn dataset(self) -> Result<Dataset, Vec<ReadError>> {
+    pub fn dataset(mut self) -> Result<Dataset, Vec<ReadError>> {
+        let version = Array::vector(<[u32; 2]>::from(FORMAT_VERSION));
+        let format = ("@format", Array::scalar("ppum".to_owned()));
+        for (name, array) in [format, ("@format_version", version)] {
+            self.0.entry(name.to_owned()).or_insert(array);
+        }
         checked(&self.0).map_err(|_| all_errors(Ok(self.0)))
     }
 }
@@ -43,7 +79,7 @@ mod tests {
     use ppum::dataset::Equation;
 
     use super::*;
-    use crate::{encode, everything};
+    use crate::everything;
 
     /// The arrays of a dataset without an equation, whose field has any name and any components.
     fn arrays() -> (Dataset, Arrays) {
@@ -52,10 +88,7 @@ mod tests {
         data.steps.truncate(1);
         data.steps[0].reactions.clear();
         data.steps[0].fields[0].name = "velocity".into();
-        let mut arrays = Arrays::default();
-        for (path, array) in encode::content(&data).expect("valid").iter() {
-            arrays.insert(path, array.shape.clone(), array.values.clone());
-        }
+        let arrays = Arrays::of(&data).expect("valid");
         (data, arrays)
     }
 
@@ -81,5 +114,21 @@ mod tests {
         for path in ["equation@young", "partition/level", "block_degree"] {
             assert!(places.iter().any(|place| place.ends_with(path)), "{path}: {errors:?}");
         }
+    }
+
+    /// Formulas may name arrays, however long they are.
+    #[test]
+    fn names_of_any_length_are_read_again() {
+        for length in [1, 255, 256, 300, 60_000] {
+            let mut file = Arrays::default();
+            for name in ["x".repeat(length), "ü".repeat(length / 2 + 1)] {
+                file.insert(&format!("group/{name}"), vec![2], ArrayValues::F64(vec![1.0, 2.0]));
+            }
+            let bytes = file.to_bytes().expect("a file");
+            assert_eq!(Arrays::from_bytes(&bytes).expect("readable"), file, "{length}");
+        }
+        let mut file = Arrays::default();
+        file.insert(&"x".repeat(66_000), vec![1], ArrayValues::U8(vec![1]));
+        assert!(matches!(file.to_bytes(), Err(WriteError::Hdf5 { .. })));
     }
 }

@@ -69,13 +69,6 @@ fn parts(content: &Content) -> Vec<Scope> {
     [Scope::Rest].into_iter().chain(steps).collect()
 }
 
-/// True if a checksum covers every part of the content.
-#[cfg(feature = "damage")]
-pub(crate) fn is_sealed(content: &Content) -> bool {
-    let is_there = |scope: Scope| content.contains_key(&scope.key());
-    is_there(Scope::All) || parts(content).into_iter().all(is_there)
-}
-
 /// Takes all checksums out of the content.
 pub(crate) fn remove(content: &mut Content) {
     for scope in [Scope::All].into_iter().chain(parts(content)) {

@@ -204,20 +204,6 @@ impl ArrayValues {
             Self::Text(_) | Self::Other(_) => None,
         }
     }
-
-    /// Number of values; none of a type outside the format.
-    #[cfg(feature = "damage")]
-    pub(crate) fn len(&self) -> usize {
-        match self {
-            Self::F64(v) => v.len(),
-            Self::U8(v) => v.len(),
-            Self::U32(v) => v.len(),
-            Self::U64(v) => v.len(),
-            Self::I64(v) => v.len(),
-            Self::Text(v) => v.len(),
-            Self::Other(_) => 0,
-        }
-    }
 }
 
 fn little_endian<T: bytemuck::Pod>(numbers: &[T]) -> Cow<'_, [u8]> {
@@ -228,7 +214,7 @@ fn little_endian<T: bytemuck::Pod>(numbers: &[T]) -> Cow<'_, [u8]> {
 }
 
 /// A Rust type that stands for one of the element types.
-pub(crate) trait Element: Clone {
+pub(crate) trait Element: Clone + std::fmt::Debug {
     /// Name of the type in messages and in the checksum.
     const NAME: &'static str;
     fn wrap(values: Vec<Self>) -> ArrayValues;
@@ -283,15 +269,10 @@ impl Array {
         Self { shape: vec![values.len() as u64], values: T::wrap(values) }
     }
 
-    /// A matrix of `N` columns.
-    pub(crate) fn rows<T: Element, const N: usize>(rows: impl IntoIterator<Item = [T; N]>) -> Self {
-        let values: Vec<T> = rows.into_iter().flatten().collect();
-        Self { shape: vec![(values.len() / N) as u64, N as u64], values: T::wrap(values) }
-    }
-
     /// A matrix of the given rows, all of `columns` entries.
-    pub(crate) fn matrix(rows: &[Vec<f64>], columns: usize) -> Self {
+    pub(crate) fn matrix<R: AsRef<[f64]>>(rows: &[R], columns: usize) -> Self {
         let shape = vec![rows.len() as u64, columns as u64];
-        Self { shape, values: ArrayValues::F64(rows.concat()) }
+        let values = rows.iter().flat_map(R::as_ref).copied().collect();
+        Self { shape, values: ArrayValues::F64(values) }
     }
 }

@@ -11,7 +11,6 @@
 mod account;
 mod append;
 mod layout;
-mod lookup3;
 mod messages;
 mod objects;
 mod read;
@@ -19,7 +18,5 @@ mod values;
 mod write;
 
 pub(crate) use append::{AppendedStep, Trunk};
-#[cfg(feature = "damage")]
-pub(crate) use lookup3::lookup3;
 pub(crate) use read::{Outline, Ranges, from_bytes, from_file};
 pub(crate) use write::{check_texts, to_bytes, to_compressed_bytes};

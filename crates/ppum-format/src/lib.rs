@@ -1,7 +1,8 @@
 //! [`Dataset`] ↔ HDF5, as `FORMAT.md` describes it.
 //!
 //! [`write()`] and [`read`] work on files, [`to_bytes`] and [`from_bytes`] in memory (also where
-//! there is no file system), [`Arrays`] makes a dataset of arrays by the names of the format.
+//! there is no file system), [`Arrays`] makes a dataset of arrays by the names of the format, or a
+//! file of another one.
 //! [`Series`] reads one step of a file at a time, [`SeriesWriter`] appends one. Between a dataset
 //! and HDF5 stands the content: a sorted map from the names of arrays and attributes to their
 //! values. Names and shapes meet the data model in `encode` and `decode`, HDF5 is known to `hdf5`
@@ -46,9 +47,8 @@ mod append;
 mod arrays;
 mod bytes;
 mod checksum;
+mod column;
 mod content;
-#[cfg(feature = "damage")]
-pub mod damage;
 mod decode;
 mod encode;
 mod error;
@@ -56,12 +56,19 @@ mod error;
 #[path = "../tests/fixture/everything.rs"]
 mod everything;
 mod file;
+#[cfg(test)]
+#[path = "../tests/damage/forge.rs"]
+#[allow(dead_code, reason = "made for the tests of files")]
+mod forge;
 mod hdf5;
-mod hdf5_file;
 mod limits;
-mod names;
+mod lookup3;
 mod place;
+mod reader;
+mod schema;
 mod series;
+mod stored;
+mod writer;
 
 pub use append::SeriesWriter;
 pub use arrays::Arrays;
@@ -69,6 +76,5 @@ pub use bytes::{check, diagnose_bytes, from_bytes, to_bytes};
 pub use content::ArrayValues;
 pub use error::{ReadError, WriteError};
 pub use file::{diagnose, read, write};
-pub use hdf5_file::Hdf5File;
 pub use limits::{FORMAT_VERSION, MAX_LENGTH, MAX_SERIES_LENGTH};
 pub use series::Series;

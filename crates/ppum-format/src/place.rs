@@ -1,42 +1,50 @@
 //! The places of a dataset's errors, in the file: a path through the data model becomes that of an
 //! HDF5 object.
 
+use crate::column::{ArrayColumn, ColumnNames};
 use crate::content::{ArrayValues, Content, ObjectKind, join, key, step_path};
+use crate::schema;
 
 /// Lists whose entries are rows of the arrays of a group.
 const TABLES: &[&str] =
     &["cracks", "functions", "holes", "intensities", "quantities", "reactions", "tips", "warnings"];
 
-/// Lists of an entry of a table, which are parts of an array: the group, the list, its array and
-/// its offsets.
-const PARTS: &[(&str, &str, &str, &str)] = &[
-    ("cracks", "points", "points", "offsets"),
-    ("cracks", "segment", "points", "offsets"),
-    ("functions", "cuts", "cuts", "cut_offsets"),
-    ("functions", "kinks", "kinks", "kink_offsets"),
-    ("functions", "parameters", "parameter_name", "parameter_offsets"),
-    ("functions", "singular", "singular", "singular_offsets"),
-    ("growth", "path", "path", "path_offsets"),
-    ("holes", "center", "points", "offsets"),
-    ("holes", "points", "points", "offsets"),
-    ("intensities", "rings", "rings", "ring_offsets"),
-];
+/// The arrays of a group whose names differ from those in the data model, or that are parts of
+/// an array.
+fn names(group: &str) -> Vec<ColumnNames> {
+    fn of<S: ?Sized>(columns: &[ArrayColumn<S>]) -> Vec<ColumnNames> {
+        columns.iter().map(|column| column.names).collect()
+    }
+    match group {
+        "cracks" => of(schema::CRACKS),
+        "functions" => of(schema::FUNCTIONS),
+        "growth" => of(schema::GROWTH),
+        "holes" => of(schema::HOLES),
+        "intensities" => of(schema::INTENSITIES),
+        "quantities" => of(schema::QUANTITIES),
+        _ => Vec::new(),
+    }
+}
 
-/// Names that differ from those in the file: the group, the name, and that in the file.
-const NAMES: &[(&str, &str, &str)] = &[
-    ("equation", "young", "@young"),
-    ("equation", "poisson", "@poisson"),
-    ("equation", "conductivity", "@conductivity"),
-    ("equation", "eigenstrain_xx", "@eigenstrain_xx"),
-    ("equation", "eigenstrain_yy", "@eigenstrain_yy"),
-    ("equation", "eigenstrain_xy", "@eigenstrain_xy"),
-    ("equation", "eigenstrain_zz", "@eigenstrain_zz"),
-    ("equation", "expansion", "@expansion"),
-    ("partition", "weight", "@weight_formula"),
-    ("growth", "cycles", "@cycles"),
-    ("functions", "origin", "frame_origin"),
-    ("functions", "angle", "frame_angle"),
-];
+/// The array of a name in the data model.
+fn column(group: &str, name: &str) -> Option<ColumnNames> {
+    let field = match (group, name) {
+        ("cracks", "segment") | ("holes", "center") => "points",
+        (_, other) => other,
+    };
+    names(group)
+        .into_iter()
+        .find(|names| names.field.rsplit('.').next().map(str::trim) == Some(field))
+}
+
+/// The name of an attribute or of an array.
+fn in_group(group: &str, name: &str) -> String {
+    match (group, name) {
+        ("equation", _) | ("growth", "cycles") => format!("@{name}"),
+        ("partition", "weight") => "@weight_formula".to_owned(),
+        _ => column(group, name).map_or(name, |names| names.array).to_owned(),
+    }
+}
 
 /// The object that a place such as `steps[0].functions[2].cuts[1].left` is about, with the indices
 /// in its array. What is between back ticks is a name.
@@ -50,7 +58,7 @@ pub(crate) fn in_file(place: &str, content: &Content) -> String {
         let numbers = numbers.split(['[', ']']).filter_map(|number| number.parse().ok());
         let mut numbers: Vec<usize> = numbers.collect();
         let group = found.rsplit('/').next().unwrap_or_default();
-        let in_part = PARTS.iter().find(|(of, list, ..)| (*of, *list) == (group, name));
+        let part = column(group, name).and_then(|names| Some((names.array, names.offsets?)));
         if name == "steps" && !numbers.is_empty() {
             found = step_path(numbers[0]);
         } else if name == "fields" && !numbers.is_empty() {
@@ -60,17 +68,16 @@ pub(crate) fn in_file(place: &str, content: &Content) -> String {
             found = if name == "tips" { found } else { join(&found, name) };
         } else if name == "load" {
             found = join(&found, "@load");
-        } else if let (Some((_, list, array, offsets)), Some(k)) = (in_part, row) {
+        } else if let (Some((array, offsets)), Some(k)) = (part, row) {
             let first = entry(content, &key(&found, offsets, ObjectKind::Dataset), k);
             // kinks are counted by their ends
-            let within = numbers.first().map_or(0, |n| if *list == "kinks" { n / 2 } else { *n });
+            let within = numbers.first().map_or(0, |n| if array == "kinks" { n / 2 } else { *n });
             found = join(&found, array);
             (row, indices) = (None, vec![first + within]);
-        } else if let Some(column) = column(name).filter(|_| found.ends_with("/cuts")) {
+        } else if let Some(column) = column_of_cut(name).filter(|_| found.ends_with("/cuts")) {
             indices.push(column);
         } else if !matches!(name, "" | "frame" | "declared") {
-            let names = NAMES.iter().find(|(of, own, _)| (*of, *own) == (group, name));
-            found = join(&found, names.map_or(name, |(.., file)| file));
+            found = join(&found, &in_group(group, name));
             // a point of a row is all of it
             indices = row.take().map_or_else(|| std::mem::take(&mut numbers), |k| vec![k]);
         }
@@ -79,7 +86,7 @@ pub(crate) fn in_file(place: &str, content: &Content) -> String {
     found + &indices.collect::<String>() + name
 }
 
-fn column(name: &str) -> Option<usize> {
+fn column_of_cut(name: &str) -> Option<usize> {
     ["crack", "segment", "left", "right"].iter().position(|column| *column == name)
 }
 

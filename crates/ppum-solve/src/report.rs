@@ -16,25 +16,25 @@ use ppum::vec2::Vec2;
 pub struct SolverReport {
     /// Number of patches that hold several runs of one crack or rim, and so glue two parts of the
     /// plate together: smaller cells are needed there.
-    pub crossed_twice: Option<f64>,
+    pub crossed_twice: Option<u64>,
     /// Unknowns before the cut-off.
-    pub unknowns: Option<f64>,
+    pub unknowns: Option<u64>,
     /// Unknowns that the stable basis has cut off.
-    pub cut_off: Option<f64>,
+    pub cut_off: Option<u64>,
     /// Relative residual ‖f − K u‖ / ‖f‖ in the stable basis.
     pub residual: Option<f64>,
     /// Unknowns left out because they depend on those of other patches.
-    pub dependent: Option<f64>,
+    pub dependent: Option<u64>,
     /// The linear solver.
     pub solver: Option<LinearKind>,
     /// Bytes that the linear solver has held: matrices of all levels, factors.
-    pub solver_bytes: Option<f64>,
-    /// 1 where the direct solver took the place of the multilevel one, whose levels did not serve.
-    pub fallback: Option<f64>,
+    pub solver_bytes: Option<u64>,
+    /// True if the direct solver took the place of the multilevel one, whose levels did not serve.
+    pub fallback: bool,
     /// Levels of the multilevel solver, the finest and the coarsest among them.
-    pub solver_levels: Option<f64>,
+    pub solver_levels: Option<u64>,
     /// Its steps, of the solution without those of other right-hand sides.
-    pub iterations: Option<f64>,
+    pub iterations: Option<u64>,
     /// Condition of the system with its preconditioner, estimated from the steps: a bound
     /// from below.
     pub preconditioned_condition: Option<f64>,
@@ -42,13 +42,13 @@ pub struct SolverReport {
     /// 36 in whole cells and more in slivers.
     pub nitsche: Option<f64>,
     /// Pieces that cracks and holes cut the plate into.
-    pub pieces: Option<f64>,
+    pub pieces: Option<u64>,
     /// Rigid-body modes of the pieces that nothing holds.
-    pub free_modes: Option<f64>,
+    pub free_modes: Option<u64>,
     /// Largest part of the loads on a piece that does not balance.
     pub imbalance: Option<f64>,
     /// Systems that were solved until the faces that touch came to rest; zero where none do.
-    pub contact_steps: Option<f64>,
+    pub contact_steps: Option<u64>,
     /// Part of the faces that may touch that is closed.
     pub closed: Option<f64>,
     /// Largest overlap of faces that may touch.
@@ -56,7 +56,7 @@ pub struct SolverReport {
     /// Largest tensile stress between closed faces.
     pub tension: Option<f64>,
     /// Quadrature points of the system's integrals.
-    pub quadrature_points: Option<f64>,
+    pub quadrature_points: Option<u64>,
     /// Energy of the solution, ½ ∫ σ:ε or ½ ∫ κ |∇u|²; infinite with forces at points.
     pub energy: Option<f64>,
     /// Energy of the whole of which the plate with a crack on an edge is a half or a quarter.
@@ -165,35 +165,63 @@ impl StopReason {
     }
 }
 
-impl From<LinearKind> for f64 {
-    fn from(kind: LinearKind) -> Self {
-        Self::from(kind as u8)
+/// A value of the report as the number of a record.
+trait Recorded {
+    /// The number; none if there is no record.
+    fn number(&self) -> Option<f64>;
+
+    /// Takes up a number, unless there was one before.
+    fn take_up(&mut self, number: f64);
+}
+
+impl Recorded for Option<f64> {
+    fn number(&self) -> Option<f64> {
+        *self
+    }
+
+    fn take_up(&mut self, number: f64) {
+        self.get_or_insert(number);
     }
 }
 
-impl TryFrom<f64> for LinearKind {
-    type Error = f64;
+impl Recorded for Option<u64> {
+    fn number(&self) -> Option<f64> {
+        self.map(|count| count as f64)
+    }
 
-    fn try_from(number: f64) -> Result<Self, f64> {
-        let mut all = [Self::Direct, Self::Multilevel].into_iter();
-        all.find(|kind| f64::from(*kind) == number).ok_or(number)
+    fn take_up(&mut self, number: f64) {
+        *self = self.or((number >= 0.0 && number.fract() == 0.0).then_some(number as u64));
     }
 }
 
-impl From<StopReason> for f64 {
-    fn from(reason: StopReason) -> Self {
-        Self::from(reason as u8)
+impl Recorded for bool {
+    fn number(&self) -> Option<f64> {
+        self.then_some(1.0)
+    }
+
+    fn take_up(&mut self, number: f64) {
+        *self |= number == 1.0;
     }
 }
 
-impl TryFrom<f64> for StopReason {
-    type Error = f64;
+macro_rules! recorded {
+    ($($kind:ty: $($value:ident),*;)*) => {
+        $(impl Recorded for Option<$kind> {
+            fn number(&self) -> Option<f64> {
+                self.map(|kind| f64::from(kind as u8))
+            }
 
-    fn try_from(number: f64) -> Result<Self, f64> {
-        use StopReason::{Limits, Memory, Segments, Steps, Tolerance, Unknowns};
-        let all = [Tolerance, Steps, Unknowns, Memory, Limits, Segments];
-        all.into_iter().find(|reason| f64::from(*reason) == number).ok_or(number)
-    }
+            fn take_up(&mut self, number: f64) {
+                let all = [$(<$kind>::$value),*].into_iter();
+                *self = self.or_else(|| all.map(Some).find(|kind| kind.number() == Some(number))?);
+            }
+        })*
+    };
+}
+
+recorded! {
+    LinearKind: Direct, Multilevel;
+    StopReason: Tolerance, Steps, Unknowns, Memory, Limits, Segments;
 }
 
 /// A number of the report by its name in files: its value, and how it is taken up if it is the
@@ -204,8 +232,8 @@ macro_rules! entries {
     ($($name:expr => $field:ident,)*) => {
         [$((
             $name,
-            |report| report.$field.map(f64::from),
-            |report, value| report.$field = report.$field.or_else(|| value.try_into().ok()),
+            |report| report.$field.number(),
+            |report, value| report.$field.take_up(value),
         )),*]
     };
 }
@@ -291,11 +319,13 @@ pub fn forget_times(step: &mut Step) {
 /// The word that a record's value stands for, if it is a code.
 #[must_use]
 pub fn word(name: &str, value: f64) -> Option<&'static str> {
+    let mut report = SolverReport::default();
     match name {
-        SOLVER => LinearKind::try_from(value).ok().map(LinearKind::word),
-        STOP => StopReason::try_from(value).ok().map(StopReason::word),
-        _ => None,
+        SOLVER => report.solver.take_up(value),
+        STOP => report.stop.take_up(value),
+        _ => {}
     }
+    report.solver.map(LinearKind::word).or(report.stop.map(StopReason::word))
 }
 
 /// Phases of a solution; their times are records with the unit `s`, others with `B` and `unknowns`.
@@ -403,7 +433,7 @@ impl SolverReport {
 
     /// Part of the unknowns that was cut off.
     pub fn cut_off_part(&self) -> Option<f64> {
-        Some(self.cut_off? / self.unknowns?)
+        Some(self.cut_off? as f64 / self.unknowns? as f64)
     }
 }
 
@@ -423,13 +453,72 @@ pub struct Unresolved {
 mod tests {
     use super::*;
 
+    /// A report with another number in each field.
+    fn every_number() -> SolverReport {
+        SolverReport {
+            crossed_twice: Some(1),
+            unknowns: Some(20),
+            cut_off: Some(3),
+            residual: Some(0.25),
+            dependent: Some(5),
+            solver: Some(LinearKind::Multilevel),
+            solver_bytes: Some(700),
+            fallback: true,
+            solver_levels: Some(9),
+            iterations: Some(10),
+            preconditioned_condition: Some(11.5),
+            nitsche: Some(12.5),
+            pieces: Some(13),
+            free_modes: Some(14),
+            imbalance: Some(0.125),
+            quadrature_points: Some(16),
+            energy: Some(17.5),
+            whole_energy: Some(18.5),
+            estimated_error: Some(19.5),
+            factor_error: Some(20.5),
+            stop: Some(StopReason::Memory),
+            rounding: Some(22.5),
+            contact_steps: Some(23),
+            closed: Some(0.75),
+            overlap: Some(25.5),
+            tension: Some(26.5),
+            ..SolverReport::default()
+        }
+    }
+
+    /// Its records, as files have had them.
+    const NUMBERS: [(&str, f64); 26] = [
+        ("crossed twice", 1.0),
+        ("unknowns", 20.0),
+        ("cut-off", 3.0),
+        ("residual", 0.25),
+        ("dependent", 5.0),
+        ("linear solver", 2.0),
+        ("solver memory", 700.0),
+        ("solver fallback", 1.0),
+        ("solver levels", 9.0),
+        ("iterations", 10.0),
+        ("preconditioned condition", 11.5),
+        ("nitsche", 12.5),
+        ("pieces", 13.0),
+        ("free motions", 14.0),
+        ("imbalance", 0.125),
+        ("quadrature points", 16.0),
+        ("energy", 17.5),
+        ("energy of the whole", 18.5),
+        ("estimated error", 19.5),
+        ("estimated error of factors", 20.5),
+        ("adaptation stop", 4.0),
+        ("rounding", 22.5),
+        ("contact steps", 23.0),
+        ("closed faces", 0.75),
+        ("overlap of faces", 25.5),
+        ("tension between faces", 26.5),
+    ];
+
     #[test]
     fn reports_come_back_from_records() {
-        let mut report = SolverReport::default();
-        for (k, (name, _, take)) in ENTRIES.iter().enumerate() {
-            take(&mut report, if word(name, 2.0).is_some() { 2.0 } else { k as f64 });
-        }
-        assert_eq!(report.stop, Some(StopReason::Steps));
+        let mut report = every_number();
         report.seconds = PHASES.iter().map(|&phase| (phase, 0.5)).collect();
         report.bytes = vec![(Phase::Basis, 80.0), (Phase::Assembly, 96.0)];
         report.worked = vec![(Phase::Cover, 7.0), (Phase::Basis, 5.0)];
@@ -443,7 +532,9 @@ mod tests {
         assert_eq!(records.iter().filter(|record| is_of_phase(record)).count(), PHASES.len() + 4);
         assert_eq!(records.iter().filter(|record| is_of_level(record)).count(), 8);
         assert_eq!(records.iter().filter(|record| is_of_course(&record.name)).count(), 6);
-        assert_eq!(records[13].name, "free motions");
+        for (record, (name, value)) in records.iter().zip(NUMBERS) {
+            assert_eq!((record.name.as_str(), record.value), (name, value));
+        }
         assert_eq!(SolverReport::of(&records), report);
         // a second record of a name, and names of other programs
         for (name, unit) in [
@@ -492,7 +583,7 @@ mod tests {
         assert_eq!(SolverReport::of(&[]), SolverReport::default());
         assert_eq!(SolverReport::default().records(), []);
         assert_eq!(
-            SolverReport { cut_off: Some(1.0), ..SolverReport::default() }.cut_off_part(),
+            SolverReport { cut_off: Some(1), ..SolverReport::default() }.cut_off_part(),
             None
         );
     }

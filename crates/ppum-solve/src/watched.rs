@@ -4,11 +4,25 @@
 //! items, and a [`Watcher`] hears of every one of them, so that it can stop the work within the
 //! time of one.
 
-use ppum::progress::{Cancelled, Phase, Progress, Watcher};
+use ppum::progress::{Cancelled, Phase, Progress, Verdict, Watcher};
 use ppum::vec2::Rect;
 use ppum_problem::geometry::Around;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
+
+/// A watcher of one step, which it tells the number of.
+pub struct InStep<'w> {
+    /// What hears of the progress.
+    pub watcher: &'w dyn Watcher,
+    /// The number of the step.
+    pub step: usize,
+}
+
+impl Watcher for InStep<'_> {
+    fn hear(&self, progress: Progress) -> Verdict {
+        self.watcher.hear(progress.in_step(self.step))
+    }
+}
 
 /// Items worked on between additions, at least and for each thread: enough for the cores, little
 /// enough for the memory.

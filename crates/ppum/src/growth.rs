@@ -20,7 +20,7 @@ pub struct Growth {
 }
 
 /// What one tip does next: it stays, or goes on along an arc of a circle.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Advance {
     /// The tip.
     pub tip: TipId,
@@ -65,7 +65,7 @@ impl Advance {
 }
 
 /// What a tip does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fate {
     /// It goes on, and is a tip again.
@@ -83,6 +83,7 @@ pub enum Fate {
     /// K_I is negative: its faces overlap.
     Closed,
     /// It has no factors.
+    #[default]
     Unknown,
     /// It would meet its own crack.
     MeetsItself,

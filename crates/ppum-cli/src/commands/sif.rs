@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use anyhow::{bail, ensure};
 use ppum::crack::{TipId, tips};
-use ppum::dataset::{Dataset, TipIntensity, Warning};
+use ppum::dataset::{Dataset, TipIntensity, Warning, WarningKind};
 use ppum::text::Places;
-use ppum_fracture::diagnostics::{kind, recompute};
+use ppum_fracture::diagnostics::recompute;
 use ppum_fracture::intensity::TipOutcome;
 use ppum_problem::Problem;
 use ppum_scene::facts::{self, Tip, all_tips};
@@ -113,7 +113,7 @@ fn refuse_poisson(name: &str, dataset: &Dataset) -> anyhow::Result<()> {
 fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<facts::Warning>)> {
     let (mut all, mut warnings) = (Vec::new(), Vec::new());
     for (index, step) in dataset.steps.iter().enumerate() {
-        let is_told = step.warnings.iter().any(|warning| warning.kind == kind::NO_ROOM);
+        let is_told = step.warnings.iter().any(|warning| warning.kind == WarningKind::NoRoom);
         let is_stored = !step.intensities.is_empty() || is_told || tips(&step.cracks).count() == 0;
         ensure!(
             is_stored,
@@ -163,6 +163,7 @@ fn known(file: &str, dataset: &Dataset, index: usize) -> anyhow::Result<(Vec<Tip
         bail!("{file}: {reason}, and no factors are stored; solve the problem again");
     }
     let message = format!("{file}: {reason}; these are the factors that the solver stored");
-    let told = Warning { kind: "loads-unknown".into(), at: None, value: 0.0, limit: 0.0, message };
+    let kind = WarningKind::LoadsUnknown;
+    let told = Warning { kind, at: None, value: 0.0, limit: 0.0, message };
     Ok((tips, step.warnings.iter().cloned().chain([told]).collect()))
 }

@@ -6,10 +6,10 @@
 use std::process::Command;
 use std::sync::Mutex;
 
-use ppum_format::to_bytes;
 use ppum_testkit::costly;
 
 use crate::Lab;
+use crate::errors::unchecked;
 
 /// Largest of the files, in bytes.
 const SMALL: usize = 250_000;
@@ -55,16 +55,16 @@ fn the_costliest_files_stay_within_the_bounds() {
 }
 
 /// Runs commands on the chosen files, each within its bound.
-fn stay_within(is_chosen: impl Fn(&str) -> bool) {
+fn stay_within(is_chosen: impl Fn(&str) -> bool + Send) {
     let (lab, failures) = (Lab::new(), Mutex::new(Vec::new()));
-    let files = Mutex::new(costly::all().filter(|(name, _)| is_chosen(name)));
+    let files = Mutex::new(costly::all().filter(move |(name, _)| is_chosen(name)));
     std::thread::scope(|scope| {
         for _ in 0..std::thread::available_parallelism().map_or(2, usize::from) {
             scope.spawn(|| {
                 loop {
                     // the lock is held for this line alone
                     let Some((name, dataset)) = files.lock().unwrap().next() else { break };
-                    let bytes = to_bytes(&dataset).unwrap();
+                    let bytes = unchecked(&dataset);
                     assert!(bytes.len() < SMALL, "{name}: {} bytes are not small", bytes.len());
                     let file = format!("{name}.h5");
                     std::fs::write(lab.path(&file), &bytes).unwrap();

@@ -7,7 +7,10 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::Mutex;
 
-use ppum_format::damage::{Damaged, damaged};
+#[path = "../../../ppum-format/tests/damage/mod.rs"]
+mod damages;
+
+use damages::{Damaged, damaged};
 use ppum_testkit::random::Random;
 
 use crate::{CRACKED, LINEAR, Lab, with_formulas};

@@ -30,7 +30,8 @@ fn hostile(lab: &Lab) -> Dataset {
         attribute.name += HOSTILE;
     }
     step.history.push(Record { name: word(), value: 1.0, unit: word() });
-    let warning = Warning { kind: word(), at: None, value: 1.0, limit: 0.5, message: word() };
+    let warning =
+        Warning { kind: word().as_str().into(), at: None, value: 1.0, limit: 0.5, message: word() };
     step.warnings.push(warning);
     data
 }

@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use ppum::formula::{Scope, ScopeError, Table, TableError, VARIABLES};
 
-use super::group::{Extent, GroupReader, numbered};
 use crate::content::ObjectKind;
 use crate::error::ReadError;
 use crate::limits::MAX_TABLE_VALUES;
+use crate::reader::{Extent, GroupReader, numbered};
 
 /// The scopes in which formulas are read before the dataset is complete.
 pub(super) struct Scopes {

@@ -10,7 +10,9 @@ use super::*;
 use crate::content::Array;
 use crate::{checksum, encode, everything};
 use ppum::crack::{End, TipId};
+use ppum::dataset::TipIntensity;
 use ppum::function::{Frame, Role, WESTERGAARD};
+use ppum::vec2::vec2;
 
 fn content() -> Content {
     static CONTENT: LazyLock<Content> =
@@ -379,7 +381,7 @@ fn names_give_the_roles_in_older_files() {
     for (name, text, frame, lambda, role) in rows {
         let parameters: Vec<_> =
             lambda.map(|value| ("lambda".to_owned(), value)).into_iter().collect();
-        assert_eq!(functions::role_by_name(name, text, frame, &parameters), role, "{name}");
+        assert_eq!(crate::schema::role_by_name(name, text, frame, &parameters), role, "{name}");
     }
     let mut older = content();
     older.retain(|key, _| !key.ends_with("functions/role"));

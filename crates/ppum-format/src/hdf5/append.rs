@@ -10,13 +10,13 @@
 //! in the block before.
 
 use super::account::memory_of;
-use super::lookup3::lookup3;
 use super::messages::{Addition, CONTINUATION, LINK, LINK_INFO, Message, NO_HEAP, block, header};
 use super::objects::group;
 use super::read::Ranges;
 use super::write::{END, ROOT, SUPERBLOCK, superblock};
 use crate::content::Content;
 use crate::error::WriteError;
+use crate::lookup3::lookup3;
 
 /// The group that grows.
 const STEPS: &str = "steps";

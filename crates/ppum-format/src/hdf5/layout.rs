@@ -207,7 +207,8 @@ mod tests {
         let mut random = Random(4);
         let n = 40_000_u32;
         let corner = |k: u32| [f64::from(k % 160) / 160.0, f64::from(k / 160) / 125.0];
-        let cells = Array::rows((0..n).map(corner));
+        let cells = Array::vector((0..n).flat_map(corner));
+        let cells = Array { shape: vec![n.into(), 2], ..cells };
         let indices = Array::vector((0..n).map(|k| 6 * u64::from(k)));
         assert!(shrinks(&cells) && shrinks(&indices));
         let mut numbers: Vec<f64> = (0..n).map(|_| random.unit() - 0.5).collect();

@@ -1,7 +1,7 @@
 //! Messages, the headers that they stand in, and the bytes that come behind the end of a file.
 
-use super::lookup3::lookup3;
 use crate::error::WriteError;
+use crate::lookup3::lookup3;
 
 /// Kinds of messages that say where others are.
 pub(super) const LINK: u8 = 0x06;

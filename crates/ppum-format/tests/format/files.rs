@@ -9,6 +9,7 @@ use std::ops::Range;
 use std::sync::LazyLock;
 use std::time::Duration;
 
+use crate::damage::{damaged, object_headers, seal, sealed_parts};
 use ppum::cover::Cover;
 use ppum::crack::Side;
 use ppum::dataset::{Attribute, Dataset, Equation, Growth};
@@ -18,7 +19,6 @@ use ppum::jet::Jet;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Vec2, vec2};
 use ppum::weight::WeightFunction;
-use ppum_format::damage::{damaged, object_headers, seal, sealed_parts};
 use ppum_format::{ReadError, WriteError, from_bytes, read, to_bytes, write};
 use ppum_testkit::processor::thread_time;
 use ppum_testkit::random::Random;

@@ -7,8 +7,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use crate::damage::damaged;
 use ppum::dataset::Dataset;
-use ppum_format::damage::damaged;
 use ppum_format::{Series, SeriesWriter, WriteError, from_bytes, read, to_bytes, write};
 use ppum_testkit::random::Random;
 

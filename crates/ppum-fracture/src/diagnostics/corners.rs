@@ -1,7 +1,7 @@
 //! Warnings about singular points of the border that the cells do not resolve.
 
-use super::{kind, short, smaller_cells, warning};
-use ppum::dataset::Warning;
+use super::{short, smaller_cells, warning};
+use ppum::dataset::{Warning, WarningKind};
 use ppum::field::Field;
 use ppum::text::Places;
 use ppum::vec2::Rect;
@@ -67,7 +67,7 @@ fn infinite(corner: &Corner, places: &Places) -> Warning {
          and stresses nearby depend on the cells; make the values continuous",
         places.show(corner.at)
     );
-    warning(kind::SINGULAR_POINT, Some(corner.at), [1.0, LARGE_MISS], message)
+    warning(WarningKind::SingularPoint, Some(corner.at), [1.0, LARGE_MISS], message)
 }
 
 fn unresolved(
@@ -86,5 +86,5 @@ fn unresolved(
         short((1e3 * missed).round() / 10.0),
         smaller_cells(Some(problem), "`center` and `radius`")
     );
-    warning(kind::SINGULAR_POINT, Some(corner.at), [missed, LARGE_MISS], message)
+    warning(WarningKind::SingularPoint, Some(corner.at), [missed, LARGE_MISS], message)
 }

@@ -12,10 +12,10 @@
 //! falls like the root of the segments' length. The curve goes on as at the last of the vertices
 //! that are looked at, where the formula of Euler and Maclaurin ends the sum.
 
-use super::{kind, short, warning};
+use super::{short, warning};
 use crate::intensity::TipOutcome;
 use ppum::crack::{Crack, End};
-use ppum::dataset::{TipIntensity, Warning};
+use ppum::dataset::{TipIntensity, Warning, WarningKind};
 use ppum::vec2::Vec2;
 
 /// c, measured on arcs of 16 to 256 segments, some along their tangents and some inscribed, to 2 %.
@@ -50,7 +50,8 @@ pub(super) fn of_curve(
         short(t + lacking),
         short(t)
     );
-    (part > LARGE_T).then(|| warning(kind::CURVE, Some(outcome.at), [part, LARGE_T], message))
+    (part > LARGE_T)
+        .then(|| warning(WarningKind::Curve, Some(outcome.at), [part, LARGE_T], message))
 }
 
 /// The part of |K| that K of a tip may be off by, if its crack may be meant as a curve.

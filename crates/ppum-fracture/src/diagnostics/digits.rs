@@ -5,9 +5,9 @@
 //! rounding of the c_k to a part ε adds, divided by ε. Its gradient over that of the field, times
 //! some ε, is the relative rounding error of stresses.
 
-use super::{Cutters, kind, short, warning};
+use super::{Cutters, short, warning};
 use ppum::crack::Side;
-use ppum::dataset::{Dataset, Step, Warning};
+use ppum::dataset::{Dataset, Step, Warning, WarningKind};
 use ppum::field::{Field, FieldError};
 use ppum::jet::Jet;
 use ppum::text::Places;
@@ -86,7 +86,7 @@ pub(super) fn of_digits(
     if mean > ALL {
         let message = "the field is constant but for rounding, or the plate moves as a rigid body: stresses, gradients and \
                        factors are zero, and their digits rounding";
-        return Some(warning(kind::DIGITS, None, [mean, ALL], message.into()));
+        return Some(warning(WarningKind::Digits, None, [mean, ALL], message.into()));
     }
     let message = format!(
         "near {} coefficients cancel, and stresses are good to {} there in double, not at all in single \
@@ -94,7 +94,8 @@ pub(super) fn of_digits(
         places.show(at),
         short(error)
     );
-    (error > FEW_DIGITS).then(|| warning(kind::DIGITS, Some(at), [error, FEW_DIGITS], message))
+    (error > FEW_DIGITS)
+        .then(|| warning(WarningKind::Digits, Some(at), [error, FEW_DIGITS], message))
 }
 
 /// The step with coefficients δ_k c_k, δ_k = 2 {k g} − 1 with the golden ratio g.

@@ -1,8 +1,8 @@
 //! Warnings about the faces of cracks: whether they open.
 
-use super::{kind, short, warning};
+use super::{short, warning};
 use ppum::crack::{Crack, SegmentId, Side, TipId};
-use ppum::dataset::Warning;
+use ppum::dataset::{Warning, WarningKind};
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::text::Places;
@@ -80,7 +80,7 @@ fn overlap(
             seats.show(worst.at),
             short(-worst.opening)
         );
-        warning(kind::FACES_OVERLAP, Some(worst.at), [worst.opening, limit], message)
+        warning(WarningKind::FacesOverlap, Some(worst.at), [worst.opening, limit], message)
     })
 }
 

@@ -1,8 +1,8 @@
 //! Warnings about interfaces of materials that the local spaces do not resolve.
 
-use super::{kind, short, warning};
+use super::{short, warning};
 use ppum::crack::Side;
-use ppum::dataset::{Dataset, Warning};
+use ppum::dataset::{Dataset, Warning, WarningKind};
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::text::Places;
@@ -59,7 +59,7 @@ fn of_cause(cause: Cause, all: &[(Trouble, f64)], places: &Places) -> Option<War
             places.show(worst.at),
             short(value)
         );
-        warning(kind::INTERFACE, Some(worst.at), [value, LARGE], message)
+        warning(WarningKind::Interface, Some(worst.at), [value, LARGE], message)
     })
 }
 

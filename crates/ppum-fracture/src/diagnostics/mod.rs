@@ -20,7 +20,7 @@ mod warning;
 pub(crate) use curves::error_of_segments;
 pub use digits::{FEW_DIGITS, Rounding, rounding};
 pub use warning::{
-    LARGE_CUT_OFF, LARGE_ERROR, LARGE_IMBALANCE, LARGE_LOCKING, LARGE_NITSCHE, LARGE_RESIDUAL, kind,
+    LARGE_CUT_OFF, LARGE_ERROR, LARGE_IMBALANCE, LARGE_LOCKING, LARGE_NITSCHE, LARGE_RESIDUAL,
 };
 
 use crate::intensity::{LoadCase, TipOutcome, intensities_by, with_cells};
@@ -29,7 +29,7 @@ use digits::of_digits;
 use faces::of_faces;
 use interfaces::of_interfaces;
 use locking::locking;
-use ppum::dataset::{Dataset, Warning};
+use ppum::dataset::{Dataset, Warning, WarningKind};
 use ppum::field::{Field, FieldError};
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::text::Places;
@@ -219,7 +219,7 @@ impl DiagnosedSolution<'_> {
         };
         let found = case.diagnose(&[], watcher)?.warnings.into_iter();
         // its values strain the body; what digits its gradient has does not matter
-        let found = found.filter(|new| new.kind != kind::DIGITS && !known.contains(new));
+        let found = found.filter(|new| new.kind != WarningKind::Digits && !known.contains(new));
         Ok(found.map(of_heat).collect())
     }
 }
@@ -232,12 +232,13 @@ fn of_locking(field: &Field<'_>, space: &Space<'_>) -> Option<Warning> {
          energy is error; use order = 4 or more (4 is taken if `order` is left out), or smaller cells",
         short((1e4 * lost).round() / 1e2)
     );
-    (lost > LARGE_LOCKING).then(|| warning(kind::LOCKING, None, [lost, LARGE_LOCKING], message))
+    (lost > LARGE_LOCKING)
+        .then(|| warning(WarningKind::Locking, None, [lost, LARGE_LOCKING], message))
 }
 
 /// The warning about a temperature that is solved for, in a dataset of the body that it strains.
 fn of_heat(found: Warning) -> Warning {
-    let kind = format!("temperature-{}", found.kind);
+    let kind = WarningKind::OfTemperature(Box::new(found.kind));
     let message = format!("the temperature: {}", found.message);
     Warning { kind, message, ..found }
 }
@@ -247,7 +248,7 @@ fn of_quadrature(unresolved: &[Unresolved], places: &Places) -> Vec<Warning> {
     let large = unresolved.iter().filter(|found| found.error.is_nan() || found.error > LARGE_ERROR);
     let warning = |found: &Unresolved| {
         let Unresolved { load, error, at } = found;
-        let kind = if load.is_some() { kind::LOAD } else { kind::QUADRATURE };
+        let kind = if load.is_some() { WarningKind::Load } else { WarningKind::Quadrature };
         warning(
             kind,
             Some(*at),

@@ -12,9 +12,9 @@
 //! Cell by cell the tail is 0.8 to 1.3 times the error away from singular points, where the
 //! pressure is no polynomial; so the median by area is told.
 
-use super::{kind, short, warning};
+use super::{short, warning};
 use ppum::crack::Side;
-use ppum::dataset::Warning;
+use ppum::dataset::{Warning, WarningKind};
 use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
@@ -56,7 +56,7 @@ pub(super) fn of_pressure(field: &Field<'_>, law: &Law<'_>) -> Option<Warning> {
          in most places, far more than displacements, energy and factors; use a higher `order`, or smaller cells",
         short((1e4 * part).round() / 1e2)
     );
-    (part > LARGE).then(|| warning(kind::PRESSURE, None, [part, LARGE], message))
+    (part > LARGE).then(|| warning(WarningKind::Pressure, None, [part, LARGE], message))
 }
 
 /// The median by area of the squares of tails.

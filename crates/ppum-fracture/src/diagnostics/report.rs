@@ -1,7 +1,7 @@
 //! Warnings about the solution as a whole, from the numbers of the solver's report.
 
-use super::{LARGE_CUT_OFF, LARGE_IMBALANCE, LARGE_NITSCHE, LARGE_RESIDUAL, kind, warning};
-use ppum::dataset::{Step, Warning};
+use super::{LARGE_CUT_OFF, LARGE_IMBALANCE, LARGE_NITSCHE, LARGE_RESIDUAL, warning};
+use ppum::dataset::{Step, Warning, WarningKind};
 use ppum::domain::Domain;
 use ppum_problem::Adaptivity;
 use ppum_solve::report::{SolverReport, StopReason};
@@ -14,12 +14,12 @@ pub(super) fn of_report(
     cutters: Cutters,
 ) -> Vec<Warning> {
     let rules = [
-        (kind::RESIDUAL, report.residual, LARGE_RESIDUAL, residual as Text),
-        (kind::IMBALANCE, report.imbalance, LARGE_IMBALANCE, imbalance),
-        (kind::CUT_OFF, report.cut_off_part(), LARGE_CUT_OFF, cut_off),
-        (kind::NITSCHE, report.nitsche, LARGE_NITSCHE, nitsche),
-        (kind::CROSSED_TWICE, report.crossed_twice, 0.0, crossed_twice),
-        (kind::SOLVER, report.fallback, 0.0, fallback),
+        (WarningKind::Residual, report.residual, LARGE_RESIDUAL, residual as Text),
+        (WarningKind::Imbalance, report.imbalance, LARGE_IMBALANCE, imbalance),
+        (WarningKind::CutOff, report.cut_off_part(), LARGE_CUT_OFF, cut_off),
+        (WarningKind::Nitsche, report.nitsche, LARGE_NITSCHE, nitsche),
+        (WarningKind::CrossedTwice, report.crossed_twice.map(|n| n as f64), 0.0, crossed_twice),
+        (WarningKind::Solver, report.fallback.then_some(1.0), 0.0, fallback),
     ];
     let passed = rules.into_iter().filter_map(|(kind, value, limit, message)| {
         value.filter(|value| *value > limit).map(|value| (kind, value, limit, message))
@@ -54,7 +54,7 @@ fn of_tolerance(report: &SolverReport, adaptivity: Option<&Adaptivity>) -> Optio
     let message = format!(
         "the estimated error is {found:.1e}, not {wanted:e} as wanted, and {reason}; {remedy}, or a larger `{key}`"
     );
-    Some(warning(kind::TOLERANCE, None, [found, wanted], message))
+    Some(warning(WarningKind::Tolerance, None, [found, wanted], message))
 }
 
 /// The meaning of a number of the report, on a plate with these cutters.

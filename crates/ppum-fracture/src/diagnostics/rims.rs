@@ -1,7 +1,7 @@
 //! The warning about cells that are too large for the stress at the rim of a hole.
 
-use super::{kind, short, smaller_cells, warning};
-use ppum::dataset::Warning;
+use super::{short, smaller_cells, warning};
+use ppum::dataset::{Warning, WarningKind};
 use ppum::domain::Hole;
 use ppum::field::Field;
 use ppum::text::Places;
@@ -54,7 +54,7 @@ pub(super) fn of_rims(
     let at = partition.cell[worst.cell as usize].center();
     let place = places.show(at);
     let message = message(&worst, &holes[worst.hole], problem, (count, &place));
-    Some(warning(kind::COARSE_HOLE, Some(at), [worst.error, LARGE], message))
+    Some(warning(WarningKind::CoarseHole, Some(at), [worst.error, LARGE], message))
 }
 
 fn message(

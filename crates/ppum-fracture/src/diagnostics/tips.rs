@@ -2,10 +2,10 @@
 
 use super::curves::of_curve;
 use super::faces::remedy;
-use super::{LARGE_ERROR, kind, short, warning};
+use super::{LARGE_ERROR, short, warning};
 use crate::intensity::{Obstacle, TipOutcome};
 use ppum::crack::Crack;
-use ppum::dataset::{TipIntensity, Warning};
+use ppum::dataset::{TipIntensity, Warning, WarningKind};
 use ppum::text::{Places, trimmed_to};
 use ppum_problem::Problem;
 use ppum_problem::geometry::AMPLE_CLEARANCE;
@@ -84,7 +84,7 @@ fn negative(
         short(k1),
         remedy(problem, outcome.tip.crack)
     );
-    (k1 < limit).then(|| warning(kind::NEGATIVE_K1, Some(outcome.at), [k1, limit], message))
+    (k1 < limit).then(|| warning(WarningKind::NegativeK1, Some(outcome.at), [k1, limit], message))
 }
 
 fn spread(outcome: &TipOutcome, factors: &TipIntensity, at: &str) -> Option<Warning> {
@@ -95,7 +95,7 @@ fn spread(outcome: &TipOutcome, factors: &TipIntensity, at: &str) -> Option<Warn
         short((1e3 * spread).round() / 10.0)
     );
     (spread > LARGE_SPREAD)
-        .then(|| warning(kind::SPREAD, Some(outcome.at), [spread, LARGE_SPREAD], message))
+        .then(|| warning(WarningKind::Spread, Some(outcome.at), [spread, LARGE_SPREAD], message))
 }
 
 fn unresolved(outcome: &TipOutcome, tip: &str, place: &str) -> Option<Warning> {
@@ -105,7 +105,8 @@ fn unresolved(outcome: &TipOutcome, tip: &str, place: &str) -> Option<Warning> {
          are off by about {error:.1e}; use smaller cells there, or a smoother formula"
     );
     let place = Some(outcome.doubt.at);
-    (error > LARGE_ERROR).then(|| warning(kind::QUADRATURE, place, [error, LARGE_ERROR], message))
+    (error > LARGE_ERROR)
+        .then(|| warning(WarningKind::Quadrature, place, [error, LARGE_ERROR], message))
 }
 
 fn no_room(outcome: &TipOutcome, at: &str) -> Warning {
@@ -131,7 +132,7 @@ fn no_room(outcome: &TipOutcome, at: &str) -> Warning {
             short(radius * outcome.cell / needed)
         )
     };
-    warning(kind::NO_ROOM, Some(outcome.at), [radius, needed], message)
+    warning(WarningKind::NoRoom, Some(outcome.at), [radius, needed], message)
 }
 
 fn little_room(outcome: &TipOutcome, at: &str) -> Option<Warning> {
@@ -145,7 +146,7 @@ fn little_room(outcome: &TipOutcome, at: &str) -> Option<Warning> {
             short((100.0 * radius / outcome.cell).round() / 100.0),
             short(radius / AMPLE_CLEARANCE)
         );
-        warning(kind::LITTLE_ROOM, Some(outcome.at), [radius, ample], message)
+        warning(WarningKind::LittleRoom, Some(outcome.at), [radius, ample], message)
     })
 }
 
@@ -159,7 +160,7 @@ fn near_interface(outcome: &TipOutcome, at: &str) -> Option<Warning> {
         if distance < 0.5 * outcome.cell { "several %" } else { "1 %" },
         short(distance / AMPLE_CLEARANCE)
     );
-    Some(warning(kind::NEAR_INTERFACE, Some(outcome.at), [distance, ample], message))
+    Some(warning(WarningKind::NearInterface, Some(outcome.at), [distance, ample], message))
 }
 
 fn near_border(outcome: &TipOutcome, length: f64, at: &str) -> Option<Warning> {
@@ -173,7 +174,7 @@ fn near_border(outcome: &TipOutcome, length: f64, at: &str) -> Option<Warning> {
             outcome.clearance.end.name(),
             trimmed_to(100.0 * radius / length, 2)
         );
-        warning(kind::TIP_NEAR_BORDER, Some(outcome.at), [radius, limit], message)
+        warning(WarningKind::TipNearBorder, Some(outcome.at), [radius, limit], message)
     })
 }
 
@@ -192,6 +193,6 @@ fn coarse(
             short(length / LEAST_CELLS),
             if is_off { ", or leave out `refine = false`" } else { "" }
         );
-        warning(kind::COARSE, Some(outcome.at), [cells, LEAST_CELLS], message)
+        warning(WarningKind::Coarse, Some(outcome.at), [cells, LEAST_CELLS], message)
     })
 }

@@ -24,8 +24,9 @@ pub use decision::Undecided;
 use crate::solve::SolveError;
 use decision::grown;
 use ppum::dataset::{Dataset, Step};
-use ppum::progress::{Progress, Verdict, Watcher};
+use ppum::progress::Watcher;
 use ppum_problem::{GrowthRule, Problem, ProblemData};
+use ppum_solve::watched::InStep;
 use settle::settled;
 use std::convert::Infallible;
 use step::{Before, GrowthSeries, closed};
@@ -43,18 +44,6 @@ pub enum GrowthError<E> {
     /// What a step was given to wants no more.
     #[error(transparent)]
     Kept(E),
-}
-
-/// A watcher of one step, which it tells the number of.
-struct InStep<'w> {
-    watcher: &'w dyn Watcher,
-    step: usize,
-}
-
-impl Watcher for InStep<'_> {
-    fn hear(&self, progress: Progress) -> Verdict {
-        self.watcher.hear(progress.in_step(self.step))
-    }
 }
 
 /// The last step of a series that is to go on, and its number.

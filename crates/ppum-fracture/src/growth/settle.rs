@@ -12,7 +12,7 @@ use super::decision::{SHARP, bent, grown};
 use super::step::{Before, GrowthSeries};
 use crate::solve::{Plan, SolveError};
 use ppum::crack::{Crack, TipId};
-use ppum::dataset::{Advance, Dataset, Fate, Growth, TipIntensity, Warning};
+use ppum::dataset::{Advance, Dataset, Fate, Growth, TipIntensity, Warning, WarningKind};
 use ppum::progress::Watcher;
 use ppum::text::trimmed;
 use ppum_problem::Criterion;
@@ -92,7 +92,7 @@ fn unsettled(row: &Advance, factors: &[TipIntensity], limit: f64) -> Option<Warn
         trimmed(at.y),
     );
     Some(Warning {
-        kind: "growth".to_owned(),
+        kind: WarningKind::Growth,
         at: Some(at),
         value: ratio,
         limit: 0.5 * limit,

@@ -2,7 +2,7 @@
 
 use super::decision::{Decision, Undecided, decide};
 use crate::solve::{Plan, SolveError};
-use ppum::dataset::{Dataset, Growth, GrowthStop, Record, Step, Warning};
+use ppum::dataset::{Dataset, Growth, GrowthStop, Record, Step, Warning, WarningKind};
 use ppum::progress::Watcher;
 use ppum_problem::{GrowthRule, Problem};
 use ppum_solve::report::ENERGIES;
@@ -34,7 +34,7 @@ pub(super) fn closed(mut dataset: Dataset, obstacle: Option<&SolveError>) -> (Da
 /// The warning that a series ends before its end.
 fn ending(stop: GrowthStop, message: &str) -> Warning {
     let message = format!("growth ends here, {}: {message}", stop.words());
-    Warning { kind: "growth".to_owned(), at: None, value: 0.0, limit: 0.0, message }
+    Warning { kind: WarningKind::Growth, at: None, value: 0.0, limit: 0.0, message }
 }
 
 impl GrowthSeries<'_> {

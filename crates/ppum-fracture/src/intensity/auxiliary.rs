@@ -1,16 +1,13 @@
 //! The auxiliary fields in a uniform body of the tip's material: Williams fields of unit intensity,
 //! and that of a unit force at the tip.
 
-use super::integral::MODES;
+use super::sums::{Gradients, MODES};
 use ppum::crack::TipPoint;
 use ppum::dataset::Material;
 use ppum::function::westergaard;
 use ppum::real::Real;
 use ppum_solve::law::Coefficients;
 use std::f64::consts::{PI, TAU};
-
-/// Of each component its gradient, in the tip's frame.
-pub(super) type Gradients<R = f64> = [[R; 2]; 2];
 
 /// The field of one mode as the interaction integral takes it, at a point in the tip's frame.
 #[derive(Clone, Copy)]

@@ -1,20 +1,13 @@
 //! The part of the interaction integral that comes from the faces of the crack behind its kinks.
 
-use super::auxiliary::{Auxiliary, Gradients, stress, work};
-use super::course::CourseSegment;
-use super::integral::{Integrals, Interaction, cut_off, square, turned};
+use super::auxiliary::{Auxiliary, stress, work};
+use super::course::{Bend, CourseSegment};
+use super::integral::Interaction;
+use super::sums::{Gradients, Integrals, cut_off, square, turned};
 use ppum::crack::{SegmentId, Side};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::quadrature::{EdgeRule, Face, Quadrature};
-
-/// A piece of the crack in a cell.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bend {
-    pub(super) part: CourseSegment,
-    pub(super) ends: [Vec2; 2],
-    pub(super) cell: usize,
-}
 
 impl Interaction<'_> {
     /// The integrals over both faces of a piece.

@@ -1,26 +1,52 @@
 //! The integrands of the interaction integral at the points of a rule, on lanes.
 
-use super::auxiliary::{Auxiliary, Gradients, stress, work};
-use super::integral::{
-    Integrals, Interaction, MODES, RINGS, cut_off, flat_cut_off, in_frame, square,
+use super::auxiliary::{Auxiliary, stress, work};
+use super::integral::Interaction;
+use super::sums::{
+    Gradients, Integrals, MODES, RINGS, cut_off, flat_cut_off, in_frame, square, turned,
 };
 use ppum::crack::{LocalTip, Side, TipPoint};
+use ppum::field::LocalField;
 use ppum::jet::Jet;
 use ppum::real::{Job, Real, Scalar};
 use ppum::vec2::Vec2;
 use ppum_solve::assembly::{FACTORS, Kernel};
 use ppum_solve::law::Coefficients;
+use ppum_solve::quadrature::Rule;
 
 /// Sums at a point: of each disc those of its modes, J and the energy.
 const SUMS: usize = RINGS * MODES + 2;
 
 /// What is particular to a point.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Local {
+struct Local {
     /// The coefficients of the law.
-    pub(super) moduli: Coefficients,
+    moduli: Coefficients,
     /// The body force in the tip's frame.
-    pub(super) force: [f64; 2],
+    force: [f64; 2],
+}
+
+impl<'a> Interaction<'a> {
+    /// The part of a rule's points inside the largest disc. `seen` is the field as it was last
+    /// looked at: most rules around a tip have the tip as their anchor.
+    pub(super) fn rule(&self, rule: &Rule, seen: &mut Option<LocalField<'a>>) -> Integrals {
+        let near = rule.anchor - self.center;
+        let all = rule.offsets.iter().zip(&rule.weights);
+        let inside = all.filter(|(o, _)| (near + **o).length() < self.largest());
+        let (offsets, weights): (Vec<Vec2>, Vec<f64>) = inside.unzip();
+        let mut jets = vec![Jet::constant(0.0); 2 * offsets.len()];
+        let known = seen.take().filter(|local| local.anchor == rule.anchor);
+        let local = seen.insert(known.unwrap_or_else(|| self.field.at(rule.anchor)));
+        local.evaluate_over::<1>(&offsets, Side::Above, &rule.patches, &mut jets);
+        PointBlock::new(self, rule.anchor, &offsets).integrals(&weights, &jets)
+    }
+
+    /// What is particular to a point, where the field has a gradient that is given in the
+    /// tip's frame.
+    fn local(&self, world: Vec2) -> Local {
+        let force = self.loads.body_force(world).unwrap_or_default();
+        Local { moduli: self.moduli(world), force: turned(self.axis, force).into() }
+    }
 }
 
 /// Points that see a tip from one anchor.

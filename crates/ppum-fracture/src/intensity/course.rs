@@ -36,6 +36,14 @@ pub(super) struct CourseSegment {
     pub(super) is_first: bool,
 }
 
+/// A piece of the crack in a cell.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Bend {
+    pub(super) part: CourseSegment,
+    pub(super) ends: [Vec2; 2],
+    pub(super) cell: usize,
+}
+
 impl Course {
     /// The course through a disc inside the [clearance](super::TipClearance) of the tip.
     pub(super) fn new(own: &Crack, tip: TipId, radius: f64) -> Self {

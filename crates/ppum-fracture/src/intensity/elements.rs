@@ -12,8 +12,9 @@
 //! polynomials. It is divided into four until that changes nothing.
 
 use super::block::PointBlock;
-use super::integral::{Integrals, Interaction};
+use super::integral::Interaction;
 use super::resolve::Integration;
+use super::sums::Integrals;
 use ppum::crack::{SegmentId, Side};
 use ppum::jet::Jet;
 use ppum::mesh::ElementField;

@@ -2,8 +2,8 @@
 
 use super::auxiliary::Body;
 use super::course::{Course, CourseSegment};
-use super::integral::{Modes, cut_off, square, turned};
 use super::loads::TipLoads;
+use super::sums::{Modes, cut_off, square, turned};
 use ppum::crack::{LocalTip, Side};
 use ppum::vec2::vec2;
 use ppum_problem::Symmetry;

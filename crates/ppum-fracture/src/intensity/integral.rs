@@ -1,17 +1,17 @@
 //! The interaction integral over the cells of a space.
 
-use super::auxiliary::{Auxiliary, Body, Gradients, difference};
-use super::bent::Bend;
-use super::block::{Local, PointBlock};
-use super::course::{Course, CourseSegment};
+use super::auxiliary::{Auxiliary, Body, difference};
+use super::course::{Bend, Course, CourseSegment};
 use super::faces::{Faces, pressed};
 use super::loads::TipLoads;
+use super::sums::{
+    Gradients, Integrals, MODES, Modes, RINGS, gradient, in_frame, tensor_in_frame, turned,
+};
 use ppum::crack::{Side, TipId, TipPoint};
 use ppum::dataset::{Ring, TipIntensity};
 use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
 use ppum::progress::{Cancelled, Phase, Watcher};
-use ppum::real::Real;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::Symmetry;
 use ppum_problem::geometry::{Placed, around};
@@ -23,10 +23,6 @@ use ppum_solve::terms::{FaceLaw, FaceTraction};
 use ppum_solve::watched::Stage;
 use rayon::prelude::*;
 
-/// Exponent of the cut-off q = (1 − r²/R²)^m, which [`cut_off`] multiplies out. It is smooth enough
-/// for plain Gauss rules across r = R: with m = 4 their error is seen at 1e-7, with more at 1e-10.
-const CUT_OFF_POWER: u8 = 6;
-
 /// Gauss points in each direction of large pieces and at the tip: the cut-off bends there.
 const ORDER: usize = 12;
 
@@ -34,27 +30,6 @@ const ORDER: usize = 12;
 /// fewer points, down to the order of the assembly. With 1 that is seen at 1e-8 in discs no larger
 /// than the cells.
 const ALL_POINTS: f64 = 0.5;
-
-/// Discs for each tip.
-pub(super) const RINGS: usize = 3;
-
-/// Auxiliary fields: one for each of K_I, K_II and T.
-pub(super) const MODES: usize = 3;
-
-/// Integrals of all modes over each disc.
-pub(super) type Modes = [[f64; MODES]; RINGS];
-
-/// Integrals around a tip.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Integrals {
-    pub(super) modes: Modes,
-    /// The J-integral over the largest disc.
-    pub(super) j: f64,
-    /// Twice the strain energy in the largest disc.
-    pub(super) energy: f64,
-    /// Errors that the rules leave.
-    pub(super) doubt: Doubt,
-}
 
 /// The integrals of a tip, ring by ring, and what follows from them.
 pub(super) struct TipIntegrals {
@@ -236,20 +211,6 @@ impl<'a> Interaction<'a> {
         quadrature.disc(&self.space.partition().cell[c], &self.space.coverers[c], disc)
     }
 
-    /// The part of a rule's points inside the largest disc. `seen` is the field as it was last
-    /// looked at: most rules around a tip have the tip as their anchor.
-    fn rule(&self, rule: &Rule, seen: &mut Option<LocalField<'a>>) -> Integrals {
-        let near = rule.anchor - self.center;
-        let all = rule.offsets.iter().zip(&rule.weights);
-        let inside = all.filter(|(o, _)| (near + **o).length() < self.largest());
-        let (offsets, weights): (Vec<Vec2>, Vec<f64>) = inside.unzip();
-        let mut jets = vec![Jet::constant(0.0); 2 * offsets.len()];
-        let known = seen.take().filter(|local| local.anchor == rule.anchor);
-        let local = seen.insert(known.unwrap_or_else(|| self.field.at(rule.anchor)));
-        local.evaluate_over::<1>(&offsets, Side::Above, &rule.patches, &mut jets);
-        PointBlock::new(self, rule.anchor, &offsets).integrals(&weights, &jets)
-    }
-
     /// The number of halves, alike in the integrals of symmetric and of antisymmetric fields, that
     /// those over the body stand for.
     pub(super) fn halves(&self) -> [f64; FACTORS] {
@@ -268,13 +229,6 @@ impl<'a> Interaction<'a> {
     /// False where all flows have no divergence.
     pub(super) fn has_sources(&self) -> bool {
         self.has_force || !self.law.is_uniform() || self.law.has_initial_stress()
-    }
-
-    /// What is particular to a point, where the field has a gradient that is given in the
-    /// tip's frame.
-    pub(super) fn local(&self, world: Vec2) -> Local {
-        let force = self.loads.body_force(world).unwrap_or_default();
-        Local { moduli: self.moduli(world), force: turned(self.axis, force).into() }
     }
 
     /// ∇u of the jets at a point without the gradient that has no stress at the tip, in its frame.
@@ -409,85 +363,4 @@ pub(super) fn integrate_tips<'a>(
         }
     }
     Ok(tips.iter().zip(integrals).map(|(tip, sums)| tip.integrals(&sums)).collect())
-}
-
-impl Integrals {
-    pub(super) fn plus(self, other: Self) -> Self {
-        let mode = |k: usize| std::array::from_fn(|i| self.modes[k][i] + other.modes[k][i]);
-        let mut doubt = self.doubt;
-        doubt.add(&other.doubt);
-        let (j, energy) = (self.j + other.j, self.energy + other.energy);
-        Self { modes: std::array::from_fn(mode), j, energy, doubt }
-    }
-
-    pub(super) fn times(self, weight: f64) -> Self {
-        let modes = self.modes.map(|modes| modes.map(|m| weight * m));
-        Self { modes, j: weight * self.j, energy: weight * self.energy, doubt: self.doubt }
-    }
-}
-
-impl Integrals {
-    /// The sizes of the integrals.
-    pub(super) fn sizes(&self) -> Self {
-        let modes = self.modes.map(|modes| modes.map(f64::abs));
-        Self { modes, j: self.j.abs(), energy: self.energy.abs(), doubt: Doubt::default() }
-    }
-
-    /// The largest ratio to sizes of the same kind.
-    pub(super) fn part_of(&self, sizes: &Self) -> f64 {
-        let all = |of: &Self| {
-            of.modes.as_flattened().iter().copied().chain([of.j, of.energy]).collect::<Vec<_>>()
-        };
-        let ratios = all(self).into_iter().zip(all(sizes)).filter(|(_, size)| *size > 0.0);
-        ratios.map(|(part, size)| part.abs() / size).fold(0.0, f64::max)
-    }
-}
-
-/// r² of a point in the tip's frame.
-#[inline(always)]
-pub(super) fn square<R: Real>(point: &TipPoint<R>) -> R {
-    point.x * point.x + point.y * point.y
-}
-
-/// q and q′(r)/r for r² = `square`; zero outside the disc.
-#[inline(always)]
-pub(super) fn cut_off<R: Real>(square: R, radius: f64) -> (R, R) {
-    let inverse = (radius * radius).recip();
-    let base = (square.lit(1.0) - square * square.lit(inverse)).max(square.lit(0.0));
-    let fourth = base * base * (base * base);
-    let power = fourth * base;
-    (base * power, square.lit(-2.0 * f64::from(CUT_OFF_POWER) * inverse) * power)
-}
-
-/// q and q′(r)/r of the functionals that have dual solutions, q = (1 − r⁴/R⁴)⁴: it is flatter at
-/// the tip than [`cut_off`], see [`Sensitivity`](super::Sensitivity).
-#[inline(always)]
-pub(super) fn flat_cut_off<R: Real>(square: R, radius: f64) -> (R, R) {
-    let inverse = (radius * radius).recip();
-    let part = square * square.lit(inverse);
-    let base = (square.lit(1.0) - part * part).max(square.lit(0.0));
-    let third = base * base * base;
-    (base * third, square.lit(-16.0 * inverse) * part * third)
-}
-
-/// A vector in a frame with the given x axis.
-pub(super) fn turned(axis: Vec2, vector: [f64; 2]) -> Vec2 {
-    let vector = Vec2::from(vector);
-    vec2(axis.dot(vector), axis.cross(vector))
-}
-
-/// The displacement gradient in a frame with the given x axis.
-pub(super) fn in_frame(u: &[Jet<f64>], axis: Vec2) -> Gradients {
-    tensor_in_frame(&gradient(u), axis)
-}
-
-/// The displacement gradient of jets.
-fn gradient(u: &[Jet<f64>]) -> [Vec2; 2] {
-    [0, 1].map(|i| vec2(u[i].x, u[i].y))
-}
-
-/// A gradient or strain in a frame with the given x axis.
-fn tensor_in_frame(g: &[Vec2; 2], axis: Vec2) -> Gradients {
-    let (gx, gy) = (turned(axis, g[0].into()), turned(axis, g[1].into()));
-    [(gx * axis.x + gy * axis.y).into(), (gy * axis.x - gx * axis.y).into()]
 }

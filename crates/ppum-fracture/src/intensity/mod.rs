@@ -74,10 +74,11 @@ mod integral;
 mod loads;
 mod resolve;
 mod sensitivity;
+mod sums;
 
 use border::border_distance;
 pub(crate) use cells::with_cells;
-use integral::{Interaction, RINGS, integrate_tips};
+use integral::{Interaction, integrate_tips};
 pub use loads::{LoadCase, TipLoads};
 use ppum::crack::{Crack, TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity};
@@ -92,7 +93,8 @@ pub use ppum_solve::quadrature::Doubt;
 use ppum_solve::space::Space;
 pub use ppum_solve::terms::FaceLaw;
 use ppum_solve::watched::Stage;
-pub(crate) use sensitivity::{Sensitivity, TipDisc, sensitivities};
+pub(crate) use sensitivity::{Sensitivity, TipDisc};
+use sums::RINGS;
 
 /// Radii in parts of the tip's [`TipClearance`]; the last one is preferred, its integral averages
 /// most.
@@ -201,9 +203,25 @@ pub(crate) fn intensities_by(
     Ok(tips)
 }
 
+/// The functionals of all tips that have factors, in their order.
+pub(crate) fn sensitivities<'a>(
+    dataset: &Dataset,
+    field: &'a Field<'a>,
+    space: &'a Space<'a>,
+    law: &'a Law<'a>,
+    loads: &'a dyn TipLoads,
+) -> Vec<Sensitivity<'a>> {
+    let of_tip = |outcome: TipOutcome| {
+        let radii = RADII.map(|part| part * outcome.clearance.radius);
+        Interaction::new(field, space, law, outcome.tip, radii, loads)
+    };
+    let outcomes = tips(&field.step.cracks)
+        .map(|tip| TipOutcome::new(dataset, field, tip, loads.symmetry(tip)));
+    outcomes.filter(TipOutcome::has_room).filter_map(of_tip).map(Sensitivity).collect()
+}
+
 /// The reason why there are no factors on a circle.
 #[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
 pub enum CircleError {
     /// A Poisson problem.
     #[error("only displacements of elasticity have stress intensity factors")]

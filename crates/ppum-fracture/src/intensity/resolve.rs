@@ -1,6 +1,6 @@
 //! Integrals over parts that are divided until that changes nothing.
 
-use super::integral::Integrals;
+use super::sums::Integrals;
 use ppum::vec2::Vec2;
 use ppum_solve::quadrature::Doubt;
 

@@ -12,43 +12,19 @@
 
 use super::block::PointBlock;
 use super::integral::Interaction;
-use super::loads::TipLoads;
-use super::{RADII, TipOutcome};
-use ppum::crack::tips;
-use ppum::dataset::Dataset;
-use ppum::field::Field;
 use ppum::vec2::Vec2;
 use ppum_problem::geometry::Placed;
 use ppum_solve::assembly::{FACTORS, Kernel, LinearFunctional};
-use ppum_solve::law::Law;
 use ppum_solve::quadrature::Rule;
-use ppum_solve::space::Space;
 
 /// The factors of one tip as functionals.
-pub(crate) struct Sensitivity<'a>(Interaction<'a>);
+pub(crate) struct Sensitivity<'a>(pub(super) Interaction<'a>);
 
 /// A tip, and the radius of the disc that its factors are integrated over.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct TipDisc {
     pub(crate) tip: Vec2,
     pub(crate) radius: f64,
-}
-
-/// The functionals of all tips that have factors, in their order.
-pub(crate) fn sensitivities<'a>(
-    dataset: &Dataset,
-    field: &'a Field<'a>,
-    space: &'a Space<'a>,
-    law: &'a Law<'a>,
-    loads: &'a dyn TipLoads,
-) -> Vec<Sensitivity<'a>> {
-    let of_tip = |outcome: TipOutcome| {
-        let radii = RADII.map(|part| part * outcome.clearance.radius);
-        Interaction::new(field, space, law, outcome.tip, radii, loads)
-    };
-    let outcomes = tips(&field.step.cracks)
-        .map(|tip| TipOutcome::new(dataset, field, tip, loads.symmetry(tip)));
-    outcomes.filter(TipOutcome::has_room).filter_map(of_tip).map(Sensitivity).collect()
 }
 
 impl Sensitivity<'_> {

@@ -8,24 +8,12 @@ use super::plan::{Plan, most_cells};
 use super::solved::Solved;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum::progress::{Phase, Progress, Verdict, Watcher};
+use ppum::progress::{Phase, Watcher};
 use ppum_problem::{Adaptivity, Keep};
 use ppum_solve::adapt::{Adviser, mark};
 use ppum_solve::report::StopReason;
 use ppum_solve::space::{Change, Mesh};
-use ppum_solve::watched::Stage;
-
-/// A watcher of one step, which it tells the number of.
-struct InStep<'w> {
-    watcher: &'w dyn Watcher,
-    step: usize,
-}
-
-impl Watcher for InStep<'_> {
-    fn hear(&self, progress: Progress) -> Verdict {
-        self.watcher.hear(progress.in_step(self.step))
-    }
-}
+use ppum_solve::watched::{InStep, Stage};
 
 /// The next step, or why there is none.
 enum Next<'p> {

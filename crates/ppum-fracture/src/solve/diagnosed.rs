@@ -132,7 +132,7 @@ impl<'p> Diagnosed<'p> {
         let Plan { discretised, mut clock, .. } = plan;
         let Discretised { problem, mut dataset, ref space, crossed_twice, .. } = discretised;
         let field = Field::new(&dataset, 0)?;
-        report.crossed_twice = Some(crossed_twice as f64);
+        report.crossed_twice = Some(crossed_twice as u64);
         report.stop = stop;
         let case = DiagnosedSolution {
             dataset: &dataset,

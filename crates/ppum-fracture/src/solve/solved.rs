@@ -103,27 +103,27 @@ fn temperature(plan: &Plan<'_>, watcher: &dyn Watcher) -> Result<Option<Temperat
 /// The report of a linear solver, with the numbers of the system.
 fn report(assembled: &Assembled, solver: SolverReport, components: usize) -> SolverReport {
     let Assembled { plate, basis, system, gauge, .. } = assembled;
-    let cut_off = basis.cut_off(components).sum::<usize>() as f64;
-    let kept = basis.unknowns(components).sum::<usize>() as f64;
-    let (all, left) = (kept + cut_off, kept - solver.dependent.unwrap_or(0.0));
+    let cut_off = basis.cut_off(components).sum::<usize>() as u64;
+    let kept = basis.unknowns(components).sum::<usize>() as u64;
+    let (all, left) = (kept + cut_off, kept - solver.dependent.unwrap_or(0));
     let mut bytes =
         vec![(Phase::Basis, basis.bytes() as f64), (Phase::Assembly, system.bytes() as f64)];
-    bytes.extend(solver.solver_bytes.map(|held| (Phase::Solution, held)));
+    bytes.extend(solver.solver_bytes.map(|held| (Phase::Solution, held as f64)));
     SolverReport {
         unknowns: Some(all),
         cut_off: Some(cut_off),
         bytes,
         worked: vec![
-            (Phase::Cover, all),
-            (Phase::Basis, all),
-            (Phase::Assembly, kept),
-            (Phase::Solution, left),
+            (Phase::Cover, all as f64),
+            (Phase::Basis, all as f64),
+            (Phase::Assembly, kept as f64),
+            (Phase::Solution, left as f64),
         ],
         nitsche: Some(system.nitsche),
-        pieces: Some(plate.pieces.all().len() as f64),
-        free_modes: Some(gauge.len() as f64),
+        pieces: Some(plate.pieces.all().len() as u64),
+        free_modes: Some(gauge.len() as u64),
         imbalance: Some(plate.imbalance()),
-        quadrature_points: Some(system.points().iter().sum()),
+        quadrature_points: Some(system.points().iter().sum::<f64>() as u64),
         ..solver
     }
 }

@@ -39,7 +39,7 @@ impl Unknowns {
             Err(error) if estimate.falls_back && is_of_levels(&error) => {
                 let direct = LinearKind::Direct;
                 let mut unknowns = Self::of_kind(direct, discretised, assembled, watcher)?;
-                unknowns.report.fallback = Some(1.0);
+                unknowns.report.fallback = true;
                 Ok(unknowns)
             }
             other => other,
@@ -81,7 +81,7 @@ impl Unknowns {
         let mut report = report(kind, solver, &solution);
         if let Some(steps) = contact_steps {
             let stresses = contacts.stresses(&system.matrix, &solution.unknowns);
-            report.contact_steps = Some(steps as f64);
+            report.contact_steps = Some(steps as u64);
             contacts.report(&stresses, &mut report);
         }
         let mut all = vec![solution.unknowns];
@@ -97,16 +97,16 @@ impl Unknowns {
 fn report(kind: LinearKind, solver: &dyn LinearSolver, solution: &LinearSolution) -> SolverReport {
     let report = SolverReport {
         residual: Some(solution.relative_residual),
-        dependent: Some(solver.n_dependent() as f64),
+        dependent: Some(solver.n_dependent() as u64),
         solver: Some(kind),
-        solver_bytes: Some(solver.bytes() as f64),
+        solver_bytes: Some(solver.bytes() as u64),
         ..SolverReport::default()
     };
     let Some(course) = &solution.course else { return report };
     let levels: Vec<_> = solver.level_sizes().into_iter().map(level_size).collect();
     SolverReport {
-        solver_levels: Some(levels.len() as f64),
-        iterations: Some(course.residuals.len() as f64 - 1.0),
+        solver_levels: Some(levels.len() as u64),
+        iterations: Some(course.residuals.len().saturating_sub(1) as u64),
         preconditioned_condition: Some(course.condition),
         levels,
         residuals: course.residuals.clone(),

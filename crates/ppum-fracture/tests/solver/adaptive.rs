@@ -6,11 +6,10 @@ use crate::studies::adapted::{
 use crate::studies::exact_fields::SQUARE;
 use crate::studies::plates::pulled;
 use crate::studies::support::{checked, record, solved};
-use ppum::dataset::{Dataset, Step};
+use ppum::dataset::{Dataset, Step, WarningKind};
 use ppum::domain::{Domain, Hole};
 use ppum::progress::{Phase, Progress, Verdict, unwatched};
 use ppum::vec2::{Vec2, vec2};
-use ppum_fracture::diagnostics::kind;
 use ppum_fracture::solve::{Plan, SolveError, solve};
 use ppum_problem::{AdaptKind, Adaptivity, Cells, Keep, ProblemData};
 use ppum_solve::report::{SolverReport, StopReason, forget_times};
@@ -211,7 +210,7 @@ fn what_has_ended_it_is_told() {
         solved(&on(corner(), 1, set))
     };
     let warns = |dataset: &Dataset| {
-        let of = |step: &Step| step.warnings.iter().any(|w| w.kind == kind::TOLERANCE);
+        let of = |step: &Step| step.warnings.iter().any(|w| w.kind == WarningKind::Tolerance);
         dataset.steps.iter().map(of).collect::<Vec<_>>()
     };
     let steps = with(&|set| set.tolerance = Some(1e-9));

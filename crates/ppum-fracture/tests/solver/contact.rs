@@ -1,10 +1,11 @@
 //! Faces that touch, against closed forms and what must hold whatever the cells.
 
-use crate::studies::support::{SQUARE_BODY, checked, parsed, quantity, record, solved};
-use ppum::dataset::{Dataset, Fate, Material, StressState, TipIntensity};
+use crate::SQUARE_BODY;
+use crate::studies::support::{checked, parsed, quantity, record, solved};
+use ppum::dataset::{Dataset, Fate, Material, StressState, TipIntensity, WarningKind};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_fracture::diagnostics::{kind, recompute};
+use ppum_fracture::diagnostics::recompute;
 use ppum_fracture::growth::series;
 use ppum_fracture::solve::{SolveError, solve};
 use ppum_problem::{
@@ -121,7 +122,7 @@ fn pressed_faces_are_not_seen() {
                 let t = tip.t_stress.expect("T");
                 assert!((t + 1.0).abs() < 1e-6, "{k}: {t}");
             }
-            assert!(step.warnings.iter().all(|warning| warning.kind != kind::FACES_OVERLAP));
+            assert!(step.warnings.iter().all(|warning| warning.kind != WarningKind::FacesOverlap));
         }
     }
 }

@@ -4,9 +4,10 @@
 //! geometrically towards every singular point (NGSolve 6.2.2608), right to 1e-7. Cells that are not
 //! refined towards these points had errors of 0.1 to 3.7 % in the energy and up to 5.6 % in K.
 
-use crate::studies::support::{SQUARE_BODY, checked, parsed};
+use crate::SQUARE_BODY;
+use crate::studies::support::{checked, parsed};
 use ppum::crack::End;
-use ppum::dataset::Dataset;
+use ppum::dataset::{Dataset, WarningKind};
 use ppum::progress::unwatched;
 use ppum::vec2::vec2;
 use ppum_fracture::solve::{Plan, solve};
@@ -61,7 +62,8 @@ fn assert_near(dataset: &Dataset, exact: f64, tips: &[(End, f64, f64)]) {
         let error = (tip.k1 - k1).hypot(tip.k2 - k2) / k1.hypot(k2);
         assert!(error < 2e-3, "{end:?}: {} {} instead of {k1} {k2}", tip.k1, tip.k2);
     }
-    let singular = dataset.steps[0].warnings.iter().filter(|w| w.kind == "singular-point");
+    let singular =
+        dataset.steps[0].warnings.iter().filter(|w| w.kind == WarningKind::SingularPoint);
     assert_eq!(singular.count(), 0);
 }
 
@@ -258,7 +260,7 @@ fn ends_of_loads_are_refined_on_rims() {
         let there = cells.iter().filter(|cell| cell.distance(place) < 1e-6);
         let size = there.map(|cell| cell.size().x).fold(0.0, f64::max);
         assert!(size > 0.0 && size < 0.02, "{on}: {size}");
-        let told = dataset.steps[0].warnings.iter().find(|w| w.kind == "singular-point");
+        let told = dataset.steps[0].warnings.iter().find(|w| w.kind == WarningKind::SingularPoint);
         assert!(told.is_none(), "{on}: {told:?}");
     }
 }
@@ -273,7 +275,7 @@ fn what_coarse_cells_miss_is_told() {
     ] {
         let dataset = solved_with(&tables, "level = 4\nrefine = false\nenrichment = \"zone\"");
         let missed = 1.0 - energy(&dataset) / exact;
-        let all = dataset.steps[0].warnings.iter().filter(|w| w.kind == "singular-point");
+        let all = dataset.steps[0].warnings.iter().filter(|w| w.kind == WarningKind::SingularPoint);
         let all: Vec<_> = all.collect();
         let told: f64 = all.iter().map(|warning| warning.value).sum();
         assert!(all.len() >= places && all.iter().all(|w| w.at.is_some()), "{all:?}");
@@ -285,7 +287,7 @@ fn what_coarse_cells_miss_is_told() {
 #[test]
 fn functions_of_corners_need_no_small_cells() {
     let dataset = solved_with(&kinked(90.0), "level = 4\nrefine = false");
-    assert!(dataset.steps[0].warnings.iter().all(|w| w.kind != "singular-point"));
+    assert!(dataset.steps[0].warnings.iter().all(|w| w.kind != WarningKind::SingularPoint));
     let error = 1.0 - energy(&dataset) / 2.09772948;
     assert!(error < 2e-4, "{error}");
 }
@@ -441,7 +443,7 @@ fn given_values_that_jump_are_told() {
     let held = |value: &str| {
         let tables = format!("[[boundary]]\non = \"bottom\"\ndisplacement = [\"{value}\", 0.0]\n");
         let dataset = solved(&tables);
-        let all = dataset.steps[0].warnings.iter().filter(|w| w.kind == "singular-point");
+        let all = dataset.steps[0].warnings.iter().filter(|w| w.kind == WarningKind::SingularPoint);
         all.filter(|w| w.message.contains("infinite energy")).map(|w| w.at).collect::<Vec<_>>()
     };
     let [Some(at)] = held("if(x > 0.1, 0.3, 0)")[..] else { panic!("one place") };

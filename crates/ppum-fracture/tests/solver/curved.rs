@@ -2,12 +2,11 @@
 
 use crate::studies::support::{parsed, solved};
 use ppum::crack::Side;
-use ppum::dataset::Dataset;
+use ppum::dataset::{Dataset, WarningKind};
 use ppum::domain::Hole;
 use ppum::field::Field;
 use ppum::quantity::{Axis, Quantity};
 use ppum::vec2::{Vec2, vec2};
-use ppum_fracture::diagnostics::kind;
 use ppum_problem::{Problem, ProblemData};
 use ppum_testkit::random::Random;
 use std::path::Path;
@@ -58,8 +57,8 @@ fn an_arc_in_a_large_plate() {
         assert!(apart(found, exact) < 6e-4, "{found:?} {exact:?}");
     }
     // T is that of the segments, which is told at each tip
-    let kinds: Vec<_> = dataset.steps[0].warnings.iter().map(|w| w.kind.as_str()).collect();
-    assert_eq!(kinds, [kind::CURVE; 2]);
+    let kinds: Vec<_> = dataset.steps[0].warnings.iter().map(|w| w.kind.clone()).collect();
+    assert_eq!(kinds, [WarningKind::Curve, WarningKind::Curve]);
 }
 
 /// Asserts that K converges with the number of segments like its power −3/2 at least, and that the
@@ -87,7 +86,7 @@ fn segments_bound_accuracies() {
     let problem = plate(2.0, 3, [0.4, 1.0], &format!("accuracy = 1e-5\norder = 3\n{crack}"));
     let dataset = solved(&problem);
     let warnings = dataset.steps[0].warnings.iter();
-    let found: Vec<_> = warnings.filter(|warning| warning.kind == kind::TOLERANCE).collect();
+    let found: Vec<_> = warnings.filter(|warning| warning.kind == WarningKind::Tolerance).collect();
     assert!(found.len() == 1 && found[0].message.contains("`segments`"), "{found:?}");
     assert!(found[0].value > 1e-5);
 }

@@ -1,12 +1,12 @@
 //! Temperatures and other given strains: closed forms, and what must hold for any of them.
 
 use crate::studies::support::{parsed, quantity, record, solved};
-use ppum::dataset::{Dataset, TipIntensity};
+use ppum::dataset::{Dataset, TipIntensity, WarningKind};
 use ppum::decompose::KINDS;
 use ppum::progress::unwatched;
 use ppum::replace::Replacements;
 use ppum::vec2::{Vec2, vec2};
-use ppum_fracture::diagnostics::{kind, recompute};
+use ppum_fracture::diagnostics::recompute;
 use ppum_problem::{Problem, ProblemData};
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
@@ -330,7 +330,7 @@ fn strains_with_poles() {
     let of = |text: &str| {
         let dataset = body.solved(&temperature(text));
         let all = dataset.steps[0].warnings.iter();
-        all.filter(|w| w.kind == kind::LOAD).cloned().collect::<Vec<_>>()
+        all.filter(|w| w.kind == WarningKind::Load).cloned().collect::<Vec<_>>()
     };
     let at = vec2(0.51, -0.62);
     let r = format!("hypot(x - {}, y + {})", at.x, -at.y);

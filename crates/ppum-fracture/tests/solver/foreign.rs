@@ -7,6 +7,7 @@ use faer::linalg::solvers::Solve as _;
 use ppum::crack::{Crack, CrackEnd, End, TipId};
 use ppum::dataset::{
     BoxPartition, Dataset, Equation, FieldData, Material, Step, StressState, TipIntensity, Warning,
+    WarningKind,
 };
 use ppum::domain::Domain;
 use ppum::function::{Frame, FunctionKind, Role};
@@ -14,7 +15,7 @@ use ppum::polynomial::PolynomialSpace::Total;
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
-use ppum_fracture::diagnostics::{kind, recompute};
+use ppum_fracture::diagnostics::recompute;
 use ppum_fracture::intensity::{Obstacle, clearance, on_circle};
 use ppum_testkit::exact::Williams;
 use ppum_testkit::meshes::{Elements, Polynomial};
@@ -92,9 +93,8 @@ fn factors(dataset: &Dataset) -> (TipIntensity, Vec<Warning>) {
 fn assert_exact(name: &str, dataset: &Dataset, tolerance: f64) {
     let (found, warnings) = factors(dataset);
     // the field is that of the tip, so that few elements in a disc cost no digits
-    let of_size = [kind::COARSE, kind::LITTLE_ROOM];
-    let told: Vec<_> =
-        warnings.iter().filter(|one| !of_size.contains(&one.kind.as_str())).collect();
+    let of_size = [WarningKind::Coarse, WarningKind::LittleRoom];
+    let told: Vec<_> = warnings.iter().filter(|one| !of_size.contains(&one.kind)).collect();
     assert!(told.is_empty(), "{name}: {told:?}");
     let size = K[0].hypot(K[1]);
     let error = (found.k1 - K[0]).hypot(found.k2 - K[1]) / size;

@@ -1,11 +1,12 @@
 //! Estimated errors of stress intensity factors against the errors, and accuracies that are
 //! asked for.
 
+use crate::SQUARE_BODY;
 use crate::studies::factors::{errors_of_factors, plates};
 use crate::studies::plates::{Known, Plate, centre_cracks, end_shear, slanted_cracks};
-use crate::studies::support::{SQUARE_BODY, parsed, solved};
+use crate::studies::support::{parsed, solved};
+use ppum::dataset::WarningKind;
 use ppum::vec2::vec2;
-use ppum_fracture::diagnostics::kind;
 use ppum_problem::{Adaptivity, Cells, Order, ProblemData};
 use ppum_testkit::random::Random;
 
@@ -148,7 +149,7 @@ fn assert_reached(plate: &Plate, accuracy: f64) {
     let dataset = solved(&problem);
     let (name, unknowns) = (&plate.name, dataset.steps[0].unknowns());
     let warnings =
-        dataset.steps[0].warnings.iter().filter(|warning| warning.kind != kind::PRESSURE);
+        dataset.steps[0].warnings.iter().filter(|warning| warning.kind != WarningKind::Pressure);
     assert_eq!(warnings.count(), 0, "{name}: {:?}", dataset.steps[0].warnings);
     for [size, error, estimated] in errors_of_factors(plate, &dataset) {
         let [error, estimated] = [error, estimated].map(|error| error / size);

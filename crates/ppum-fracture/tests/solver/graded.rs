@@ -4,12 +4,11 @@ use crate::studies::exact_fields::{OBLIQUE, discretization};
 use crate::studies::support::{parsed, solved};
 use ppum::crack::Side;
 use ppum::dataset::{
-    Dataset, Elasticity, Equation, Material, Ring, Step, StressState, TipIntensity,
+    Dataset, Elasticity, Equation, Material, Ring, Step, StressState, TipIntensity, WarningKind,
 };
 use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
-use ppum_fracture::diagnostics::kind;
 use ppum_fracture::intensity::{LoadCase, TipLoads, intensities};
 use ppum_problem::Cells;
 use ppum_solve::space::Space;
@@ -421,7 +420,7 @@ fn tips_at_interfaces() {
     let on = plate("if(x > 0.5, 3, 1)");
     assert_eq!(on.intensities.len(), 1);
     let [warning] = &on.warnings[..] else { panic!("{:?}", on.warnings) };
-    assert_eq!((warning.kind.as_str(), warning.at), (kind::NO_ROOM, Some(vec2(0.5, 0.0))));
+    assert_eq!((&warning.kind, warning.at), (&WarningKind::NoRoom, Some(vec2(0.5, 0.0))));
     assert!(warning.message.contains("(0.5, 0): no stress intensity factors"), "{warning:?}");
     assert!(warning.message.contains("on an interface of two materials"), "{warning:?}");
     // a kink of the material is no interface
@@ -458,7 +457,7 @@ fn tips_near_interfaces() {
     assert_before_interface(0.005, [0.571446, -0.017543]);
     let step = before_interface(1e-4);
     let [warning] = &step.warnings[..] else { panic!("{:?}", step.warnings) };
-    assert_eq!((warning.kind.as_str(), warning.at), (kind::NEAR_INTERFACE, Some(vec2(0.4, 0.1))));
+    assert_eq!((&warning.kind, warning.at), (&WarningKind::NearInterface, Some(vec2(0.4, 0.1))));
     assert!((warning.value - 1e-4).abs() < 1e-6 && warning.limit > 2e-4, "{warning:?}");
     assert!(warning.message.contains("several %"), "{warning:?}");
 }

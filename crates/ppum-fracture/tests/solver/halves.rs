@@ -2,13 +2,13 @@
 
 use crate::studies::support::{checked, parsed, record, solved, unknowns};
 use ppum::crack::{SegmentId, Side};
-use ppum::dataset::{Dataset, Material, StressState, TipIntensity};
+use ppum::dataset::{Dataset, Material, StressState, TipIntensity, WarningKind};
 use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::sample::{Wanted, evaluate_each, points};
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_fracture::diagnostics::{kind, recompute};
+use ppum_fracture::diagnostics::recompute;
 use ppum_fracture::growth::series;
 use ppum_fracture::intensity::{CircleError, on_circle};
 use ppum_problem::{
@@ -345,10 +345,19 @@ fn faces_of_a_half_that_overlap() {
     plate.pressure = -3.0;
     let kinds: Vec<_> =
         plate.solved().steps[0].warnings.iter().map(|found| found.kind.clone()).collect();
-    let count = |kind: &str| kinds.iter().filter(|found| *found == kind).count();
-    assert_eq!([count(kind::FACES_OVERLAP), count(kind::NEGATIVE_K1)], [1, 2], "{kinds:?}");
+    let count = |kind: WarningKind| kinds.iter().filter(|found| **found == kind).count();
+    assert_eq!(
+        [count(WarningKind::FacesOverlap), count(WarningKind::NegativeK1)],
+        [1, 2],
+        "{kinds:?}"
+    );
     plate.pressure = 0.4;
-    assert!(plate.solved().steps[0].warnings.iter().all(|found| found.kind != kind::FACES_OVERLAP));
+    assert!(
+        plate.solved().steps[0]
+            .warnings
+            .iter()
+            .all(|found| found.kind != WarningKind::FacesOverlap)
+    );
 }
 
 /// A crack that grows along its edge keeps to it, and K follows that of the whole plate.

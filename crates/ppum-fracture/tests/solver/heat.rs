@@ -5,10 +5,10 @@ use super::eigenstrain::{
     Body, EDGES, STATES, WAVES, check, difference, factors, size, temperature,
 };
 use crate::studies::support::{checked, parsed, quantity, record, solved};
-use ppum::dataset::{Dataset, TipIntensity, Warning};
+use ppum::dataset::{Dataset, TipIntensity, Warning, WarningKind};
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
-use ppum_fracture::diagnostics::{kind, recompute};
+use ppum_fracture::diagnostics::recompute;
 use ppum_fracture::growth::series;
 use ppum_fracture::intensity::on_circle;
 use ppum_fracture::solve::Plan;
@@ -270,25 +270,29 @@ fn warnings_of_the_temperature() {
     let problem = body.problem(&heated(&body, &(jump + spike)));
     let dataset = solved(&problem);
     let of_heat = |warnings: &[Warning]| -> Vec<Warning> {
-        let marked = warnings.iter().filter(|w| w.kind.starts_with("temperature-"));
+        let marked = warnings.iter().filter(|w| matches!(w.kind, WarningKind::OfTemperature(_)));
         marked.cloned().collect()
     };
     let found = of_heat(&dataset.steps[0].warnings);
     let expected: Vec<_> =
         alone.steps[0].warnings.iter().map(|w| (&w.kind, w.at, w.value)).collect();
     assert_eq!(found.len(), expected.len(), "{found:?} {expected:?}");
-    for kind in [kind::SINGULAR_POINT, kind::LOAD] {
-        assert!(expected.iter().any(|(known, ..)| *known == kind), "{kind}: {expected:?}");
+    for kind in [WarningKind::SingularPoint, WarningKind::Load] {
+        assert!(expected.iter().any(|(known, ..)| **known == kind), "{kind}: {expected:?}");
     }
     for (found, (kind, at, value)) in found.iter().zip(expected) {
         println!("{}", found.message);
-        assert_eq!((found.kind.strip_prefix("temperature-"), found.at), (Some(kind.as_str()), at));
+        assert_eq!(
+            (&found.kind, found.at),
+            (&WarningKind::OfTemperature(Box::new(kind.clone())), at)
+        );
         assert!((found.value / value - 1.0).abs() < 1e-9, "{} {value}", found.value);
         assert!(found.message.starts_with("the temperature: "), "{}", found.message);
     }
     let (_, again) = recompute(&dataset, 0, Some(&checked(&problem)), unwatched()).expect("a step");
     // a dataset does not hold what quadrature left open
-    let expected: Vec<_> = found.iter().filter(|w| !w.kind.ends_with(kind::LOAD)).collect();
+    let load = WarningKind::OfTemperature(Box::new(WarningKind::Load));
+    let expected: Vec<_> = found.iter().filter(|w| w.kind != load).collect();
     assert_eq!(of_heat(&again).iter().collect::<Vec<_>>(), expected);
 }
 
@@ -299,7 +303,10 @@ fn good_temperatures_are_silent() {
     for text in ["2", "1 + x"] {
         let dataset = body.solved(&heated(&body, &on_edges(text)));
         let warnings = &dataset.steps[0].warnings;
-        assert!(warnings.iter().all(|w| !w.kind.starts_with("temperature-")), "{warnings:?}");
+        assert!(
+            warnings.iter().all(|w| !matches!(w.kind, WarningKind::OfTemperature(_))),
+            "{warnings:?}"
+        );
     }
 }
 

@@ -1,11 +1,10 @@
 //! Plates that hardly change their volume.
 
 use ppum::crack::Side;
-use ppum::dataset::{Dataset, Material, StressState};
+use ppum::dataset::{Dataset, Material, StressState, WarningKind};
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
-use ppum_fracture::diagnostics::kind;
 use ppum_problem::{Cells, Order, ProblemData};
 use ppum_testkit::random::Random;
 
@@ -51,14 +50,14 @@ fn k_is_right_by_default() {
     }
     // stresses are off by a per cent there
     let kinds: Vec<_> = dataset.steps[0].warnings.iter().map(|warning| &warning.kind).collect();
-    assert_eq!(kinds, [kind::PRESSURE]);
+    assert_eq!(kinds, [&WarningKind::Pressure]);
 }
 
 /// K_I of the centre crack.
 const K: f64 = 1.671_560_3;
 
 fn locking(dataset: &Dataset) -> f64 {
-    let found = dataset.steps[0].warnings.iter().find(|w| w.kind == kind::LOCKING);
+    let found = dataset.steps[0].warnings.iter().find(|w| w.kind == WarningKind::Locking);
     found.map_or(0.0, |warning| warning.value)
 }
 
@@ -137,7 +136,7 @@ fn pressure_that_oscillates_is_warned_of_with_a_number() {
         for order in orders {
             let (material, dataset) = manufactured(poisson, 3, order);
             let error = error_of_pressure(&dataset, &material);
-            let found = dataset.steps[0].warnings.iter().find(|w| w.kind == kind::PRESSURE);
+            let found = dataset.steps[0].warnings.iter().find(|w| w.kind == WarningKind::Pressure);
             println!(
                 "ν = {poisson}, order {order}: {error:.2e}, warned of {:?}",
                 found.map(|w| w.value)

@@ -4,13 +4,13 @@
 //! The reactions of the restraints balance the loads as they were integrated, to rounding
 //! (see [`reactions`](super::reactions)): they tell of quadrature alone, however coarse the cells.
 
-use crate::studies::support::{SQUARE_BODY, parsed, solved};
+use crate::SQUARE_BODY;
+use crate::studies::support::{parsed, solved};
 use ppum::crack::Side;
-use ppum::dataset::{Dataset, Warning};
+use ppum::dataset::{Dataset, Warning, WarningKind};
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
-use ppum_fracture::diagnostics::kind;
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
 
@@ -75,8 +75,8 @@ fn assert_resultant(rest: &str, [force, moment]: [f64; 2], size: f64) {
         assert!(error <= ACCURACY * size, "{rest} at level {level}, order {order}: {f} {m}");
         // of stresses, which are not looked at: cells at rims and, as none is divided, at the
         // corners that are held are coarse
-        let of_stresses = ["coarse-hole", "singular-point"];
-        let others = warnings(&dataset).iter().filter(|w| !of_stresses.contains(&&*w.kind));
+        let of_stresses = [WarningKind::CoarseHole, WarningKind::SingularPoint];
+        let others = warnings(&dataset).iter().filter(|w| !of_stresses.contains(&w.kind));
         assert_eq!(others.count(), 0, "{rest}: {:?}", warnings(&dataset));
     }
 }
@@ -247,7 +247,8 @@ fn loads_that_cannot_be_integrated() {
     for (load, at) in [("1/abs(x - 0.1)", Some(0.1)), ("1/x", Some(0.0)), ("1 + sin(1e9*x)", None)]
     {
         let dataset = plate(&top(load), 2, 2);
-        let about_loads = warnings(&dataset).iter().filter(|warning| warning.kind == kind::LOAD);
+        let about_loads =
+            warnings(&dataset).iter().filter(|warning| warning.kind == WarningKind::Load);
         let about_loads: Vec<_> = about_loads.collect();
         let [warning] = about_loads[..] else { panic!("{load}: {:?}", warnings(&dataset)) };
         println!("{}", warning.message);

@@ -52,3 +52,7 @@ mod warnings;
 mod watched;
 mod weights;
 mod williams;
+
+/// The tables of a problem file for the body [−1, 1]², E = 1, ν = 0.3 in plane strain.
+const SQUARE_BODY: &str = "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[material]\nyoung = 1\n\
+     poisson = 0.3\nstate = \"plane-strain\"\n";

@@ -1,6 +1,7 @@
 //! Names of functions are for reports: what a function is does not depend on them.
 
-use crate::studies::support::{SQUARE_BODY, checked, parsed, record, solved};
+use crate::SQUARE_BODY;
+use crate::studies::support::{checked, parsed, record, solved};
 use ppum::progress::unwatched;
 use ppum_fracture::diagnostics::recompute;
 use ppum_problem::ProblemData;

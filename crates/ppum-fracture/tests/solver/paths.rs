@@ -3,7 +3,7 @@
 
 use crate::studies::support::{checked, parsed};
 use ppum::crack::End;
-use ppum::dataset::{Step, TipIntensity};
+use ppum::dataset::{Step, TipIntensity, WarningKind};
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_fracture::growth::series;
@@ -82,7 +82,7 @@ fn assert_smooth(growth: &str, part: f64) {
     assert!(turns.windows(2).all(|pair| pair[1] > pair[0] - 0.01), "{growth}: {turns:?}");
     for step in &steps[1..] {
         let ratio = step.intensities.iter().map(sliding).fold(0.0, f64::max);
-        let is_told = step.warnings.iter().any(|warning| warning.kind == "growth");
+        let is_told = step.warnings.iter().any(|warning| warning.kind == WarningKind::Growth);
         println!("{ratio:.4} {is_told}");
         assert!(ratio < part && (is_told || ratio < 0.055), "{growth}: {ratio}");
     }

@@ -3,10 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use ppum::dataset::{Dataset, Step, TipIntensity, Warning};
+use ppum::dataset::{Dataset, Step, TipIntensity, Warning, WarningKind};
 use ppum::segment;
 use ppum::vec2::Vec2;
-use ppum_fracture::diagnostics::kind;
 use ppum_problem::{Problem, ProblemData};
 use serde_json::Value;
 
@@ -29,19 +28,19 @@ const FACTOR: f64 = 10.0;
 const NEAR: f64 = 0.15;
 
 /// Warnings whose numbers are no errors, but lengths, ratios and differences.
-const NO_ESTIMATES: [&str; 12] = [
-    kind::FACES_OVERLAP,
-    kind::NEGATIVE_K1,
-    kind::NO_ROOM,
-    kind::LITTLE_ROOM,
-    kind::SPREAD,
-    kind::TIP_NEAR_BORDER,
-    kind::COARSE,
-    kind::IMBALANCE,
-    kind::RESIDUAL,
-    kind::CUT_OFF,
-    kind::NITSCHE,
-    kind::CROSSED_TWICE,
+const NO_ESTIMATES: [WarningKind; 12] = [
+    WarningKind::FacesOverlap,
+    WarningKind::NegativeK1,
+    WarningKind::NoRoom,
+    WarningKind::LittleRoom,
+    WarningKind::Spread,
+    WarningKind::TipNearBorder,
+    WarningKind::Coarse,
+    WarningKind::Imbalance,
+    WarningKind::Residual,
+    WarningKind::CutOff,
+    WarningKind::Nitsche,
+    WarningKind::CrossedTwice,
 ];
 
 fn folder() -> PathBuf {
@@ -114,7 +113,7 @@ fn names_a_place(problem: &ProblemData, warning: &Warning) -> bool {
     let Some(at) = warning.at else { return false };
     let size = problem.domain().bounds.max - problem.domain().bounds.min;
     let two_materials = problem.text.as_deref().is_some_and(|text| text.contains("if("));
-    !NO_ESTIMATES.contains(&warning.kind.as_str())
+    !NO_ESTIMATES.contains(&warning.kind)
         && (two_materials || distance_to_anything(problem, at) < NEAR * size.x.max(size.y))
 }
 

@@ -2,7 +2,7 @@
 
 use crate::studies::support::{checked, solved};
 use ppum::crack::Side;
-use ppum::dataset::{Dataset, Material, StressState};
+use ppum::dataset::{Dataset, Material, StressState, WarningKind};
 use ppum::domain::{Domain, Hole};
 use ppum::field::Field;
 use ppum::quantity::{Axis, Quantity};
@@ -65,7 +65,7 @@ fn on_the_rim(dataset: &Dataset, center: Vec2, radius: f64) -> (f64, f64) {
 }
 
 fn coarse(dataset: &Dataset) -> Option<&ppum::dataset::Warning> {
-    dataset.steps[0].warnings.iter().find(|warning| warning.kind == "coarse-hole")
+    dataset.steps[0].warnings.iter().find(|warning| warning.kind == WarningKind::CoarseHole)
 }
 
 /// Two holes of random radii, between 1/120 of the plate and a third of it, and one much smaller

@@ -1,7 +1,7 @@
 //! Cracks that cut slivers off patches, and what the numbers of the dataset are worth then.
 
 use ppum::crack::Side;
-use ppum::dataset::Dataset;
+use ppum::dataset::{Dataset, WarningKind};
 use ppum::field::Field;
 use ppum::function::FunctionKind;
 use ppum::jet::Jet;
@@ -9,7 +9,7 @@ use ppum::library::WEIGHTS;
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum::weight::WeightFunction;
-use ppum_fracture::diagnostics::{FEW_DIGITS, kind, recompute, rounding};
+use ppum_fracture::diagnostics::{FEW_DIGITS, recompute, rounding};
 use ppum_problem::{Cells, Condition, Edge, ProblemData};
 use ppum_testkit::extended::{Extended, point};
 use ppum_testkit::random::Random;
@@ -171,7 +171,7 @@ fn coefficients_that_cancel_are_reported_with_their_place() {
         data.coefficients[0][block + 1] += amplitude;
     }
     let (_, warnings) = recompute(&dataset, 0, None, unwatched()).expect("a step");
-    let digits: Vec<_> = warnings.iter().filter(|w| w.kind == kind::DIGITS).collect();
+    let digits: Vec<_> = warnings.iter().filter(|w| w.kind == WarningKind::Digits).collect();
     assert_eq!(digits.len(), 1, "{warnings:?}");
     let at = digits[0].at.expect("a place");
     println!("{}", digits[0].message);

@@ -87,11 +87,11 @@ fn phases_tell_unknowns_and_bytes() {
     let step = &dataset.steps[0];
     let report = SolverReport::of(&step.history);
     let of = |all: &[(Phase, f64)], phase| all.iter().find(|(p, _)| *p == phase).map(|(_, v)| *v);
-    let all = report.unknowns.expect("a number");
+    let all = report.unknowns.expect("a number") as f64;
     let cut_off: f64 = values(step, "cut-off").iter().sum();
     assert_eq!(of(&report.worked, Phase::Cover), Some(all));
     assert_eq!(of(&report.worked, Phase::Assembly), Some(all - cut_off));
-    assert_eq!(of(&report.bytes, Phase::Solution), report.solver_bytes);
+    assert_eq!(of(&report.bytes, Phase::Solution), report.solver_bytes.map(|n| n as f64));
     // the matrix alone: more than the diagonal blocks of half of the unknowns
     assert!(of(&report.bytes, Phase::Assembly).expect("bytes") > 8.0 * 6.0 * all);
     assert_eq!(of(&report.bytes, Phase::Intensity), None);

@@ -1,10 +1,11 @@
 //! Warnings: each is provoked, and good problems are silent.
 
-use crate::studies::support::{SQUARE_BODY, parsed, solved};
-use ppum::dataset::{Dataset, Warning};
+use crate::SQUARE_BODY;
+use crate::studies::support::{parsed, solved};
+use ppum::dataset::{Dataset, Warning, WarningKind};
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
-use ppum_fracture::diagnostics::{kind, recompute};
+use ppum_fracture::diagnostics::recompute;
 use ppum_testkit::random::Random;
 
 /// A plate with a crack, 8 × 8 cells.
@@ -40,7 +41,7 @@ fn warnings(dataset: &Dataset) -> &[Warning] {
 }
 
 /// The only warnings there are, which are of one kind.
-fn only<'d>(dataset: &'d Dataset, kind: &str) -> &'d [Warning] {
+fn only(dataset: &Dataset, kind: WarningKind) -> &[Warning] {
     let found = warnings(dataset);
     assert!(!found.is_empty() && found.iter().all(|w| w.kind == kind), "{found:?}");
     found
@@ -62,7 +63,7 @@ fn rigid_motions() {
         let text =
             text(STRAIGHT, &held, "").replace("cells = [8, 8]", &format!("level = 3\n{keys}"));
         let dataset = solve_text(&text);
-        let all = only(&dataset, kind::DIGITS);
+        let all = only(&dataset, WarningKind::Digits);
         assert!(all.len() == 1 && all[0].message.contains("rigid"), "{all:?}");
     }
 }
@@ -76,7 +77,7 @@ fn lost_digits() {
         let plate = text(STRAIGHT, &tension(), "");
         let stiff = format!("young = \"if(y > 0.6, {ratio}, 1)\"");
         let dataset = solve_text(&plate.replace("young = 1.0", &stiff));
-        warnings(&dataset).iter().find(|w| w.kind == kind::RESIDUAL).cloned()
+        warnings(&dataset).iter().find(|w| w.kind == WarningKind::Residual).cloned()
     };
     assert_eq!(residual("1e2"), None);
     let found = residual("1e9").expect("a warning of the residual");
@@ -112,10 +113,10 @@ fn sides(left: &str, right: &str) -> String {
 fn pressed_faces_overlap() {
     let dataset = plate(STRAIGHT, &ends("[0, 1]", "[0, -1]"), "");
     let found = warnings(&dataset);
-    let of = |kind: &str| found.iter().filter(|w| w.kind == kind).collect::<Vec<_>>();
-    let [left, right] = of(kind::NEGATIVE_K1)[..] else { panic!("{found:?}") };
+    let of = |kind: WarningKind| found.iter().filter(|w| w.kind == kind).collect::<Vec<_>>();
+    let [left, right] = of(WarningKind::NegativeK1)[..] else { panic!("{found:?}") };
     assert!(left.value < -1.0 && right.value < -1.0);
-    let [faces] = of(kind::FACES_OVERLAP)[..] else { panic!("{found:?}") };
+    let [faces] = of(WarningKind::FacesOverlap)[..] else { panic!("{found:?}") };
     assert!(faces.message.contains("crack 0") && faces.message.contains("100 %"));
     // most in the middle
     assert!(faces.at.expect("a place").length() < 0.02, "{faces:?}");
@@ -127,8 +128,8 @@ fn pressed_faces_overlap() {
 fn faces_overlap_where_bending_presses() {
     let dataset = plate(STRAIGHT, &ends("[0, \"-x\"]", "[0, \"x\"]"), "");
     let found = warnings(&dataset);
-    let kinds: Vec<_> = found.iter().map(|w| w.kind.as_str()).collect();
-    assert_eq!(kinds, [kind::NEGATIVE_K1, kind::FACES_OVERLAP]);
+    let kinds: Vec<_> = found.iter().map(|w| w.kind.clone()).collect();
+    assert_eq!(kinds, [WarningKind::NegativeK1, WarningKind::FacesOverlap]);
     assert_eq!(found[0].at, Some(Vec2::from([-0.5, 0.0])));
     assert!(found[1].at.expect("a place").x < -0.1, "{found:?}");
 }
@@ -141,11 +142,11 @@ fn little_room_and_none() {
         plate(&points, &tension(), "refine = false")
     };
     let dataset = near(0.2);
-    let found = only(&dataset, kind::LITTLE_ROOM);
+    let found = only(&dataset, WarningKind::LittleRoom);
     assert_eq!(places(found), [Vec2::from([-0.8, 0.0])]);
     assert!((found[0].value - 0.2).abs() < 1e-15 && found[0].limit == 0.5);
     let dataset = near(0.1);
-    let found = only(&dataset, kind::NO_ROOM);
+    let found = only(&dataset, WarningKind::NoRoom);
     assert!((found[0].value - 0.1).abs() < 1e-15 && found[0].limit == 0.125);
     assert!(found[0].message.contains("the border") && found[0].message.contains("at most 0.2"));
     assert_eq!(dataset.steps[0].intensities.len(), 1);
@@ -155,12 +156,12 @@ fn little_room_and_none() {
 #[test]
 fn tips_near_the_border() {
     let dataset = plate("[[-0.97, 0.0], [0.5, 0.0]]", &tension(), "");
-    let found = only(&dataset, kind::TIP_NEAR_BORDER);
+    let found = only(&dataset, WarningKind::TipNearBorder);
     assert_eq!(places(found), [Vec2::from([-0.97, 0.0])]);
     assert!(found[0].message.contains(" 2 % of the crack's length"), "{}", found[0].message);
     // however near: the part is told with its digits
     let dataset = plate("[[-0.99999, 0.0], [0.5, 0.0]]", &tension(), "refine = false");
-    let found = warnings(&dataset).iter().find(|w| w.kind == kind::TIP_NEAR_BORDER);
+    let found = warnings(&dataset).iter().find(|w| w.kind == WarningKind::TipNearBorder);
     let message = &found.expect("a tip near the border").message;
     assert!(
         message.contains("tip (-0.99999, 0)") && message.contains(" 0.00067 % of"),
@@ -172,7 +173,7 @@ fn tips_near_the_border() {
 fn coarse_cracks() {
     let dataset = plate("[[-0.3, 0.03], [0.4, 0.03]]", &tension(), "refine = false");
     let found = warnings(&dataset);
-    let coarse: Vec<_> = found.iter().filter(|w| w.kind == kind::COARSE).collect();
+    let coarse: Vec<_> = found.iter().filter(|w| w.kind == WarningKind::Coarse).collect();
     assert_eq!(coarse.len(), 2);
     assert!((coarse[0].value - 2.8).abs() < 1e-12 && coarse[0].limit == 4.0);
 }
@@ -184,7 +185,7 @@ fn values_that_differ() {
     let dataset = solve_text(&(text + "[[boundary]]\non = { crack = 0 }\npressure = \"1 + x\"\n"));
     assert!(warnings(&dataset).is_empty());
     let (_, found) = recompute(&dataset, 0, None, unwatched()).expect("a field");
-    let spread: Vec<_> = found.iter().filter(|w| w.kind == kind::SPREAD).collect();
+    let spread: Vec<_> = found.iter().filter(|w| w.kind == WarningKind::Spread).collect();
     assert!(!spread.is_empty() && spread.iter().all(|w| w.value > 0.01), "{found:?}");
     assert!(spread[0].message.contains("no estimate of the error"), "{}", spread[0].message);
 }
@@ -192,7 +193,7 @@ fn values_that_differ() {
 #[test]
 fn loads_that_nearly_balance() {
     let dataset = plate(STRAIGHT, &ends("[0, -1]", "[0, 1.0000005]"), "");
-    let found = only(&dataset, kind::IMBALANCE);
+    let found = only(&dataset, WarningKind::Imbalance);
     // of 4 in all, 1e-6 on the vertical motion
     let record = |name: &str| dataset.steps[0].history.iter().find(|r| r.name == name);
     assert_eq!(record("imbalance").map(|r| r.value), Some(found[0].value));
@@ -204,7 +205,7 @@ fn loads_that_nearly_balance() {
 fn functions_that_are_cut_off() {
     let own = "[[enrichment]]\nfunctions = [\"x\", \"y\"]\ndegree = 1";
     let dataset = plate(STRAIGHT, &tension(), own);
-    let found = only(&dataset, kind::CUT_OFF);
+    let found = only(&dataset, WarningKind::CutOff);
     // 6 of 12 functions on most patches, fewer where there are others
     assert!(found[0].value > 0.25 && found[0].value < 0.5, "{found:?}");
 }
@@ -219,7 +220,10 @@ fn slivers_at_held_edges() {
         plate(&format!("[[-0.5, {y}], [0.5, {y}]]"), held, "refine = false")
     };
     let of = |dataset: &Dataset| {
-        warnings(dataset).iter().find(|w| w.kind == kind::NITSCHE).map(|w| (w.value, w.limit))
+        warnings(dataset)
+            .iter()
+            .find(|w| w.kind == WarningKind::Nitsche)
+            .map(|w| (w.value, w.limit))
     };
     let [near, nearer] = [1e-4, 1e-5].map(|part| of(&at(0.25 * part)).expect("a warning"));
     assert!(near.0 > 1e4 && near.1 == 1e4, "{near:?}");
@@ -237,14 +241,14 @@ fn patches_crossed_twice() {
     let set = "refine = false\noverlap = 1.5";
     let sharp = "[[-0.13, 0.6], [0.03, -0.5], [0.19, 0.6]]";
     let crack = plate(sharp, &loads, set);
-    assert!(warnings(&crack).iter().all(|w| w.kind != kind::CROSSED_TWICE));
+    assert!(warnings(&crack).iter().all(|w| w.kind != WarningKind::CrossedTwice));
     let notch = format!("[[hole]]\npoints = {sharp}\n{loads}");
     let notched = text(sharp, &notch, set);
     let (head, tail) = notched.split_once("[[crack]]\n").expect("a crack");
     let (_, tail) = tail.split_once('\n').expect("its points");
     let dataset = solve_text(&format!("{head}{tail}"));
     let found = warnings(&dataset);
-    let crossed: Vec<_> = found.iter().filter(|w| w.kind == kind::CROSSED_TWICE).collect();
+    let crossed: Vec<_> = found.iter().filter(|w| w.kind == WarningKind::CrossedTwice).collect();
     let [crossed] = crossed[..] else { panic!("{found:?}") };
     assert_eq!((crossed.value, crossed.limit), (3.0, 0.0));
     assert!(crossed.message.contains("use smaller cells"), "{}", crossed.message);
@@ -271,7 +275,7 @@ fn cracks_in_inclusions_are_resolved() {
             ends("[0, -1]", "[0, 1]")
         );
         let dataset = solve_text(&text);
-        let found = warnings(&dataset).iter().find(|w| w.kind == kind::QUADRATURE);
+        let found = warnings(&dataset).iter().find(|w| w.kind == WarningKind::Quadrature);
         assert!(found.is_none(), "seed {seed}: {found:?}");
     }
 }

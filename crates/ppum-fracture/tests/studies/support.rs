@@ -24,10 +24,6 @@ pub(crate) struct Errors {
     pub(crate) l2: f64,
 }
 
-/// The tables of a problem file for the body [−1, 1]², E = 1, ν = 0.3 in plane strain.
-pub(crate) const SQUARE_BODY: &str = "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n[material]\nyoung = 1\n\
-     poisson = 0.3\nstate = \"plane-strain\"\n";
-
 /// Solves a problem that is in order.
 pub(crate) fn solved(problem: &ProblemData) -> Dataset {
     solve(&checked(problem), unwatched()).expect("a solution")

@@ -17,7 +17,7 @@ use super::super::symmetry::Symmetry;
 use super::super::words::Words as _;
 
 /// A feature has a key, a remedy, and a problem that has it; keys in lists have their first entry.
-struct Row {
+struct FeatureRow {
     key: &'static str,
     remedy: &'static str,
     is_of: fn(&ProblemData) -> bool,
@@ -33,8 +33,8 @@ macro_rules! features {
             /// All features.
             pub const ALL: &'static [Self] = &[$(Self::$name),*];
 
-            fn row(self) -> Row {
-                match self { $(Self::$name => Row { key: $key, remedy: $remedy, is_of: $is_of },)* }
+            fn row(self) -> FeatureRow {
+                match self { $(Self::$name => FeatureRow { key: $key, remedy: $remedy, is_of: $is_of },)* }
             }
         }
     };

@@ -5,7 +5,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use ppum_format::{ArrayValues, Hdf5File, WriteError};
+use ppum_format::{ArrayValues, Arrays, WriteError};
 
 use super::lagrange::node_count;
 use super::vtu::{About, Numbers, accuracy, cell_type, texts};
@@ -34,7 +34,7 @@ const VERSION: [i64; 2] = [2, 2];
 /// # Errors
 /// [`WriteError`]: a text that cannot be stored.
 pub fn file(steps: &[&ExportedStep]) -> Result<Vec<u8>, WriteError> {
-    let mut grid = Grid { file: Hdf5File::default(), steps };
+    let mut grid = Grid { file: Arrays::default(), steps };
     grid.attribute("VTKHDF@Version", &[2], ArrayValues::I64(VERSION.to_vec()));
     grid.attribute("VTKHDF@Type", &[], ArrayValues::Text(vec!["UnstructuredGrid".to_owned()]));
     grid.attribute("VTKHDF/Steps@NSteps", &[], ArrayValues::I64(vec![steps.len() as i64]));
@@ -49,7 +49,7 @@ const POINT_DATA: [&str; 2] = ["VTKHDF/PointData", "VTKHDF/Steps/PointDataOffset
 const FIELD_DATA: [&str; 2] = ["VTKHDF/FieldData", "VTKHDF/Steps/FieldDataOffsets"];
 
 struct Grid<'s> {
-    file: Hdf5File,
+    file: Arrays,
     steps: &'s [&'s ExportedStep],
 }
 

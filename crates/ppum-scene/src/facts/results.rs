@@ -95,6 +95,7 @@ pub fn warnings(step: usize, warnings: &[dataset::Warning]) -> Vec<Warning> {
     let row = |warning: &dataset::Warning| {
         let dataset::Warning { kind, at, value, limit, message } = warning.clone();
         let (at, value, limit) = (at.map(Into::into), Number(value), Number(limit));
+        let kind = kind.to_string();
         Warning { step, kind, at, value, limit, message }
     };
     warnings.iter().map(row).collect()

@@ -62,11 +62,11 @@ impl Solver {
         });
         let row = Self {
             kind: report.solver.map(LinearKind::word),
-            iterations: report.iterations.and_then(finite),
+            iterations: report.iterations.map(|n| n as f64),
             reduction: report.residuals.last().copied().and_then(finite),
             condition: report.preconditioned_condition.and_then(finite),
             residual: report.residual.and_then(finite),
-            bytes: report.solver_bytes.and_then(finite),
+            bytes: report.solver_bytes.map(|n| n as f64),
             phases: report.seconds.iter().map(phase).collect(),
             levels: levels.collect(),
         };

@@ -15,8 +15,9 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::Problem;
 use std::f64::consts::PI;
 
-/// Part of a cell around a singular point of a known field within which borders are not looked at: its field is all there,
-/// with no tractions but those of the rounding of places, which have no bound.
+/// Part of a cell around a singular point of a known field within which borders are not looked at:
+/// that field is all there, with no tractions but those of the rounding of places, which have no
+/// bound.
 const AT_POINT: f64 = 1e-6;
 
 /// The squares of what each cell misses of the data. Advances the stage by their number.

@@ -18,7 +18,8 @@ mod traits;
 
 use crate::quadrature::{Geometry, Kink, Singular};
 use interfaces::proportional;
-pub(crate) use interfaces::{BESIDE, Cause, Interface, InterfacePoint, Interfaces, Trouble};
+pub(crate) use interfaces::{BESIDE, Interface, InterfacePoint};
+pub use interfaces::{Cause, Interfaces, Trouble};
 use ppum::crack::Crack;
 use ppum::dataset::{BoxPartition, Equation, FieldData, Step};
 use ppum::domain::Hole;

@@ -7,18 +7,18 @@ use std::path::Path;
 const CRATES: [&str; 3] = ["ppum-problem", "ppum-solve", "ppum-fracture"];
 
 /// A row of the table: a feature, the number of files that know it, and the words by which they do.
-struct Row {
+struct FeatureCount {
     feature: String,
     files: usize,
     words: Vec<String>,
 }
 
-fn rows(text: &str) -> Vec<Row> {
+fn rows(text: &str) -> Vec<FeatureCount> {
     let table = text.split("\n| feature | files |").nth(1).unwrap_or_default();
     let lines = table.lines().skip(2).take_while(|line| line.starts_with('|'));
     let row = |line: &str| {
         let cells: Vec<&str> = line.split('|').map(str::trim).collect();
-        Row {
+        FeatureCount {
             feature: cells[1].to_owned(),
             files: cells[2].parse().expect("a number of files"),
             words: cells[4].split('`').skip(1).step_by(2).map(str::to_owned).collect(),
@@ -47,7 +47,7 @@ fn few_files_know_a_feature() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../ARCHITECTURE.md");
     let rows = rows(&std::fs::read_to_string(path).expect("the architecture"));
     assert_eq!(rows.len(), 4, "features of the table");
-    for Row { feature, files, words } in rows {
+    for FeatureCount { feature, files, words } in rows {
         let found = knowing(&words);
         assert!(
             !words.is_empty() && found.len() == files,

@@ -161,7 +161,7 @@ fn what_the_solver_tells_is_shown() {
     let mut dataset = plate();
     let at = Some(vec2(0.5, 0.0));
     let message = "the faces overlap".to_owned();
-    let kind = "faces-overlap".to_owned();
+    let kind = "faces-overlap".into();
     dataset.steps[0].warnings = vec![Warning { kind, at, value: 1.0, limit: 0.5, message }];
     dataset.steps[0].history.push(Record { name: "mood".into(), value: 7.25, unit: String::new() });
     lab.state().open(None, Arc::new(dataset));

@@ -50,7 +50,7 @@ fn check_intensity(intensity: &TipIntensity, cracks: &[Crack]) -> Checked {
 }
 
 pub(super) fn check_warning(warning: &Warning) -> Checked {
-    require(!warning.kind.trim().is_empty(), "kind", || "is empty".into())?;
+    require(!warning.kind.to_string().trim().is_empty(), "kind", || "is empty".into())?;
     check_points("at", warning.at.as_slice())?;
     check_number("value", warning.value)?;
     check_number("limit", warning.limit)

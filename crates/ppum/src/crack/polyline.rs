@@ -3,7 +3,7 @@
 use crate::vec2::Vec2;
 
 /// A crack: a polyline of at least two points, both faces free unless loaded.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Crack {
     /// Vertices, in order; the left of this direction is [`Side::Above`].
     pub points: Vec<Vec2>,
@@ -12,9 +12,10 @@ pub struct Crack {
 }
 
 /// The kind of an end of a crack.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CrackEnd {
     /// A tip: the field is singular there.
+    #[default]
     Tip,
     /// On the boundary of the domain.
     Mouth,
@@ -23,9 +24,10 @@ pub enum CrackEnd {
 }
 
 /// First or last vertex of a crack.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum End {
     /// The first vertex.
+    #[default]
     Start,
     /// The last vertex.
     Last,
@@ -43,7 +45,7 @@ impl End {
 }
 
 /// A tip: one end of one crack.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct TipId {
     /// Index of the crack.
     pub crack: u32,

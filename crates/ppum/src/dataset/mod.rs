@@ -15,6 +15,7 @@
 mod blocks;
 mod partition;
 mod results;
+mod warning;
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
@@ -31,7 +32,8 @@ use ppum_formula::Table;
 pub use crate::polynomial::{MAX_DEGREE, monomials};
 pub use blocks::FieldData;
 pub use partition::{BoxPartition, Partition};
-pub use results::{Attribute, Reaction, Record, Ring, TipIntensity, Warning};
+pub use results::{Attribute, Reaction, Record, Ring, TipIntensity};
+pub use warning::{Warning, WarningKind};
 
 /// A solved problem, or a field from elsewhere in the same representation.
 #[derive(Clone, Debug, PartialEq)]
@@ -187,7 +189,7 @@ pub const MAX_QUANTITY_TEXT: usize = 1 << 16;
 
 /// A quantity that a dataset names: the text of
 /// a [`QuantityFormula`](crate::quantity::QuantityFormula).
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NamedQuantity {
     /// Its name, a word that no built-in quantity has.
     pub name: String,

@@ -1,11 +1,10 @@
-//! What a solver tells of a step: attributes, history, warnings, reactions, intensities.
+//! What a solver tells of a step: attributes, history, reactions, intensities.
 
 use crate::crack::TipId;
 use crate::equation::Material;
-use crate::vec2::Vec2;
 
 /// Named values, one per patch: order, enrichment, functions cut off, …
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Attribute {
     /// Name, e.g. `unknowns`.
     pub name: String,
@@ -14,7 +13,7 @@ pub struct Attribute {
 }
 
 /// One number of the solver's report.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Record {
     /// Name, e.g. `residual` or `assembly`.
     pub name: String,
@@ -22,21 +21,6 @@ pub struct Record {
     pub value: f64,
     /// Unit, e.g. `s`; empty for plain numbers.
     pub unit: String,
-}
-
-/// A finding about a solution that does not make it wrong to have, but wrong to trust unread.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Warning {
-    /// A word for its kind, e.g. `faces-overlap`.
-    pub kind: String,
-    /// The place, if it is about one.
-    pub at: Option<Vec2>,
-    /// The number that gave rise to it.
-    pub value: f64,
-    /// The bound that the number passes.
-    pub limit: f64,
-    /// The mistake and its remedy, on one line, with the place.
-    pub message: String,
 }
 
 /// The resultant of what a support exerts on the plate: R_i = ∫ t_i, M = ∫ (x − c) × t over the
@@ -47,7 +31,7 @@ pub struct Warning {
 /// The solver's t is the conservative one, (σ n)_i − β (u_i − g_i) with Nitsche's β (Hughes et al.
 /// 2000): the reactions and the loads on a plate add up to zero, to rounding. On an edge with a
 /// crack it is σ n, and they add up to zero up to the error of the solution.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reaction {
     /// The place in words, e.g. `bottom`, `top from -0.1 to 0.1`, `hole 0`.
     pub on: String,
@@ -63,7 +47,7 @@ pub struct Reaction {
 
 /// The leading terms of the field at one tip: stress intensity factors, from interaction integrals
 /// over several discs, and what stands beside them.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct TipIntensity {
     /// The tip.
     pub tip: TipId,

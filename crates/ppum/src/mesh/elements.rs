@@ -36,7 +36,7 @@ pub struct Mesh {
 }
 
 /// A patch's half of the plane: where a level field is not negative, or where it is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Clip {
     /// Index of the level field among the step's fields.
     pub field: u32,

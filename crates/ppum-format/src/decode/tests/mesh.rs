@@ -8,7 +8,7 @@ use ppum_testkit::meshes::{Elements, Polynomial, field, random_map, random_polyn
 use ppum_testkit::random::Random;
 
 use super::put;
-use crate::content::{Array, Content};
+use crate::content::{Array, ArrayValues, Content};
 use crate::{Arrays, bytes, encode};
 
 /// A triangle and a square cut in two, all of them curved, with functions of level fields.
@@ -67,6 +67,10 @@ fn complaint(change: impl FnOnce(&mut Content)) -> String {
     errors[0].to_string()
 }
 
+fn levels(rows: [[i64; 2]; 3]) -> Array {
+    Array { shape: vec![3, 2], values: ArrayValues::I64(rows.concat()) }
+}
+
 #[test]
 fn what_is_wrong_with_a_mesh_is_named() {
     let of = |name: &str, array: Array| complaint(|c| put(c, &format!("steps/0000/{name}"), array));
@@ -104,17 +108,17 @@ fn what_is_wrong_with_a_mesh_is_named() {
         ("partition@kind", text("shepard"), "unknown word `shepard`"),
         (
             "functions/levels",
-            Array::rows([[-1i64, -1], [-1, 1], [2, -1]]),
+            levels([[-1i64, -1], [-1, 1], [2, -1]]),
             "function 2 has no level field (-1) in column 1",
         ),
         (
             "functions/levels",
-            Array::rows([[-1i64, -1], [2, 1], [2, 1]]),
+            levels([[-1i64, -1], [2, 1], [2, 1]]),
             "function 1 of the kind `level` does not use it",
         ),
         (
             "functions/levels",
-            Array::rows([[-1i64, -1], [-1, 5], [2, 1]]),
+            levels([[-1i64, -1], [-1, 5], [2, 1]]),
             "functions/levels[1]: index 5",
         ),
         (

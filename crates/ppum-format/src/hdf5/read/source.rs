@@ -3,9 +3,9 @@
 use std::borrow::Cow;
 
 use super::super::account::Account;
-use super::super::lookup3::lookup3;
 use super::error::{Parsed, fail};
 use super::store::Bytes;
+use crate::lookup3::lookup3;
 
 /// A file, with the widths of addresses and lengths in it.
 #[derive(Clone, Copy)]

@@ -20,8 +20,8 @@ use super::trees::{CHUNKS, entries};
 use super::types::{DatatypeClass, Padding, Type};
 use super::{Outline, Ranges, Texts, arrays, from_bytes};
 use crate::content::{ArrayValues, step_path};
-use crate::damage::{seal, sealed_parts};
 use crate::decode::RESULTS;
+use crate::forge::{seal, sealed_parts};
 
 const FIXED: &[u8] = include_bytes!("../../../tests/data/h5py/v110-fixed.h5");
 const GROWING: &[u8] = include_bytes!("../../../tests/data/h5py/v200-first.h5");

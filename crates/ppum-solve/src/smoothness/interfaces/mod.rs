@@ -15,7 +15,8 @@ mod interface;
 mod place;
 mod trouble;
 
-pub(crate) use interface::{Interface, Interfaces, proportional};
+pub use interface::Interfaces;
+pub(crate) use interface::{Interface, proportional};
 pub(crate) use place::{BESIDE, InterfacePoint};
 pub use trouble::{Cause, Trouble};
 

@@ -442,8 +442,12 @@ pub(super) const RULES: &[Rule] = &[
         "rings have an inner radius below the outer one",
         FULL,
         |c| {
-            let n = c["steps/0000/intensities/crack"].values.len();
-            put(c, "steps/0000/intensities/rings", Array::rows([[0.2, 0.1, 0.0, 0.0]]));
+            let n = c["steps/0000/intensities/crack"].shape[0] as usize;
+            put(
+                c,
+                "steps/0000/intensities/rings",
+                Array { shape: vec![1, 4], values: ArrayValues::F64(vec![0.2, 0.1, 0.0, 0.0]) },
+            );
             let offsets = std::iter::once(0).chain(std::iter::repeat_n(1, n));
             put(
                 c,

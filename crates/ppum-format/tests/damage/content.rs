@@ -1,44 +1,87 @@
 //! Damage to what a file means: its named arrays.
 
-use crate::content::{Array, ArrayValues, Content};
-use crate::{checksum, hdf5};
+use std::collections::BTreeMap;
+
+use ppum_format::{ArrayValues, Arrays};
+
+/// An array of a file.
+#[derive(Clone)]
+struct Array {
+    shape: Vec<u64>,
+    values: ArrayValues,
+}
+
+type Content = BTreeMap<String, Array>;
+
+/// Does the same with the values of an array, whatever their type.
+macro_rules! with_values {
+    ($array:expr, $values:ident => $action:expr) => {
+        match $array {
+            ArrayValues::F64($values) => $action,
+            ArrayValues::U8($values) => $action,
+            ArrayValues::U32($values) => $action,
+            ArrayValues::U64($values) => $action,
+            ArrayValues::I64($values) => $action,
+            ArrayValues::Text($values) => $action,
+            ArrayValues::Other(_) => unreachable!("files with other types are not damaged"),
+        }
+    };
+}
+
+fn len(values: &ArrayValues) -> usize {
+    with_values!(values, v => v.len())
+}
+
+/// True of the attributes with checksums.
+fn is_checksum(name: &str) -> bool {
+    ["@sha256", "@sha256_rest"].iter().any(|end| name.ends_with(end))
+}
 
 type Below<'a> = &'a mut dyn FnMut(usize) -> usize;
 
 /// A damaged file.
 #[derive(Clone, Debug)]
-pub struct Damaged {
+pub(crate) struct Damaged {
     /// Its bytes.
-    pub bytes: Vec<u8>,
+    pub(crate) bytes: Vec<u8>,
     /// The kind of damage, e.g. `truncated`.
-    pub what: String,
+    pub(crate) what: String,
     /// True if the checksum was made right again, or is not there: only the meaning can tell.
-    pub is_sealed: bool,
+    pub(crate) is_sealed: bool,
 }
 
 /// A copy with one to three arrays changed; none if the file cannot be read, or the result
 /// not written.
 pub(super) fn damaged(file: &[u8], below: Below) -> Option<Damaged> {
-    let mut content = hdf5::from_bytes(file).ok()?;
+    let arrays = Arrays::from_bytes(file).ok()?;
+    let all = arrays.iter().map(|(name, shape, values)| {
+        (name.to_owned(), Array { shape: shape.to_vec(), values: values.clone() })
+    });
+    let mut content: Content = all.collect();
     if content.is_empty()
         || content.values().any(|array| matches!(array.values, ArrayValues::Other(_)))
     {
         return None;
     }
+    let count = content.keys().filter(|name| is_checksum(name)).count();
     let mut what = Vec::new();
     for _ in 0..=below(content.len().min(3)) {
         what.extend(change(&mut content, below));
     }
     let is_sealed = below(4) > 0;
-    match below(3) {
-        _ if !is_sealed => {}
-        0 => checksum::remove(&mut content),
-        1 => checksum::seal_parts(&mut content),
-        _ => checksum::seal(&mut content),
+    if is_sealed {
+        content.retain(|name, _| !is_checksum(name));
     }
-    let is_sealed = is_sealed || !checksum::is_sealed(&content);
-    let bytes = hdf5::to_compressed_bytes(&content).ok()?;
-    Some(Damaged { bytes, what: what.join(", "), is_sealed })
+    let is_whole = content.keys().filter(|name| is_checksum(name)).count() == count;
+    let mut arrays = Arrays::default();
+    for (name, Array { shape, values }) in content {
+        arrays.insert(&name, shape, values);
+    }
+    if is_sealed && below(3) > 0 {
+        arrays.seal();
+    }
+    let bytes = arrays.to_bytes().ok()?;
+    Some(Damaged { bytes, what: what.join(", "), is_sealed: is_sealed || !is_whole || count == 0 })
 }
 
 /// One array changed; there is one at least.
@@ -96,7 +139,7 @@ fn change(content: &mut Content, below: Below) -> Option<String> {
 
 /// The same number of values of another type.
 fn of_another_type(values: &ArrayValues, below: Below) -> ArrayValues {
-    let n = values.len();
+    let n = len(values);
     match below(6) {
         0 => ArrayValues::F64(vec![0.5; n]),
         1 => ArrayValues::U8(vec![1; n]),
@@ -128,15 +171,7 @@ fn resize(array: &mut Array, below: Below) {
     };
     array.shape[0] = rows;
     let n = (rows * row) as usize;
-    match &mut array.values {
-        ArrayValues::F64(v) => v.resize(n, 0.25),
-        ArrayValues::U8(v) => v.resize(n, 0),
-        ArrayValues::U32(v) => v.resize(n, 0),
-        ArrayValues::U64(v) => v.resize(n, 0),
-        ArrayValues::I64(v) => v.resize(n, 0),
-        ArrayValues::Text(v) => v.resize(n, "one".to_owned()),
-        ArrayValues::Other(_) => {}
-    }
+    with_values!(&mut array.values, v => v.resize(n, Default::default()));
 }
 
 /// Zeros of the same type and rank, far more than there were: they shrink to nothing.
@@ -159,20 +194,12 @@ fn zeros(array: &Array, below: Below) -> Array {
 }
 
 fn swap(values: &mut ArrayValues, below: Below) {
-    let n = values.len();
+    let n = len(values);
     if n == 0 {
         return;
     }
     let (a, b) = (below(n), below(n));
-    match values {
-        ArrayValues::F64(v) => v.swap(a, b),
-        ArrayValues::U8(v) => v.swap(a, b),
-        ArrayValues::U32(v) => v.swap(a, b),
-        ArrayValues::U64(v) => v.swap(a, b),
-        ArrayValues::I64(v) => v.swap(a, b),
-        ArrayValues::Text(v) => v.swap(a, b),
-        ArrayValues::Other(_) => {}
-    }
+    with_values!(values, v => v.swap(a, b));
 }
 
 fn each(values: &mut ArrayValues, below: Below) {
@@ -191,7 +218,7 @@ fn each(values: &mut ArrayValues, below: Below) {
 }
 
 fn one(values: &mut ArrayValues, below: Below) {
-    let n = values.len();
+    let n = len(values);
     if n == 0 {
         return;
     }

@@ -1,34 +1,25 @@
-//! Damaged copies of files, for tests of programs that read them.
+//! Damaged copies of files, for tests of programs that read them, which include this module by its
+//! path.
 //!
 //! [`damaged`] changes the bytes of a file, or what they mean: an array of another type, shape or
 //! length, indices and offsets that lead nowhere, numbers that are none, words and formulas that
 //! are wrong, arrays of zeros that shrink to nothing, with the checksum missing, wrong or
 //! right again.
 
+#![allow(dead_code, unused_imports, reason = "each program of tests uses a part of it")]
+
 mod content;
 mod forge;
+#[path = "../../src/lookup3.rs"]
+mod lookup3;
 
-pub use content::Damaged;
+pub(crate) use content::Damaged;
 use forge::{EXTREMES, number};
-pub use forge::{object_headers, seal, sealed_parts};
-use ppum::dataset::Dataset;
-
-use crate::error::WriteError;
-use crate::{checksum, encode, hdf5};
-
-/// The bytes of a dataset that need not obey the rules, its checksum right.
-///
-/// # Errors
-/// Something that the format cannot express.
-pub fn unchecked(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
-    let mut content = encode::content(dataset)?;
-    checksum::seal(&mut content);
-    hdf5::to_bytes(&content)
-}
+pub(crate) use forge::{object_headers, seal, sealed_parts};
 
 /// A copy of a file with one to three damages of one kind. `below(n)` is a random number below n;
 /// the same numbers make the same damage.
-pub fn damaged(file: &[u8], below: &mut dyn FnMut(usize) -> usize) -> Damaged {
+pub(crate) fn damaged(file: &[u8], below: &mut dyn FnMut(usize) -> usize) -> Damaged {
     if below(2) == 0
         && let Some(damaged) = content::damaged(file, below)
     {

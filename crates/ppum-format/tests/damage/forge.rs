@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::hdf5::lookup3;
+use super::lookup3::lookup3;
 
 /// Extreme bytes in a part, its checksum recomputed.
 pub(super) fn forged(bytes: &mut [u8], below: &mut dyn FnMut(usize) -> usize) {
@@ -26,14 +26,12 @@ const SIGNATURES: [&[u8; 4]; 13] = [
 ];
 
 /// The parts of a file that end in a checksum, where it is right.
-#[must_use]
-pub fn sealed_parts(bytes: &[u8]) -> Vec<Range<usize>> {
+pub(crate) fn sealed_parts(bytes: &[u8]) -> Vec<Range<usize>> {
     parts(bytes, &SIGNATURES)
 }
 
 /// The version 2 object headers of a file whose checksum is where it should be.
-#[must_use]
-pub fn object_headers(bytes: &[u8]) -> Vec<Range<usize>> {
+pub(crate) fn object_headers(bytes: &[u8]) -> Vec<Range<usize>> {
     parts(bytes, &SIGNATURES[..1])
 }
 
@@ -55,7 +53,7 @@ fn parts(bytes: &[u8], signatures: &[&[u8; 4]]) -> Vec<Range<usize>> {
 const LONGEST: usize = 5000;
 
 /// Makes the checksum of a part right again: the last four bytes of the range.
-pub fn seal(bytes: &mut [u8], part: &Range<usize>) {
+pub(crate) fn seal(bytes: &mut [u8], part: &Range<usize>) {
     let sum = lookup3(&bytes[part.start..part.end - 4]);
     bytes[part.end - 4..part.end].copy_from_slice(&sum.to_le_bytes());
 }

@@ -7,24 +7,22 @@
 use std::cell::RefCell;
 use std::ops::Range;
 
-use ppum::vec2::{Vec2, vec2};
-
 use crate::content::{ArrayValues, Content, Element, ObjectKind, join, key};
 use crate::error::ReadError;
-use crate::names::{Words, value};
+use crate::stored::{StoredValue, Words, value};
 
 /// Most errors that are kept.
 const MOST_ERRORS: usize = 100;
 
 /// Takes arrays from a group of the file.
-pub(super) struct GroupReader<'a> {
-    pub(super) path: String,
-    pub(super) content: &'a Content,
+pub(crate) struct GroupReader<'a> {
+    pub(crate) path: String,
+    pub(crate) content: &'a Content,
     errors: &'a RefCell<Vec<ReadError>>,
 }
 
 /// What `read` makes of a content, or all that is wrong with it.
-pub(super) fn read<T>(
+pub(crate) fn read<T>(
     content: &Content,
     read: impl FnOnce(&GroupReader) -> T,
 ) -> Result<T, Vec<ReadError>> {
@@ -34,7 +32,7 @@ pub(super) fn read<T>(
 
 /// Returns what `read` makes of a content, and all errors; where there are any, the first is not to
 /// be used.
-pub(super) fn attempt<T>(
+pub(crate) fn attempt<T>(
     content: &Content,
     read: impl FnOnce(&GroupReader) -> T,
 ) -> (T, Vec<ReadError>) {
@@ -49,30 +47,30 @@ impl<'a> GroupReader<'a> {
     }
 
     /// True if nothing wrong has been found so far.
-    pub(super) fn is_fine(&self) -> bool {
+    pub(crate) fn is_fine(&self) -> bool {
         self.errors.borrow().is_empty()
     }
 
     /// True if something wrong has been found with a dataset of this group.
-    pub(super) fn is_wrong(&self, name: &str) -> bool {
+    pub(crate) fn is_wrong(&self, name: &str) -> bool {
         let path = self.path_of(name);
         self.errors.borrow().iter().any(|error| error.place() == Some(&path))
     }
 
     /// A group in this one.
-    pub(super) fn group(&self, name: &str) -> Self {
+    pub(crate) fn group(&self, name: &str) -> Self {
         if self.is_there(name, ObjectKind::Group) == Some(false) {
             self.error(name, "is missing");
         }
         self.at(self.path_of(name))
     }
 
-    pub(super) fn path_of(&self, name: &str) -> String {
+    pub(crate) fn path_of(&self, name: &str) -> String {
         join(&self.path, name)
     }
 
     /// True if there is an object of this name and form.
-    pub(super) fn holds(&self, name: &str, form: ObjectKind) -> bool {
+    pub(crate) fn holds(&self, name: &str, form: ObjectKind) -> bool {
         self.is_there(name, form) == Some(true)
     }
 
@@ -82,7 +80,7 @@ impl<'a> GroupReader<'a> {
     }
 
     /// Refuses an object that belongs to another word than the one the group has.
-    pub(super) fn refuse(&self, name: &str, form: ObjectKind, word: &str) {
+    pub(crate) fn refuse(&self, name: &str, form: ObjectKind, word: &str) {
         if self.holds(name, form) {
             let key = key(&self.path, name, form);
             let mistake = format!("does not belong to `{word}`; leave it out");
@@ -91,7 +89,7 @@ impl<'a> GroupReader<'a> {
     }
 
     /// Adds an error about an object of this group, `@name` an attribute.
-    pub(super) fn error(&self, name: &str, mistake: impl Into<String>) {
+    pub(crate) fn error(&self, name: &str, mistake: impl Into<String>) {
         self.report(ReadError::object(&self.path_of(name), mistake));
     }
 
@@ -105,7 +103,7 @@ impl<'a> GroupReader<'a> {
         }
     }
 
-    pub(super) fn or_report<T>(&self, read: Result<T, ReadError>) -> Option<T> {
+    pub(crate) fn or_report<T>(&self, read: Result<T, ReadError>) -> Option<T> {
         read.map_err(|error| self.report(error)).ok()
     }
 
@@ -140,115 +138,87 @@ impl<'a> GroupReader<'a> {
     }
 
     /// True if the attribute is there.
-    pub(super) fn has_attribute(&self, name: &str) -> bool {
+    pub(crate) fn has_attribute(&self, name: &str) -> bool {
         self.content.get(&key(&self.path, name, ObjectKind::Attribute)).is_some()
     }
 
     /// True if the attribute is there and is a text.
-    pub(super) fn has_text(&self, name: &str) -> bool {
+    pub(crate) fn has_text(&self, name: &str) -> bool {
         let array = self.content.get(&key(&self.path, name, ObjectKind::Attribute));
         array.is_some_and(|array| matches!(array.values, ArrayValues::Text(_)))
     }
 
-    pub(super) fn scalar<T: Element + Default>(&self, name: &str) -> T {
-        self.one(name, ObjectKind::Dataset).unwrap_or_default()
+    pub(crate) fn scalar<T: StoredValue>(&self, name: &str) -> T {
+        self.one(name, ObjectKind::Dataset).unwrap_or_else(T::blank)
     }
 
-    pub(super) fn attribute<T: Element + Default>(&self, name: &str) -> T {
-        self.one(name, ObjectKind::Attribute).unwrap_or_default()
+    pub(crate) fn attribute<T: StoredValue>(&self, name: &str) -> T {
+        self.known_attribute(name).unwrap_or_else(T::blank)
     }
 
-    /// A scalar, which other writers make an array of one element.
-    fn one<T: Element>(&self, name: &str, form: ObjectKind) -> Option<T> {
-        let found = self.content.get(&key(&self.path, name, form));
-        let single = [Extent::Is(1)];
-        let shape = if found.is_some_and(|array| array.shape == [1]) { &single[..] } else { &[] };
-        let value = self.look::<T>(name, form, shape)?.first();
-        if value.is_none() {
-            self.report(ReadError::object(&key(&self.path, name, form), "is empty"));
+    /// The attribute. None, and an error, if it is not there or not what it should be.
+    pub(crate) fn known_attribute<T: StoredValue>(&self, name: &str) -> Option<T> {
+        self.one(name, ObjectKind::Attribute)
+    }
+
+    /// One value; of a scalar other writers make an array of one element.
+    fn one<T: StoredValue>(&self, name: &str, form: ObjectKind) -> Option<T> {
+        let key = key(&self.path, name, form);
+        let is_single = self.content.get(&key).is_some_and(|array| array.shape == [1]);
+        let shape = if is_single && T::SHAPE.is_empty() { &[1] } else { T::SHAPE };
+        let shape: Vec<_> = shape.iter().copied().map(Extent::Is).collect();
+        let elements = self.look::<T::Element>(name, form, &shape)?;
+        if elements.len() < T::width() {
+            self.report(ReadError::object(&key, "is empty"));
+            return None;
         }
-        value.cloned()
-    }
-
-    /// The value of a word that is an attribute. None, and an error, if it is not there or unknown.
-    pub(super) fn attribute_word<T: Clone>(&self, words: &Words<T>, name: &str) -> Option<T> {
-        let word = self.one::<String>(name, ObjectKind::Attribute)?;
-        self.word(words, &word, &format!("@{name}"))
-    }
-
-    /// Major and minor version of the format.
-    pub(super) fn version(&self) -> [u32; 2] {
-        let shape = [Extent::Is(2)];
-        self.look("format_version", ObjectKind::Attribute, &shape).map_or([0; 2], |v| [v[0], v[1]])
-    }
-
-    pub(super) fn attribute_point(&self, name: &str) -> Vec2 {
-        let p = self.look::<f64>(name, ObjectKind::Attribute, &[Extent::Is(2)]);
-        p.map_or(Vec2::ZERO, |p| vec2(p[0], p[1]))
+        let mut is_fine = true;
+        let value = T::restore(0, elements, &mut |mistake| {
+            is_fine = false;
+            self.report(ReadError::object(&key, mistake));
+        });
+        is_fine.then_some(value)
     }
 
     /// The number of rows of an array whose values were read.
-    pub(super) fn row_count(&self, name: &str) -> Option<usize> {
+    pub(crate) fn row_count(&self, name: &str) -> Option<usize> {
         let array = self.content.get(&key(&self.path, name, ObjectKind::Dataset))?;
         let is_read = !matches!(array.values, ArrayValues::Other(_));
         array.shape.first().filter(|_| is_read).map(|&n| n as usize)
     }
 
     /// The number of rows that most of these arrays have.
-    pub(super) fn rows_of(&self, names: &[&str]) -> usize {
-        let all: Vec<usize> = names.iter().filter_map(|name| self.row_count(name)).collect();
-        let votes = |n: usize| all.iter().filter(|&&other| other == n).count();
-        all.iter().copied().rev().max_by_key(|&n| votes(n)).unwrap_or(0)
+    pub(crate) fn rows_of<'n>(&self, names: impl IntoIterator<Item = &'n str>) -> usize {
+        most(names.into_iter().filter_map(|name| self.row_count(name)).collect())
     }
 
     /// The values of an array of the given shape, row-major, if it is of that.
-    pub(super) fn array<T: Element>(&self, name: &str, shape: &[Extent]) -> Option<Vec<T>> {
+    pub(crate) fn array<T: Element>(&self, name: &str, shape: &[Extent]) -> Option<Vec<T>> {
         self.look(name, ObjectKind::Dataset, shape).map(<[T]>::to_vec)
     }
 
-    /// A vector of any length.
-    pub(super) fn vector<T: Element>(&self, name: &str) -> Vec<T> {
-        self.array(name, &[Extent::Any]).unwrap_or_default()
+    /// Values, as many as there are.
+    pub(crate) fn list<T: StoredValue>(&self, name: &str) -> Vec<T> {
+        self.values(name, Extent::Any, self.row_count(name).unwrap_or_default())
     }
 
-    /// A vector of this length.
-    pub(super) fn column<T: Element + Default>(&self, name: &str, length: usize) -> Vec<T> {
-        let values = self.look(name, ObjectKind::Dataset, &[Extent::Is(length as u64)]);
-        values.map_or_else(|| vec![T::default(); length], <[T]>::to_vec)
+    /// A value in each of so many rows.
+    pub(crate) fn rows<T: StoredValue>(&self, name: &str, rows: usize) -> Vec<T> {
+        self.values(name, Extent::Is(rows as u64), rows)
     }
 
-    /// A matrix of `N` columns and this number of rows.
-    pub(super) fn rows<T: Element + Default, const N: usize>(
-        &self,
-        name: &str,
-        rows: usize,
-    ) -> Vec<[T; N]> {
-        let shape = [Extent::Is(rows as u64), Extent::Is(N as u64)];
-        let values = self.look::<T>(name, ObjectKind::Dataset, &shape);
-        let none = || vec![std::array::from_fn(|_| T::default()); rows];
-        values.map_or_else(none, |values| values.as_chunks().0.to_vec())
-    }
-
-    /// A matrix of `N` columns.
-    pub(super) fn all_rows<T: Element + Default, const N: usize>(&self, name: &str) -> Vec<[T; N]> {
-        let values =
-            self.look::<T>(name, ObjectKind::Dataset, &[Extent::Any, Extent::Is(N as u64)]);
-        let none = || vec![std::array::from_fn(|_| T::default()); self.rows_of(&[name])];
-        values.map_or_else(none, |values| values.as_chunks().0.to_vec())
-    }
-
-    /// Points, as many as there are.
-    pub(super) fn points(&self, name: &str) -> Vec<Vec2> {
-        self.all_rows(name).into_iter().map(|p: [f64; 2]| p.into()).collect()
-    }
-
-    /// A point in each of so many rows.
-    pub(super) fn point_rows(&self, name: &str, rows: usize) -> Vec<Vec2> {
-        self.rows(name, rows).into_iter().map(|p: [f64; 2]| p.into()).collect()
+    fn values<T: StoredValue>(&self, name: &str, extent: Extent, rows: usize) -> Vec<T> {
+        let columns = T::SHAPE.iter().copied().map(Extent::Is);
+        let shape: Vec<_> = [extent].into_iter().chain(columns).collect();
+        let Some(elements) = self.look::<T::Element>(name, ObjectKind::Dataset, &shape) else {
+            return vec![T::blank(); rows];
+        };
+        let rows = elements.chunks_exact(T::width()).enumerate();
+        rows.map(|(k, row)| T::restore(k, row, &mut |mistake| self.error(name, mistake))).collect()
     }
 
     /// The rows of a matrix with a given number of them.
-    pub(super) fn matrix(&self, name: &str, rows: usize) -> Vec<Vec<f64>> {
+    pub(crate) fn matrix(&self, name: &str, rows: usize) -> Vec<Vec<f64>> {
         let shape = [Extent::Is(rows as u64), Extent::Any];
         let values = self.look::<f64>(name, ObjectKind::Dataset, &shape).unwrap_or_default();
         let columns = values.len().checked_div(rows).unwrap_or(0);
@@ -257,7 +227,7 @@ impl<'a> GroupReader<'a> {
 
     /// Compressed rows of `count` parts over the entries of a list, as those of each part. Where
     /// the offsets are wrong or there is no list, all parts are empty.
-    pub(super) fn parts<T: Clone>(
+    pub(crate) fn parts<T: Clone>(
         &self,
         name: &str,
         count: usize,
@@ -279,13 +249,19 @@ impl<'a> GroupReader<'a> {
         ends.windows(2).map(|w| list[part(w)].to_vec()).collect()
     }
 
-    pub(super) fn word<T: Clone>(&self, words: &Words<T>, word: &str, name: &str) -> Option<T> {
+    pub(crate) fn word<T: Clone>(&self, words: &Words<T>, word: &str, name: &str) -> Option<T> {
         value(words, word).map_err(|mistake| self.error(name, mistake)).ok()
     }
 }
 
+/// The number that most of these are, the first of several.
+pub(crate) fn most(all: Vec<usize>) -> usize {
+    let votes = |n: usize| all.iter().filter(|&&other| other == n).count();
+    all.iter().copied().rev().max_by_key(|&n| votes(n)).unwrap_or(0)
+}
+
 /// The lengths allowed of one dimension of an array.
-pub(super) enum Extent {
+pub(crate) enum Extent {
     Any,
     Is(u64),
 }
@@ -309,7 +285,7 @@ impl std::fmt::Display for Extent {
 }
 
 /// The groups `0000`, `0001`, … of a group. Members that are no numbers are of no concern.
-pub(super) fn numbered<T>(
+pub(crate) fn numbered<T>(
     parent: &GroupReader,
     name: &str,
     mut item: impl FnMut(&GroupReader) -> T,
@@ -341,7 +317,7 @@ pub(crate) fn missing(path: &str, count: usize) -> ReadError {
 }
 
 /// The content of a group, nothing if it is not there.
-pub(super) fn optional<T: Default>(
+pub(crate) fn optional<T: Default>(
     parent: &GroupReader,
     name: &str,
     items: impl Fn(&GroupReader) -> T,
