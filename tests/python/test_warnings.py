@@ -14,21 +14,15 @@ FOLDERS = [ROOT / f"crates/{crate}/src" for crate in ("ppum-problem", "ppum-solv
 SOURCES = [*(path for folder in FOLDERS for path in folder.rglob("*.rs")), ROOT / "crates/ppum-cli/src/commands/sif.rs"]
 TEXTS = [path.read_text() for path in SOURCES]
 
-# kinds that are no constants of `diagnostics::kind`
-OTHER_KINDS = [
-    r'\bkind: "([a-z0-9-]+)"\.to_owned\(\)',
-    r'\("([a-z]+-[a-z]+)", &error\.to_string\(\)\)',
-    r"Reason<'static> = \(\s*\"([a-z-]+)\"",
-]
+# the table of all kinds: a name and its code in files
+KIND = re.compile(r'^    [A-Z]\w+ "([a-z0-9-]+)",$', re.MULTILINE)
 
 
 def kinds():
-    """The kinds of warnings in the sources."""
-    of_solver = next(text for text in TEXTS if "pub mod kind {" in text).split("pub mod kind {")[1].split("\n}")[0]
-    constants = set(re.findall(r'pub const [A-Z0-9_]+: &str = "([a-z0-9-]+)";', of_solver))
-    others = {kind for pattern in OTHER_KINDS for text in TEXTS for kind in re.findall(pattern, text)}
-    assert len(constants) > 20 and len(others) == 3, (constants, others)
-    return constants | others
+    """The kinds of warnings in the table of the sources."""
+    found = set(KIND.findall((ROOT / "crates/ppum/src/dataset/warning.rs").read_text()))
+    assert len(found) > 20, found
+    return found
 
 
 def literals():

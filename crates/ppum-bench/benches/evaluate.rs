@@ -11,10 +11,10 @@
 use ppum::crack::{CrackEnd, Side, TipPoint};
 use ppum::dataset::Dataset;
 use ppum::field::{Field, LocalField};
-use ppum::formula::{Block, Formula, FormulaJets, Scope, Scratch};
+use ppum::formula::{Block, BlockScratch, Formula, FormulaJets, Scope};
 use ppum::function::{WESTERGAARD, westergaard};
 use ppum::jet::Jet;
-use ppum::real::{Job, Real, Scalar};
+use ppum::real::{LaneJob, LaneNumber, Real};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Recipe, crack};
@@ -130,12 +130,12 @@ fn nanoseconds(mut work: impl FnMut()) -> f64 {
 }
 
 /// Nanoseconds per point of the Westergaard functions with gradients: as formulas, by their kernel.
-fn formulas<T: Scalar>() -> [f64; 2] {
+fn formulas<T: LaneNumber>() -> [f64; 2] {
     let scope = Scope::polar();
     let parse = |text| Formula::parse(text, &scope).expect("a formula");
     let formulas = WESTERGAARD.map(parse);
     let jets = FormulaJets::new(&formulas.each_ref(), 1).expect("small");
-    let mut scratch = Scratch::<T>::default();
+    let mut scratch = BlockScratch::<T>::default();
     let mut block = jets.block(&mut scratch);
     let n = Block::<T>::POINTS;
     for k in 0..n {
@@ -168,7 +168,7 @@ struct Kernel<'a, T> {
     out: &'a mut [T],
 }
 
-impl<T: Scalar> Job<T> for Kernel<'_, T> {
+impl<T: LaneNumber> LaneJob<T> for Kernel<'_, T> {
     type Output = ();
 
     #[inline(always)]
@@ -176,7 +176,7 @@ impl<T: Scalar> Job<T> for Kernel<'_, T> {
         let (n, mut k) = (self.xs.len(), 0);
         while k < n {
             let (x, y) = (zero.load(&self.xs[k..]), zero.load(&self.ys[k..]));
-            let one = zero.lit(1.0);
+            let one = zero.broadcast(1.0);
             let jets = westergaard::<R, 1>(&TipPoint {
                 x,
                 y,

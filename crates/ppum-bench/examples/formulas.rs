@@ -2,7 +2,7 @@
 //!
 //!     cargo run --release -p ppum-bench --example formulas
 //!
-//! Each line is a pair of datasets or quantities that are the same but for the kernel, which the
+//! Each line is a pair of datasets or quantities that are the same except for the kernel, which the
 //! second finds no place for. Frames of all take turns, each with a view of its own; least and
 //! median are told, and the ratio of the two within the run.
 
@@ -15,7 +15,7 @@ use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::vec2;
 use ppum::weight::WeightFunction;
-use ppum_render::raster::Sample;
+use ppum_render::raster::RasterValue;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_testkit::synthetic::Recipe;
@@ -38,7 +38,7 @@ fn main() -> Result<(), Failure> {
     })
 }
 
-fn compare<T: Sample>(level: u8, kind: &str) -> Result<(), Failure> {
+fn compare<T: RasterValue>(level: u8, kind: &str) -> Result<(), Failure> {
     let scope = Scope::new(&["t"])?;
     let cubic = "if(t < 1/2, 1 - 6*t^2 + 6*t^3, 2*(1 - t)^3)";
     let weight = |weight| Recipe { weight, ..recipe(level) }.dataset();
@@ -98,7 +98,7 @@ fn by_formula(level: u8) -> Dataset {
     dataset
 }
 
-fn frames<T: Sample>(
+fn frames<T: RasterValue>(
     fields: [&Field<'_>; 2],
     quantities: &[Quantity; 2],
 ) -> Result<[Times; 2], Failure> {

@@ -9,10 +9,10 @@ use std::hint::black_box;
 use std::sync::Arc;
 
 use cpu_time::ThreadTime;
-use ppum_formula::real::Scalar;
-use ppum_formula::{Block, Formula, FormulaJets, Scope, Scratch, Table};
+use ppum_formula::real::LaneNumber;
+use ppum_formula::{Block, BlockScratch, Formula, FormulaJets, Scope, Table};
 
-/// What the library has for a formula.
+/// The library's function for a formula.
 type Library = fn(f64, f64) -> f64;
 
 /// Formulas, arguments from where to where, and what the library has for them.
@@ -47,7 +47,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let points: Vec<[f64; 2]> = (0..128)
             .map(|k| [part(k, 0.618), part(k, 0.755)].map(|t| from + t * (to - from)))
             .collect();
-        let (mut double, mut single) = (Scratch::<f64>::default(), Scratch::<f32>::default());
+        let (mut double, mut single) =
+            (BlockScratch::<f64>::default(), BlockScratch::<f32>::default());
         let (mut double, mut single) = (jets.block(&mut double), jets.block(&mut single));
         fill(&mut double, &points);
         fill(&mut single, &points);
@@ -82,7 +83,7 @@ fn part(k: usize, step: f64) -> f64 {
     (k as f64 * step).fract()
 }
 
-fn fill<T: Scalar>(block: &mut Block<'_, T>, points: &[[f64; 2]]) {
+fn fill<T: LaneNumber>(block: &mut Block<'_, T>, points: &[[f64; 2]]) {
     for input in 0..2 {
         let values = points.iter().map(|point| T::from_f64(point[input]));
         block.input(input).iter_mut().zip(values).for_each(|(to, value)| *to = value);

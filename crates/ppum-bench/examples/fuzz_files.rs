@@ -24,7 +24,7 @@ use ppum::vec2::Vec2;
 use ppum_format::Series;
 use ppum_testkit::random::Random;
 
-use damage::{Damaged, damaged};
+use damage::{DamagedFile, damaged};
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -139,7 +139,7 @@ fn work(current: &Path, files: &[PathBuf], seconds: u64, seed: u64) -> Result<()
         for _ in 0..=random.below(ROUNDS) {
             let next = damaged(&bytes, &mut |below| random.below(below));
             is_sealed |= next.is_sealed;
-            Damaged { bytes, .. } = next;
+            DamagedFile { bytes, .. } = next;
         }
         std::fs::write(current, &bytes)?;
         let is_other = |(number, step): (usize, &String)| {

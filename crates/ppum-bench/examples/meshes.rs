@@ -18,7 +18,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
-use ppum_testkit::meshes::{Elements, Polynomial, field, random_polynomial};
+use ppum_testkit::meshes::{BivariatePolynomial, MeshBuilder, field, random_polynomial};
 use ppum_testkit::random::Random;
 
 const PIXELS: [u32; 2] = [800, 800];
@@ -46,12 +46,15 @@ fn main() -> anyhow::Result<()> {
 /// Triangles over the unit square, moved inside of it by a polynomial of the degree of their maps.
 fn triangles(cells: [i32; 2], order: u8, map_degree: u8) -> Dataset {
     let mut random = Random(1);
-    let mut bent = |linear: Polynomial| {
+    let mut bent = |linear: BivariatePolynomial| {
         let p = random_polynomial(&mut random, Total, map_degree.into());
-        linear.plus(&p.times(&Polynomial::linear(0.02, 0.0, 0.0)))
+        linear.plus(&p.times(&BivariatePolynomial::linear(0.02, 0.0, 0.0)))
     };
-    let plane = [bent(Polynomial::linear(0.0, 1.0, 0.0)), bent(Polynomial::linear(0.0, 0.0, 1.0))];
-    let elements = Elements::tiles(cells, map_degree, &plane, |_, _| true);
+    let plane = [
+        bent(BivariatePolynomial::linear(0.0, 1.0, 0.0)),
+        bent(BivariatePolynomial::linear(0.0, 0.0, 1.0)),
+    ];
+    let elements = MeshBuilder::tiles(cells, map_degree, &plane, |_, _| true);
     let one = |_| (Total, order, random_polynomial(&mut random, Total, order.into()));
     let parts: Vec<_> = (0..elements.mesh.len()).map(one).collect();
     elements.dataset(vec![field("v", &parts)])

@@ -11,14 +11,14 @@ use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{
-    BarPlace, Design, Labels, Panel, PanelGrid, Theme, TickChoice, figure, panel_area, panels,
+    BarPlace, FigureStyle, Labels, Panel, PanelGrid, Theme, TickChoice, figure, panel_area, panels,
     plot_area,
 };
 use ppum_figure::overlay;
 use ppum_render::colormap::Colormap;
-use ppum_render::picture::{Picture, Style};
+use ppum_render::picture::{ColoredRaster, Style};
 use ppum_render::png;
-use ppum_render::range::Range;
+use ppum_render::range::RangeChoice;
 use ppum_render::raster::Raster;
 use ppum_render::scale::Scale;
 use ppum_render::view::View;
@@ -31,7 +31,7 @@ struct Case {
     half: Vec2,
     value: fn(Vec2) -> f64,
     title: &'static str,
-    design: Design,
+    design: FigureStyle,
     style: Style,
 }
 
@@ -47,7 +47,7 @@ fn wave(p: Vec2) -> f64 {
 
 impl Case {
     fn new(name: &'static str, half: Vec2, value: fn(Vec2) -> f64) -> Self {
-        let mut design = Design::pixels([1024, 768]);
+        let mut design = FigureStyle::pixels([1024, 768]);
         design.bar = BarPlace::fitting(half.x / half.y);
         Self { name, half, value, title: "A plate", design, style: Style::default() }
     }
@@ -61,7 +61,7 @@ impl Case {
         Self { title, ..self }
     }
 
-    fn designed(mut self, change: impl FnOnce(&mut Design)) -> Self {
+    fn designed(mut self, change: impl FnOnce(&mut FigureStyle)) -> Self {
         change(&mut self.design);
         self
     }
@@ -79,14 +79,14 @@ impl Case {
 
     /// The plate has a hole in its upper right; above the line y = −x/2 − half the width nothing
     /// is defined.
-    fn picture(&self, room: [u32; 2]) -> Done<Picture> {
+    fn picture(&self, room: [u32; 2]) -> Done<ColoredRaster> {
         let domain = self.domain();
         let view = View::hug(domain.bounds, room)?;
         let raster = Raster::from_fn(view.pixels, |i, j| {
             let p = view.offset(i, j);
             if domain.contains(view.center + p) { (self.value)(p) } else { f64::NAN }
         });
-        let mut picture = Picture::bare(&raster, &view, &self.style)?;
+        let mut picture = ColoredRaster::bare(&raster, &view, &self.style)?;
         picture.mark_undefined(&raster.undefined(&domain, &view), None);
         Ok(picture)
     }
@@ -102,7 +102,7 @@ impl Case {
         [Crack { points, ends: [CrackEnd::Mouth, CrackEnd::Tip] }]
     }
 
-    fn panel<'a>(&self, picture: &'a Picture, cracks: &'a [Crack]) -> Panel<'a> {
+    fn panel<'a>(&self, picture: &'a ColoredRaster, cracks: &'a [Crack]) -> Panel<'a> {
         let mut layers =
             overlay::rims(&picture.view, self.design.scale(), &self.domain().holes, [None; 2]);
         layers.extend(overlay::cracks(&picture.view, self.design.scale(), cracks));
@@ -119,28 +119,29 @@ fn cases() -> Done<Vec<Case>> {
     let square = vec2(1.0, 1.0);
     let long = "A plate under tension with an edge crack and a hole, whose title is much longer than the figure is \
                 wide, as titles of plates that were made by programs often are, σ_{xy} and all";
-    let range = |mut case: Case, range: Range| {
+    let range = |mut case: Case, range: RangeChoice| {
         case.style.range = range;
         case
     };
     let mut log = Case::new("log", square, |p| p.length().powf(-1.5));
     log.style.scale = Scale::Log;
-    let mut contrast = range(Case::new("contrast", square, tip), Range::Fixed(-1.0, 1.0));
+    let mut contrast = range(Case::new("contrast", square, tip), RangeChoice::Fixed(-1.0, 1.0));
     contrast.style.colormap = Colormap::named("vik")?.contrasting();
-    let mut bands = range(Case::new("bands", square, wave), Range::Fixed(-1.0, 1.0)).map("roma")?;
+    let mut bands =
+        range(Case::new("bands", square, wave), RangeChoice::Fixed(-1.0, 1.0)).map("roma")?;
     bands.style.colormap = bands.style.colormap.banded(8);
     let undefined = |p: Vec2| if p.y + 0.5 * p.x > 0.3 { f64::NAN } else { p.x };
     let mut paper = Case::new("paper", square, wave).map("batlow")?;
-    paper.design = Design::inches([6.5, 4.5], 300.0);
+    paper.design = FigureStyle::inches([6.5, 4.5], 300.0);
     let mut column = Case::new("column", square, tip).map("coolwarm")?;
-    column.design = Design::inches([3.4, 2.8], 300.0);
+    column.design = FigureStyle::inches([3.4, 2.8], 300.0);
     column.design.font_size = 8.0;
     let mut huge = Case::new("huge", vec2(1.2, 1.0), tip);
-    huge.design = Design::pixels([8000, 6000]);
+    huge.design = FigureStyle::pixels([8000, 6000]);
     let mut small = Case::new("small", square, tip);
-    small.design = Design::pixels([300, 200]);
+    small.design = FigureStyle::pixels([300, 200]);
     let angle: fn(Vec2) -> f64 = |p| 0.5 * p.y.atan2(p.x);
-    let angle = range(Case::new("angle", square, angle), Range::Fixed(-FRAC_PI_2, FRAC_PI_2));
+    let angle = range(Case::new("angle", square, angle), RangeChoice::Fixed(-FRAC_PI_2, FRAC_PI_2));
     let list = TickChoice::At(vec![-2.0, 0.0, 0.5, 3.0]);
     Ok(vec![
         Case::new("long", vec2(25.0, 0.5), |p| (0.5 * p.x).sin() + p.y).titled(long),
@@ -156,11 +157,11 @@ fn cases() -> Done<Vec<Case>> {
         Case::new("title", square, tip)
             .titled("板の応力 – Напряжение – تنش – σ_{yy} in der Platte"),
         Case::new("long-title", square, tip).titled(long),
-        range(Case::new("dark", square, tip), Range::Fixed(-1.0, 2.0))
+        range(Case::new("dark", square, tip), RangeChoice::Fixed(-1.0, 2.0))
             .designed(|design| design.theme = Theme::Dark),
         Case::new("transparent", square, tip).designed(|design| design.transparent = true),
         Case::new("no-bar", square, tip).designed(|design| design.bar = BarPlace::None),
-        range(Case::new("ticks", square, tip), Range::Fixed(-2.0, 3.0)).designed(|design| {
+        range(Case::new("ticks", square, tip), RangeChoice::Fixed(-2.0, 3.0)).designed(|design| {
             design.bar_ticks = list;
             design.x_ticks = TickChoice::Count(2);
             design.y_ticks = TickChoice::At(vec![]);
@@ -188,9 +189,9 @@ fn four(shared_bar: bool, size: [u32; 2], bar: BarPlace) -> Done<Canvas> {
         "(c) u_{y}",
         "",
     ];
-    let design = Design { bar, ..Design::pixels(size) };
+    let design = FigureStyle { bar, ..FigureStyle::pixels(size) };
     let room = panel_area("Four panels", &captions, grid, &design)?;
-    let range = if shared_bar { Range::Fixed(-1.0, 1.0) } else { Range::Auto };
+    let range = if shared_bar { RangeChoice::Fixed(-1.0, 1.0) } else { RangeChoice::Auto };
     let cases = values.into_iter().zip(captions).map(|(value, caption)| {
         let mut case = Case::new("panel", vec2(1.3, 1.0), value).titled(caption);
         case.style.range = range;

@@ -9,7 +9,7 @@ use std::time::Instant;
 
 use cpu_time::ProcessTime;
 use ppum::dataset::{Dataset, Step};
-use ppum_bench::synthetic::Recipe;
+use ppum_bench::synthetic::CrackRecipe;
 use ppum_format::{Series, SeriesWriter};
 
 /// Repetitions of a measurement.
@@ -37,7 +37,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 fn opening(path: &Path, level: u8) -> Result<(), Box<dyn std::error::Error>> {
     if !path.exists() {
         let start = Instant::now();
-        ppum_format::write(&Recipe::new(level, level).dataset()?, path)?;
+        ppum_format::write(&CrackRecipe::new(level, level).dataset()?, path)?;
         println!("writing {}: {:.0} ms", path.display(), milliseconds(start));
     }
     let dataset = ppum_format::read(path)?;
@@ -63,7 +63,7 @@ fn opening(path: &Path, level: u8) -> Result<(), Box<dyn std::error::Error>> {
 
 /// A series of steps of 256 patches.
 fn appending(path: &Path, steps: usize) -> Result<(), Box<dyn std::error::Error>> {
-    let dataset = Recipe::new(4, 4).dataset()?;
+    let dataset = CrackRecipe::new(4, 4).dataset()?;
     let step = &dataset.steps[0];
     let mut writer = SeriesWriter::begin(path, &dataset)?;
     for _ in 1..steps {

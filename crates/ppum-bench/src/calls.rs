@@ -1,9 +1,9 @@
 //! Arithmetic on vectors outside of kernels, read from the object code of the program that runs.
 //!
 //! Kernels are entered with an instruction set by functions of `fearless_simd`, into which all of
-//! their arithmetic is inlined. What is not inlined is compiled for the set that every processor
-//! has: each sum and product of vectors in it is a call of a function of `fearless_simd`. So the
-//! functions that make such calls are those that have left their set.
+//! their arithmetic is inlined. Code that is not inlined is compiled for the set that every
+//! processor has: each sum and product of vectors in it is a call of a function of `fearless_simd`.
+//! So the functions that make such calls are those that have left their set.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,12 +12,12 @@ use iced_x86::{Decoder, DecoderOptions, Mnemonic, OpKind};
 use object::{File, Object as _, ObjectSection as _, ObjectSymbol as _, SectionKind};
 use serde::Serialize;
 
-use crate::table::Table;
+use crate::table::ReportTable;
 
 /// Instruction sets, and what symbols call them.
 const SETS: [(&str, &str); 2] = [("AVX2", "avx2"), ("AVX-512", "avx512")];
 
-/// What enters a set, and an operation on vectors.
+/// The function that enters a set, and an operation on vectors.
 const ENTRANCE: &str = "vectorize_";
 const OPERATION: &str = "__fearless_simd_kernel";
 
@@ -48,7 +48,7 @@ impl Calls {
         Ok(SETS.iter().filter_map(|&(set, symbol)| code.calls(set, symbol)).collect())
     }
 
-    /// What is wrong, beside the control, which is meant to be.
+    /// Lists the faults, beside the control, which is meant to have some.
     pub(crate) fn mistakes(&self, control: &str) -> Vec<String> {
         let Self { set, outside, .. } = self;
         let (controls, others): (Vec<_>, Vec<_>) =
@@ -64,13 +64,13 @@ impl Calls {
 }
 
 /// The calls of all sets as a table.
-pub(crate) fn table(calls: &[Calls]) -> Table {
+pub(crate) fn table(calls: &[Calls]) -> ReportTable {
     let row = |calls: &Calls| {
         let numbers = [calls.kernels, calls.outside.len(), calls.outside.values().sum()];
         [calls.set.to_owned()].into_iter().chain(numbers.map(|n| n.to_string())).collect()
     };
     let head = ["instructions", "kernels", "functions outside", "their calls"];
-    Table {
+    ReportTable {
         title: "Arithmetic on vectors outside of kernels".to_owned(),
         words: 1,
         head: head.map(str::to_owned).into(),

@@ -4,14 +4,16 @@ use std::hint::black_box;
 
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum_gpu::{AdapterChoice, AdapterKind, Colors, Method, Program, Renderer, Shading, Values};
+use ppum_gpu::{
+    AdapterChoice, AdapterKind, Colors, Method, Program, Renderer, TransferFunction, Values,
+};
 use ppum_render::picture::Style;
 use ppum_render::raster::Raster;
 use ppum_render::view::View;
 use serde::Serialize;
 
 /// A device.
-pub(crate) struct Cards(Renderer);
+pub(crate) struct BenchDevice(Renderer);
 
 /// A field on a device.
 pub(crate) struct CardPrograms<'f> {
@@ -21,20 +23,20 @@ pub(crate) struct CardPrograms<'f> {
 
 /// The graphics adapter.
 #[derive(Debug, Serialize)]
-pub(crate) struct Adapter {
+pub(crate) struct BenchAdapter {
     pub(crate) name: String,
     pub(crate) kind: &'static str,
 }
 
-impl Cards {
+impl BenchDevice {
     /// Any device, or the reason why there is none.
     pub(crate) fn open() -> Result<Self, String> {
         Renderer::open(AdapterChoice::Any).map(Self).map_err(|error| error.to_string())
     }
 
-    pub(crate) fn adapter(&self) -> Adapter {
+    pub(crate) fn adapter(&self) -> BenchAdapter {
         let info = self.0.gpu().info();
-        Adapter { name: info.name.clone(), kind: info.kind.name() }
+        BenchAdapter { name: info.name.clone(), kind: info.kind.name() }
     }
 
     /// Puts a field on the device, and waits.
@@ -52,7 +54,7 @@ impl Cards {
 impl<'f> CardPrograms<'f> {
     /// Uploads a field and compiles images of a quantity; the range of the colours is fixed.
     pub(crate) fn new(
-        Cards(renderer): &mut Cards,
+        BenchDevice(renderer): &mut BenchDevice,
         field: &'f Field<'f>,
         (quantity, look): (&Quantity, &Style),
         may_splat: bool,
@@ -62,7 +64,7 @@ impl<'f> CardPrograms<'f> {
         let Style { colormap, scale, range, undefined, .. } = look.clone();
         let nothing = Raster::<f32>::new([0, 0], Vec::new());
         let normalization = range.normalization(scale, colormap.diverging, &nothing)?;
-        let shading = Shading { normalization, colormap, undefined };
+        let shading = TransferFunction { normalization, colormap, undefined };
         let output = Colors { quantity: quantity.clone(), shading };
         let mut compile = |method| renderer.compile(&scene, output.clone(), method);
         let gather = compile(Method::Gather)?;
@@ -73,7 +75,7 @@ impl<'f> CardPrograms<'f> {
     /// Draws and waits, without reading back; false if it cannot draw by this method.
     pub(crate) fn draw(
         &mut self,
-        Cards(renderer): &mut Cards,
+        BenchDevice(renderer): &mut BenchDevice,
         method: Method,
         view: &View,
     ) -> anyhow::Result<bool> {
@@ -90,7 +92,7 @@ impl<'f> CardPrograms<'f> {
     /// The values of a quantity, read back; none if it cannot draw by this method.
     pub(crate) fn values(
         &self,
-        Cards(renderer): &mut Cards,
+        BenchDevice(renderer): &mut BenchDevice,
         method: Method,
         (view, quantity): (&View, &Quantity),
     ) -> anyhow::Result<Option<Raster<f32>>> {

@@ -9,30 +9,31 @@ use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::vec2;
 use ppum_gpu::Method;
-use ppum_render::picture::{Picture, Style};
-use ppum_render::range::Range;
-use ppum_render::raster::{Raster, Sample};
+use ppum_render::picture::{ColoredRaster, Style};
+use ppum_render::range::RangeChoice;
+use ppum_render::raster::{Raster, RasterValue};
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 use serde::Serialize;
 
-use crate::cards::{CardPrograms, Cards};
+use crate::cards::{BenchDevice, CardPrograms};
 
-/// What draws.
+/// The device that draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Way {
+pub(crate) enum DrawingDevice {
     Splat,
     Gather,
     CpuF64,
     CpuF32,
 }
 
-pub(crate) const WAYS: [Way; 4] = [Way::Splat, Way::Gather, Way::CpuF64, Way::CpuF32];
+pub(crate) const WAYS: [DrawingDevice; 4] =
+    [DrawingDevice::Splat, DrawingDevice::Gather, DrawingDevice::CpuF64, DrawingDevice::CpuF32];
 
 /// Most patches that are splatted: the paper's.
 const MOST_SPLATTED: usize = 16384;
 
-impl Way {
+impl DrawingDevice {
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Splat => "splat",
@@ -59,11 +60,11 @@ impl Way {
 /// Colours of von Mises' stress; that far from the crack is of size one, and grows with the root of
 /// the zoom towards a tip.
 pub(crate) fn style(zoom: f64) -> Style {
-    Style { range: Range::Fixed(0.0, 4.0 * zoom.sqrt()), ..Style::default() }
+    Style { range: RangeChoice::Fixed(0.0, 4.0 * zoom.sqrt()), ..Style::default() }
 }
 
-/// A view but for a part of a cell, another one each time: offsets by the golden ratio and its like
-/// are commensurate with no cells.
+/// A view except for a part of a cell, another one each time: offsets by the golden ratio and its
+/// like are commensurate with no cells.
 pub(crate) fn moved(View { center, width, pixels }: View, frame: u32) -> anyhow::Result<View> {
     let part = |ratio: f64| 0.003 * width * ((f64::from(frame) * ratio).fract() - 0.5);
     let by = vec2(part(0.618_033_988_75), part(0.754_877_666_25));
@@ -84,7 +85,7 @@ impl<'d> QuantityRenderer<'d> {
     pub(crate) fn new(
         field: &'d Field<'d>,
         (quantity, style): (Quantity, Style),
-        cards: Option<&mut Cards>,
+        cards: Option<&mut BenchDevice>,
         may_splat: bool,
     ) -> anyhow::Result<Self> {
         let may_splat = may_splat && field.step.partition.len() <= MOST_SPLATTED;
@@ -96,13 +97,13 @@ impl<'d> QuantityRenderer<'d> {
     /// Draws and colours; false if this way is not gone.
     pub(crate) fn draw(
         &mut self,
-        way: Way,
+        way: DrawingDevice,
         view: &View,
-        cards: Option<&mut Cards>,
+        cards: Option<&mut BenchDevice>,
     ) -> anyhow::Result<bool> {
         match way {
-            Way::CpuF64 => self.on_cpu::<f64>(view)?,
-            Way::CpuF32 => self.on_cpu::<f32>(view)?,
+            DrawingDevice::CpuF64 => self.on_cpu::<f64>(view)?,
+            DrawingDevice::CpuF32 => self.on_cpu::<f32>(view)?,
             _ => {
                 let all = way.method().zip(self.card.as_mut()).zip(cards);
                 let Some(((method, card), cards)) = all else { return Ok(false) };
@@ -112,29 +113,37 @@ impl<'d> QuantityRenderer<'d> {
         Ok(true)
     }
 
-    fn on_cpu<T: Sample>(&self, view: &View) -> anyhow::Result<()> {
+    fn on_cpu<T: RasterValue>(&self, view: &View) -> anyhow::Result<()> {
         let raster = render::<T>(self.field, view, &self.quantity, unwatched())?;
         self.color(&raster, view)
     }
 
     /// The colours alone.
-    pub(crate) fn color<T: Sample>(&self, raster: &Raster<T>, view: &View) -> anyhow::Result<()> {
-        black_box(Picture::bare(raster, view, &self.style)?);
+    pub(crate) fn color<T: RasterValue>(
+        &self,
+        raster: &Raster<T>,
+        view: &View,
+    ) -> anyhow::Result<()> {
+        black_box(ColoredRaster::bare(raster, view, &self.style)?);
         Ok(())
     }
 
     /// The values, if this way is gone.
     pub(crate) fn values(
         &self,
-        way: Way,
+        way: DrawingDevice,
         view: &View,
-        cards: Option<&mut Cards>,
+        cards: Option<&mut BenchDevice>,
     ) -> anyhow::Result<Option<Vec<f64>>> {
         let wide = |values: Vec<f32>| values.into_iter().map(f64::from).collect();
         let (field, quantity) = (self.field, &self.quantity);
         Ok(match way {
-            Way::CpuF64 => Some(render::<f64>(field, view, quantity, unwatched())?.values),
-            Way::CpuF32 => Some(wide(render::<f32>(field, view, quantity, unwatched())?.values)),
+            DrawingDevice::CpuF64 => {
+                Some(render::<f64>(field, view, quantity, unwatched())?.values)
+            }
+            DrawingDevice::CpuF32 => {
+                Some(wide(render::<f32>(field, view, quantity, unwatched())?.values))
+            }
             _ => {
                 let all = way.method().zip(self.card.as_ref()).zip(cards);
                 let Some(((method, card), cards)) = all else { return Ok(None) };
@@ -150,7 +159,7 @@ pub(crate) struct Times(Vec<[f64; 2]>);
 
 /// Milliseconds a frame.
 #[derive(Clone, Copy, Debug, Serialize)]
-pub(crate) struct Summary {
+pub(crate) struct FrameTimes {
     pub(crate) median: f64,
     pub(crate) least: f64,
 }
@@ -173,19 +182,19 @@ impl Times {
         self.0.is_empty()
     }
 
-    pub(crate) fn wall(&self) -> Summary {
+    pub(crate) fn wall(&self) -> FrameTimes {
         self.summary(0)
     }
 
-    /// Of all threads together.
-    pub(crate) fn core(&self) -> Summary {
+    /// Sums over all threads.
+    pub(crate) fn core(&self) -> FrameTimes {
         self.summary(1)
     }
 
-    fn summary(&self, which: usize) -> Summary {
+    fn summary(&self, which: usize) -> FrameTimes {
         let mut ms: Vec<_> = self.0.iter().map(|pair| 1e3 * pair[which]).collect();
         ms.sort_by(f64::total_cmp);
         let (lower, upper) = (ms[(ms.len() - 1) / 2], ms[ms.len() / 2]);
-        Summary { median: 0.5 * (lower + upper), least: ms[0] }
+        FrameTimes { median: 0.5 * (lower + upper), least: ms[0] }
     }
 }

@@ -5,8 +5,8 @@
 //! processor of the architecture has. No value changes, but what runs there takes some 27 times as
 //! long. The narrowest vectors need none of the wider instructions and stay as fast as they are, so
 //! the ratio of both falls from above 1 to far below it. It is the least processor time of some
-//! repetitions that counts, of both in turns: a busy machine lengthens both. What kernels call is
-//! counted in the object code besides, where nothing depends on the machine.
+//! repetitions that counts, of both in turns: a busy machine lengthens both. The calls that kernels
+//! make are also counted in the object code, where nothing depends on the machine.
 
 use std::hint::black_box;
 
@@ -15,22 +15,22 @@ use cpu_time::ThreadTime;
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum::formula::{Block, Formula, FormulaJets, Scope, Scratch};
+use ppum::formula::{Block, BlockScratch, Formula, FormulaJets, Scope};
 use ppum::function::WESTERGAARD;
 use ppum::jet::Jet;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
-use ppum::real::{Job, Real, Scalar, instructions, narrowed};
-use ppum_render::picture::Picture;
-use ppum_render::raster::{Raster, Sample};
+use ppum::real::{LaneJob, LaneNumber, Real, instructions, narrowed};
+use ppum_render::picture::ColoredRaster;
+use ppum_render::raster::{Raster, RasterValue};
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 use serde::Serialize;
 
 use crate::calls::{Calls, table};
 use crate::frames::{moved, style};
-use crate::synthetic::{DOMAIN, Recipe};
-use crate::table::Table;
+use crate::synthetic::{CrackRecipe, DOMAIN};
+use crate::table::ReportTable;
 
 /// Repetitions, of which the fastest counts: enough that each has its quiet moment.
 const REPETITIONS: usize = 15;
@@ -49,17 +49,17 @@ const FLOOR_OF_PARTS: f64 = 0.8;
 
 /// The report of `ppum-bench guard`.
 #[derive(Debug, Serialize)]
-pub struct Report {
+pub struct GuardReport {
     /// Instruction sets.
     wide: &'static str,
     narrow: &'static str,
-    rows: Vec<Row>,
+    rows: Vec<GuardRow>,
     calls: Vec<Calls>,
     holds: bool,
 }
 
 #[derive(Debug, Serialize)]
-struct Row {
+struct GuardRow {
     kernels: String,
     wide_ms: f64,
     narrow_ms: f64,
@@ -70,7 +70,7 @@ struct Row {
     holds: bool,
 }
 
-impl Report {
+impl GuardReport {
     /// Measures; `quick` repeats less.
     ///
     /// # Errors
@@ -90,7 +90,7 @@ impl Report {
     }
 }
 
-impl crate::Report for Report {
+impl crate::Report for GuardReport {
     fn words(&self) -> String {
         let Self { wide, narrow, .. } = self;
         if wide == narrow {
@@ -101,9 +101,9 @@ impl crate::Report for Report {
         )
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<ReportTable> {
         let head = ["kernels", self.wide, self.narrow, "ratio", "floor", ""];
-        let line = |row: &Row| {
+        let line = |row: &GuardRow| {
             let verdict = match (row.holds, row.is_control) {
                 (true, true) => "caught",
                 (false, true) => "missed!",
@@ -114,7 +114,7 @@ impl crate::Report for Report {
             let [ratio, floor] = [row.ratio, row.floor].map(|ratio| format!("{ratio:.2}"));
             vec![row.kernels.clone(), wide, narrow, ratio, floor, verdict.to_owned()]
         };
-        let gains = Table {
+        let gains = ReportTable {
             title: "What wide vectors gain".to_owned(),
             words: 1,
             head: head.map(str::to_owned).into(),
@@ -141,31 +141,31 @@ impl crate::Report for Report {
     }
 }
 
-/// What is wrong with the calls of kernels.
+/// Lists the faults in the calls of kernels.
 fn mistakes(calls: &[Calls]) -> Vec<String> {
     calls.iter().flat_map(|calls| calls.mistakes(CONTROL)).collect()
 }
 
 struct Bench {
     repetitions: usize,
-    rows: Vec<Row>,
+    rows: Vec<GuardRow>,
 }
 
 impl Bench {
-    fn all(mut self) -> anyhow::Result<Vec<Row>> {
-        let coarse = Recipe::new(2, 2);
+    fn all(mut self) -> anyhow::Result<Vec<GuardRow>> {
+        let coarse = CrackRecipe::new(2, 2);
         let covers = [
             ("large cells", coarse),
-            ("small cells", Recipe::new(7, 7)),
-            ("graded cells", Recipe::new(3, 9)),
-            ("all enriched", Recipe { enriched: 1.0, ..coarse }),
-            ("weight by its formula", Recipe { weight: Some("1 - t"), ..coarse }),
+            ("small cells", CrackRecipe::new(7, 7)),
+            ("graded cells", CrackRecipe::new(3, 9)),
+            ("all enriched", CrackRecipe { enriched: 1.0, ..coarse }),
+            ("weight by its formula", CrackRecipe { weight: Some("1 - t"), ..coarse }),
         ];
         for (name, recipe) in covers {
             self.frames((name, FLOOR), &recipe.dataset()?, "von-mises")?;
         }
         let dataset = coarse.dataset()?;
-        let grains = Recipe::new(8, 8).dataset()?;
+        let grains = CrackRecipe::new(8, 8).dataset()?;
         self.frames(("cells of a pixel", FLOOR_OF_PARTS), &grains, "von-mises")?;
         let formula = "sqrt(sxx^2 - sxx*syy + syy^2 + 3*sxy^2)";
         self.frames(("quantity by its formula", FLOOR_OF_PARTS), &dataset, formula)?;
@@ -196,14 +196,15 @@ impl Bench {
 
     /// The interpreter of formulas on blocks: arithmetic, and functions of the
     /// mathematical library.
-    fn formulas<T: Scalar>(&mut self, numbers: &str) -> anyhow::Result<()> {
+    fn formulas<T: LaneNumber>(&mut self, numbers: &str) -> anyhow::Result<()> {
         let arithmetic = WESTERGAARD[2];
         let elementary = "exp(-x)*sin(3*y) + log(1 + x^2)";
         for (name, text, floor) in
             [("arithmetic", arithmetic, FLOOR), ("functions", elementary, FLOOR_OF_PARTS)]
         {
             let formula = Formula::parse(text, &Scope::polar())?;
-            let (jets, mut scratch) = (FormulaJets::new(&[&formula], 1)?, Scratch::<T>::default());
+            let (jets, mut scratch) =
+                (FormulaJets::new(&[&formula], 1)?, BlockScratch::<T>::default());
             let mut block = jets.block(&mut scratch);
             for input in 0..6 {
                 let value = |k: usize| 0.1 + (input + k) as f64 / Block::<T>::POINTS as f64;
@@ -217,10 +218,10 @@ impl Bench {
         Ok(())
     }
 
-    fn colors<T: Sample>(&mut self, name: &str, dataset: &Dataset) -> anyhow::Result<()> {
+    fn colors<T: RasterValue>(&mut self, name: &str, dataset: &Dataset) -> anyhow::Result<()> {
         let (field, view, style) = (Field::new(dataset, 0)?, whole()?, style(1.0));
         let raster: Raster<T> = render(&field, &view, &Quantity::VonMises, unwatched())?;
-        let paint = || drop(black_box(Picture::bare(&raster, &view, &style)));
+        let paint = || drop(black_box(ColoredRaster::bare(&raster, &view, &style)));
         self.add(name.to_owned(), FLOOR_OF_PARTS, paint);
         Ok(())
     }
@@ -244,11 +245,11 @@ impl Bench {
     fn jobs(&mut self) {
         let mut numbers: Vec<f64> = (0..4096).map(|k| f64::from(k) / 4096.0).collect();
         self.add("a job that is inlined".to_owned(), FLOOR_OF_PARTS, || {
-            f64::dispatch(Inlined(&mut numbers))
+            f64::dispatch(InlineBenchmark(&mut numbers))
         });
         let gained = self.rows.last().map_or(0.0, |row| row.ratio);
         self.add("control: a job that is not".to_owned(), FLOOR_OF_PARTS.max(0.5 * gained), || {
-            f64::dispatch(Called(&mut numbers));
+            f64::dispatch(CallBenchmark(&mut numbers));
         });
         if let Some(row) = self.rows.last_mut() {
             row.is_control = true;
@@ -273,7 +274,15 @@ impl Bench {
         let [wide_ms, narrow_ms] = least;
         let ratio = narrow_ms / wide_ms;
         let holds = ratio >= floor;
-        self.rows.push(Row { kernels, wide_ms, narrow_ms, ratio, floor, is_control: false, holds });
+        self.rows.push(GuardRow {
+            kernels,
+            wide_ms,
+            narrow_ms,
+            ratio,
+            floor,
+            is_control: false,
+            holds,
+        });
     }
 }
 
@@ -286,7 +295,7 @@ fn whole() -> anyhow::Result<View> {
 fn arithmetic<R: Real>(mut x: R) -> R {
     let mut k = 0;
     while k < 64 {
-        x = (x * x.lit(3.9)) * (x.lit(1.0) - x);
+        x = (x * x.broadcast(3.9)) * (x.broadcast(1.0) - x);
         k += 1;
     }
     x
@@ -295,15 +304,15 @@ fn arithmetic<R: Real>(mut x: R) -> R {
 /// The symbol of [`called`].
 const CONTROL: &str = "guard6called";
 
-/// What must not be in a kernel.
+/// A call that must not be in a kernel.
 #[inline(never)]
 fn called<R: Real>(x: R) -> R {
     arithmetic(x)
 }
 
-struct Inlined<'n>(&'n mut [f64]);
+struct InlineBenchmark<'n>(&'n mut [f64]);
 
-impl Job<f64> for Inlined<'_> {
+impl LaneJob<f64> for InlineBenchmark<'_> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real<Scalar = f64>>(self, zero: R) {
@@ -313,9 +322,9 @@ impl Job<f64> for Inlined<'_> {
     }
 }
 
-struct Called<'n>(&'n mut [f64]);
+struct CallBenchmark<'n>(&'n mut [f64]);
 
-impl Job<f64> for Called<'_> {
+impl LaneJob<f64> for CallBenchmark<'_> {
     type Output = ();
     #[inline(always)]
     fn run<R: Real<Scalar = f64>>(self, zero: R) {

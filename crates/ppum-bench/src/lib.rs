@@ -18,6 +18,7 @@
 //! - `fuzz_files` searches for damaged files that the reader of datasets does not survive.
 //! - `fuzz_formulas` searches for texts that the parser or an evaluator of formulas does not
 //!   survive.
+//! - `meshes` compares the time of frames of meshes with the time of frames of covers.
 //! - `odd_figures` draws figures with unusual layouts for inspection by eye.
 //! - `opening` measures opening datasets, reading their steps and appending steps.
 //! - `solvers` compares the results and the time of the multilevel solver with those of the direct
@@ -39,15 +40,15 @@ pub mod synthetic;
 pub mod table;
 pub mod window;
 
-use table::Table;
+use table::ReportTable;
 
 /// A report: words and tables for people, JSON for programs.
 pub trait Report: serde::Serialize {
-    /// What was measured, and how.
+    /// Describes the measurement.
     fn words(&self) -> String;
 
     /// The measurements.
-    fn tables(&self) -> Vec<Table>;
+    fn tables(&self) -> Vec<ReportTable>;
 
     /// An error if the measurements mean that something is wrong.
     ///

@@ -2,45 +2,45 @@
 
 use std::path::Path;
 
-use ppum::real::{Scalar, instructions};
+use ppum::real::{LaneNumber, instructions};
 use serde::Serialize;
 
-use crate::cards::{Adapter, Cards};
+use crate::cards::{BenchAdapter, BenchDevice};
 
-/// What there is, and what of it is used.
+/// The machine's resources, and those that are used.
 #[derive(Debug, Serialize)]
 pub(crate) struct Machine {
     processor: String,
     /// Instruction set of the vectors, and how many numbers they hold.
     instructions: &'static str,
-    lanes: Lanes,
+    lanes: LaneCounts,
     pub(crate) threads: usize,
     /// Programs that wanted to run in the last minute, on Linux: more than the cores, and times
     /// are long.
     load: Option<f64>,
-    adapter: Option<Adapter>,
+    adapter: Option<BenchAdapter>,
     /// The reason why there is none.
     missing: Option<String>,
 }
 
 #[derive(Debug, Serialize)]
-struct Lanes {
+struct LaneCounts {
     f64: usize,
     f32: usize,
 }
 
 impl Machine {
-    pub(crate) fn new(threads: usize, cards: Result<&Cards, &String>) -> Self {
+    pub(crate) fn new(threads: usize, cards: Result<&BenchDevice, &String>) -> Self {
         let processor = line("/proc/cpuinfo", "model name").unwrap_or_default();
         let processor = processor.trim_start_matches([' ', '\t', ':']).trim();
         let load = line("/proc/loadavg", "").unwrap_or_default();
         Self {
             processor: if processor.is_empty() { std::env::consts::ARCH } else { processor }.into(),
             instructions: instructions(),
-            lanes: Lanes { f64: f64::VECTOR, f32: f32::VECTOR },
+            lanes: LaneCounts { f64: f64::VECTOR, f32: f32::VECTOR },
             threads,
             load: load.split(' ').next().and_then(|load| load.parse().ok()),
-            adapter: cards.ok().map(Cards::adapter),
+            adapter: cards.ok().map(BenchDevice::adapter),
             missing: cards.err().cloned(),
         }
     }
@@ -50,7 +50,7 @@ impl Machine {
         let Self { processor, instructions, lanes, threads, load, adapter, missing } = self;
         let load = load.map_or(String::new(), |load| format!(", load {load:.1} before"));
         let devices = match (adapter, missing) {
-            (Some(Adapter { name, kind }), _) => format!("splat and gather by {name}, {kind}"),
+            (Some(BenchAdapter { name, kind }), _) => format!("splat and gather by {name}, {kind}"),
             (None, missing) => {
                 format!("splat and gather are missing: {}", missing.as_deref().unwrap_or_default())
             }

@@ -17,9 +17,9 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 /// Measures the solver, the renderers and the window on this machine.
 #[derive(Debug, Parser)]
 #[command(name = "ppum-bench", max_term_width = 100)]
-struct Cli {
+struct BenchCli {
     #[command(subcommand)]
-    what: Measurement,
+    what: BenchCommand,
     /// Frames that are drawn of each kind
     #[arg(long, global = true, value_name = "N", default_value_t = 9)]
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1000))]
@@ -36,10 +36,10 @@ struct Cli {
 }
 
 #[derive(Debug, Subcommand)]
-enum Measurement {
+enum BenchCommand {
     /// The gain of wide vectors, kernel by kernel; fails if a kernel has lost them
     Guard {
-        /// Page in Markdown whose part of this name is written anew
+        /// Page in Markdown whose part of this name is written again
         #[arg(long)]
         page: Option<PathBuf>,
     },
@@ -48,7 +48,7 @@ enum Measurement {
         /// Groups of scenes alone, separated by commas
         #[arg(long, value_enum, value_delimiter = ',')]
         scenes: Vec<SceneGroup>,
-        /// Page in Markdown whose part of this name is written anew
+        /// Page in Markdown whose part of this name is written again
         #[arg(long, conflicts_with = "scenes")]
         page: Option<PathBuf>,
         /// Chart of the times against the patches: .svg, .pdf or .png
@@ -87,25 +87,25 @@ enum Measurement {
 }
 
 fn main() -> anyhow::Result<()> {
-    let cli = Cli::parse();
+    let cli = BenchCli::parse();
     if let Some(threads) = cli.threads {
         rayon::ThreadPoolBuilder::new().num_threads(threads.get()).build_global()?;
     }
     let (quick, frames) = (cli.quick, cli.frames);
     match &cli.what {
-        Measurement::Guard { page } => {
-            cli.on_page(page.as_ref(), "ppum-bench guard", || guard::Report::new(quick))
+        BenchCommand::Guard { page } => {
+            cli.on_page(page.as_ref(), "ppum-bench guard", || guard::GuardReport::new(quick))
         }
-        Measurement::Paper { scenes, page, output } => {
+        BenchCommand::Paper { scenes, page, output } => {
             check(output.as_ref())?;
             cli.on_page(page.as_ref(), "ppum-bench paper", || {
-                let report = paper::Report::new(quick, frames, scenes)?;
+                let report = paper::PaperReport::new(quick, frames, scenes)?;
                 output.as_ref().map_or(Ok(()), |path| report.chart(path))?;
                 Ok(report)
             })
         }
-        Measurement::Frames { file } => cli.tell(&Single::new(file, quick, frames)?),
-        Measurement::Solver { problem, first, level, order, solver, output } => {
+        BenchCommand::Frames { file } => cli.tell(&Single::new(file, quick, frames)?),
+        BenchCommand::Solver { problem, first, level, order, solver, output } => {
             check(output.as_ref())?;
             let last = if quick { *first } else { *level };
             ensure!(output.is_none() || first < &last, "-o draws times over two levels or more");
@@ -114,7 +114,7 @@ fn main() -> anyhow::Result<()> {
             output.as_ref().map_or(Ok(()), |path| study.chart(path))?;
             cli.tell(&study)
         }
-        Measurement::Window => cli.tell(&window::Report::new(quick, frames)?),
+        BenchCommand::Window => cli.tell(&window::WindowReport::new(quick, frames)?),
     }
 }
 
@@ -123,7 +123,7 @@ fn check(output: Option<&PathBuf>) -> anyhow::Result<()> {
     Ok(output.map_or(Ok(()), |path| ppum_file::check(path))?)
 }
 
-impl Cli {
+impl BenchCli {
     /// Measures, and writes the tables to a page too if there is one.
     fn on_page<R: Report>(
         &self,

@@ -11,7 +11,7 @@ use std::path::Path;
 use anyhow::{Context as _, ensure};
 
 use crate::Report;
-use crate::table::Table;
+use crate::table::ReportTable;
 
 /// Longest page that is read.
 const MOST: u64 = 1 << 24;
@@ -29,7 +29,7 @@ pub fn check(path: &Path, name: &str) -> anyhow::Result<()> {
 /// # Errors
 /// As [`check`], and if the page cannot be written.
 pub fn replace(path: &Path, name: &str, report: &impl Report) -> anyhow::Result<()> {
-    let tables: Vec<String> = report.tables().iter().map(Table::markdown).collect();
+    let tables: Vec<String> = report.tables().iter().map(ReportTable::markdown).collect();
     let text = format!("```text\n{}```\n\n{}", report.words(), tables.join("\n"));
     let page = replaced(&read(path)?, name, &text)?;
     ppum_file::replace(path, |out| out.write_all(page.as_bytes()))

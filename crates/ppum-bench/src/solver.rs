@@ -8,12 +8,12 @@ use clap::ValueEnum;
 use ppum::progress::{Phase, unwatched};
 use ppum_figure::plot::{CurveStyle, PlotCurve, slope, with_slope};
 use ppum_fracture::solve::solve;
-use ppum_problem::{Cells, Order, Problem, SolverKind};
+use ppum_problem::{BaseCells, PolynomialOrder, Problem, SolverKind};
 use ppum_solve::report::{LinearKind, SolverReport};
 use serde::Serialize;
 
 use crate::machine::line;
-use crate::table::Table;
+use crate::table::ReportTable;
 use crate::{Report, chart};
 
 const PROBLEM: &str = include_str!("../../../examples/centre-crack.toml");
@@ -21,7 +21,7 @@ const PROBLEM: &str = include_str!("../../../examples/centre-crack.toml");
 /// The linear solver of the problem.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum SolverChoice {
-    /// What is predicted to be faster
+    /// Use the solver that is predicted to be faster
     Auto,
     /// Cholesky factorisation
     Direct,
@@ -128,11 +128,11 @@ impl Study {
             SolverChoice::Multilevel => SolverKind::Multilevel,
         };
         if let Some(order) = order {
-            problem.discretization.order = Order::Uniform(order);
+            problem.discretization.order = PolynomialOrder::Uniform(order);
         }
         let mut runs = Vec::new();
         for level in levels {
-            problem.discretization.cells = Cells::Level(level);
+            problem.discretization.cells = BaseCells::Level(level);
             runs.push(SolverRun::new(&Problem::new(problem.clone())?, level)?);
             eprintln!("level {level}: {:.2} s", runs[runs.len() - 1].seconds);
         }
@@ -170,7 +170,7 @@ impl Report for Study {
         format!("{}, {} threads; seconds of each phase\n", self.title, self.threads)
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<ReportTable> {
         let phases = self.runs.first().into_iter().flat_map(|run| &run.phases);
         let head = ["solver", "level", "unknowns"].into_iter().chain(phases.map(|phase| phase.0));
         let rest = [
@@ -186,7 +186,7 @@ impl Report for Study {
         let note = self.fit.as_ref().map(|[all, solution]| {
             format!("in all: {}\nsolution: {}", all.words(), solution.words())
         });
-        vec![Table {
+        vec![ReportTable {
             title: "Phases of the solver".into(),
             words: 1,
             head: head.chain(rest).map(str::to_owned).collect(),

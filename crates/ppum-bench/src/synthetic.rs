@@ -7,9 +7,9 @@
 //!
 //! is the displacement of an infinite plate under unit tension from all sides. The patches nearest
 //! to the tips, on a part of the area, have the four tip functions, with the amplitudes of the
-//! expansion at the tip: these are the displacement that √(2a(z − a)) has in place of f. What is
-//! left of f is expanded into a power series, about the patch's centre, or on both sides of a crack
-//! that crosses the patch. At a tip nothing is left to order r.
+//! expansion at the tip: these are the displacement that √(2a(z − a)) has in place of f. The
+//! remainder of f is expanded into a power series, about the patch's centre, or on both sides of a
+//! crack that crosses the patch. At a tip nothing is left to order r.
 
 use std::f64::consts::FRAC_1_SQRT_2;
 
@@ -46,7 +46,7 @@ pub const FIRST_TIP: u32 = 2;
 
 /// A dataset of the crack.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Recipe {
+pub struct CrackRecipe {
     /// The cover has 4^level cells, refined to `tip_level` at the tips.
     pub level: u8,
     /// Level of the cells at the tips.
@@ -59,7 +59,7 @@ pub struct Recipe {
     pub weight: Option<&'static str>,
 }
 
-impl Recipe {
+impl CrackRecipe {
     /// The solution of the paper: order 2, a quarter enriched, linear weights.
     pub const fn new(level: u8, tip_level: u8) -> Self {
         Self { level, tip_level, order: 2, enriched: 0.25, weight: None }
@@ -115,10 +115,10 @@ fn functions() -> Vec<Function> {
 }
 
 /// An analytic function about a place: coefficients of the powers of ζ = z − place.
-type Series = Vec<Complex64>;
+type AnalyticSeries = Vec<Complex64>;
 
 /// The root of a polynomial of degree 2 in ζ, whose value at ζ = 0 is `value`.
-fn root(square: [Complex64; 3], value: Complex64, terms: usize) -> Series {
+fn root(square: [Complex64; 3], value: Complex64, terms: usize) -> AnalyticSeries {
     let mut series = vec![value];
     for n in 1..terms {
         let products: Complex64 = (1..n).map(|k| series[k] * series[n - k]).sum();
@@ -129,7 +129,7 @@ fn root(square: [Complex64; 3], value: Complex64, terms: usize) -> Series {
 }
 
 /// f about a place, less that of a tip. On the crack the sign of a zero y tells the side.
-fn rest(at: Complex64, tip: Option<usize>, terms: usize) -> Series {
+fn rest(at: Complex64, tip: Option<usize>, terms: usize) -> AnalyticSeries {
     let (left, right) = (at + HALF, at - HALF);
     let value = right.sqrt() * left.sqrt();
     let mut series = root([right * left, 2.0 * at, 1.0.into()], value, terms);
@@ -142,8 +142,8 @@ fn rest(at: Complex64, tip: Option<usize>, terms: usize) -> Series {
     series
 }
 
-/// The same polynomial about a place that lies elsewhere by `by`.
-fn shifted(mut series: Series, by: Complex64) -> Series {
+/// Returns the polynomial about a place that lies elsewhere by `by`.
+fn shifted(mut series: AnalyticSeries, by: Complex64) -> AnalyticSeries {
     for first in 0..series.len() {
         for k in (first..series.len() - 1).rev() {
             let next = series[k + 1];
@@ -164,7 +164,7 @@ fn monomial(series: &[Complex64], a: i32, b: i32) -> Complex64 {
 
 /// Displacement about a place at height y, as polynomials of so many an order.
 fn displacement(f: &[Complex64], y: f64, order: u8) -> [Vec<f64>; 2] {
-    let slope: Series = f.iter().zip(0..).skip(1).map(|(c, n)| c * f64::from(n)).collect();
+    let slope: AnalyticSeries = f.iter().zip(0..).skip(1).map(|(c, n)| c * f64::from(n)).collect();
     let mut all = [Vec::new(), Vec::new()];
     for (a, b) in exponents(order.into()) {
         let here = monomial(f, a, b);
@@ -243,7 +243,7 @@ impl FieldMaker {
             let x = center.x.clamp(-HALF, HALF);
             let about = |y| shifted(rest(Complex64::new(x, y), tip, terms), complex(center) - x);
             let (above, below) = (about(0.0), about(-0.0));
-            let half = |share: f64| -> Series {
+            let half = |share: f64| -> AnalyticSeries {
                 above.iter().zip(&below).map(|(a, b)| 0.5 * a + share * b).collect()
             };
             self.add_polynomial(patch, 0, &half(0.5));

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 /// A table: a title, the names of its columns, rows. The first columns are words, the
 /// others numbers.
 #[derive(Debug)]
-pub struct Table {
+pub struct ReportTable {
     /// The title.
     pub title: String,
     /// Columns of words.
@@ -18,7 +18,7 @@ pub struct Table {
     pub note: String,
 }
 
-impl Table {
+impl ReportTable {
     /// Lines of columns that stand below each other; those that are empty are left out.
     pub fn text(&self) -> String {
         let kept: Vec<usize> = (0..self.head.len()).filter(|&column| self.has(column)).collect();
@@ -45,7 +45,7 @@ impl Table {
         text
     }
 
-    /// The same in Markdown.
+    /// Writes the table in Markdown.
     pub fn markdown(&self) -> String {
         let kept: Vec<usize> = (0..self.head.len()).filter(|&column| self.has(column)).collect();
         let line = |cells: &[String]| {

@@ -21,37 +21,37 @@ use ppum_viewer::session::Session;
 use ppum_viewer::surface::{PATIENCE, Surface};
 use serde::Serialize;
 
-use crate::synthetic::Recipe;
-use crate::table::Table;
+use crate::synthetic::CrackRecipe;
+use crate::table::ReportTable;
 
 /// The report of `ppum-bench window`.
 #[derive(Debug, Serialize)]
-pub struct Report {
+pub struct WindowReport {
     pixels: [u32; 2],
     frames: u32,
-    /// What draws the window itself.
+    /// The device that draws the window itself.
     device: String,
-    rows: Vec<Row>,
+    rows: Vec<FramesRow>,
 }
 
 /// The frames of a dataset.
 #[derive(Debug, Serialize)]
-struct Row {
+struct FramesRow {
     patches: usize,
     /// From opening to the first image on the screen, without reading a file.
     first_ms: f64,
     /// A frame of panning, and the parts of it: input, layout and shapes; the image; tessellation,
     /// and textures on their way to the device; the device.
-    frame_ms: Summary,
-    layout_ms: Summary,
-    image_ms: Summary,
-    upload_ms: Summary,
-    paint_ms: Summary,
+    frame_ms: WindowSummary,
+    layout_ms: WindowSummary,
+    image_ms: WindowSummary,
+    upload_ms: WindowSummary,
+    paint_ms: WindowSummary,
     /// Processor time of all threads for a frame, the device's of software too.
-    core_ms: Summary,
-    /// The same of a window in which nothing has changed: egui's own layout and drawing.
-    again_ms: Summary,
-    again_core_ms: Summary,
+    core_ms: WindowSummary,
+    /// Times of a window in which nothing has changed: egui's own layout and drawing.
+    again_ms: WindowSummary,
+    again_core_ms: WindowSummary,
     /// Processor time in a second in which nothing happens.
     idle_ms: f64,
     /// True if the window wants to be shown then.
@@ -59,7 +59,7 @@ struct Row {
 }
 
 #[derive(Clone, Copy, Debug, Serialize)]
-struct Summary {
+struct WindowSummary {
     median: f64,
     least: f64,
     /// That of 95 % of the frames.
@@ -72,7 +72,7 @@ const LEVELS: [u8; 3] = [4, 7, 10];
 /// The first frames find nothing prepared, and are not counted.
 const WARM: u32 = 3;
 
-impl Report {
+impl WindowReport {
     /// Measures; `quick` shows few patches on few pixels.
     ///
     /// # Errors
@@ -82,17 +82,17 @@ impl Report {
         let levels = if quick { &LEVELS[..1] } else { &LEVELS[..] };
         let (mut rows, mut device) = (Vec::new(), String::new());
         for &level in levels {
-            let dataset = Arc::new(Recipe::new(level, level).dataset()?);
+            let dataset = Arc::new(CrackRecipe::new(level, level).dataset()?);
             let patches = dataset.steps[0].partition.len();
-            let mut window = Measured::new(dataset, pixels)?;
+            let mut window = MeasuredWindow::new(dataset, pixels)?;
             device = window.surface.state.adapter.get_info().name;
-            rows.push(Row::new(patches, &mut window, frames)?);
+            rows.push(FramesRow::new(patches, &mut window, frames)?);
         }
         Ok(Self { pixels, frames, device, rows })
     }
 }
 
-impl crate::Report for Report {
+impl crate::Report for WindowReport {
     fn words(&self) -> String {
         let Self { pixels: [columns, rows], frames, device, .. } = self;
         format!(
@@ -101,12 +101,12 @@ impl crate::Report for Report {
         )
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<ReportTable> {
         let head = [
             "patches", "first", "frame", "most", "layout", "image", "upload", "paint", "core",
             "again", "core", "idle/s",
         ];
-        let line = |row: &Row| {
+        let line = |row: &FramesRow| {
             let parts = [row.layout_ms, row.image_ms, row.upload_ms, row.paint_ms];
             let cores = [row.core_ms, row.again_ms, row.again_core_ms];
             let medians = parts.into_iter().chain(cores).map(|part| part.median);
@@ -115,7 +115,7 @@ impl crate::Report for Report {
             let cells = numbers.map(|number| format!("{number:.1}"));
             [row.patches.to_string()].into_iter().chain(cells).collect()
         };
-        vec![Table {
+        vec![ReportTable {
             title: "Frames of the window".into(),
             words: 0,
             head: head.map(str::to_owned).into(),
@@ -125,8 +125,8 @@ impl crate::Report for Report {
     }
 }
 
-impl Row {
-    fn new(patches: usize, window: &mut Measured, frames: u32) -> anyhow::Result<Self> {
+impl FramesRow {
+    fn new(patches: usize, window: &mut MeasuredWindow, frames: u32) -> anyhow::Result<Self> {
         let first_ms = 1e3 * window.first()?;
         window.rest()?;
         let times = window.dragged(frames)?;
@@ -138,7 +138,7 @@ impl Row {
         std::thread::sleep(Duration::from_secs(1));
         let idle_ms = 1e3 * core.elapsed().as_secs_f64();
         let of = |times: &[FrameTime], part: fn(&FrameTime) -> f64| {
-            Summary::new(times.iter().map(part).collect())
+            WindowSummary::new(times.iter().map(part).collect())
         };
         Ok(Self {
             patches,
@@ -157,8 +157,8 @@ impl Row {
     }
 }
 
-impl Summary {
-    /// Of seconds.
+impl WindowSummary {
+    /// Summarises seconds.
     fn new(seconds: Vec<f64>) -> Self {
         let mut ms: Vec<_> = seconds.into_iter().map(|s| 1e3 * s).collect();
         ms.sort_by(f64::total_cmp);
@@ -168,14 +168,14 @@ impl Summary {
     }
 }
 
-/// What a frame took \[s\].
+/// The time of a frame \[s\].
 #[derive(Clone, Copy, Debug, Default)]
 struct FrameTime {
     layout: f64,
     image: f64,
     upload: f64,
     paint: f64,
-    /// Of processors.
+    /// Processor time.
     core: f64,
 }
 
@@ -194,7 +194,7 @@ impl FrameTime {
 }
 
 /// A window whose frames are measured.
-struct Measured {
+struct MeasuredWindow {
     ctx: Context,
     viewer: Viewer,
     surface: Surface,
@@ -202,11 +202,11 @@ struct Measured {
     size: [u32; 2],
     start: Instant,
     mouse: Pos2,
-    /// What textures of the last output took on their way \[s\].
+    /// The time to upload the textures of the last output \[s\].
     uploading: f64,
 }
 
-impl Measured {
+impl MeasuredWindow {
     /// A window that shows a dataset, with its panels.
     fn new(dataset: Arc<Dataset>, size: [u32; 2]) -> anyhow::Result<Self> {
         let (ctx, (send, woken)) = (Context::default(), channel());

@@ -8,7 +8,7 @@ use crate::commands::{
     check, compare, completions, demo, export, formula, import, info, man, plot, probe, render,
     sample, sif, solve, view,
 };
-use crate::output::Output;
+use crate::output::StandardStream;
 
 /// Solves two-dimensional fracture problems with the particle-partition of unity method and draws
 /// the result exactly at every pixel.
@@ -37,22 +37,22 @@ Examples:
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    Demo(demo::Args),
-    Import(import::Args),
-    Solve(solve::Args),
-    Info(info::Args),
-    Check(check::Args),
-    Sif(sif::Args),
-    Probe(probe::Args),
-    Sample(sample::Args),
-    Render(Box<render::Args>),
-    Compare(compare::Args),
-    Plot(plot::Args),
-    Export(export::Args),
-    View(view::Args),
-    Formula(formula::Args),
-    Completions(completions::Args),
-    Man(man::Args),
+    Demo(demo::DemoArgs),
+    Import(import::ImportArgs),
+    Solve(solve::SolveArgs),
+    Info(info::InfoArgs),
+    Check(check::CheckArgs),
+    Sif(sif::SifArgs),
+    Probe(probe::ProbeArgs),
+    Sample(sample::SampleArgs),
+    Render(Box<render::RenderArgs>),
+    Compare(compare::CompareArgs),
+    Plot(plot::PlotArgs),
+    Export(export::ExportArgs),
+    View(view::ViewArgs),
+    Formula(formula::FormulaArgs),
+    Completions(completions::CompletionsArgs),
+    Man(man::ManArgs),
 }
 
 impl Cli {
@@ -77,9 +77,10 @@ impl Cli {
 
 impl Command {
     /// Does the work; results are written to `out`.
-    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
-        let line =
-            |words: Vec<OsString>, out: &mut Output| Cli::understood(words)?.command.run(out);
+    pub(crate) fn run(&self, out: &mut StandardStream) -> anyhow::Result<()> {
+        let line = |words: Vec<OsString>, out: &mut StandardStream| {
+            Cli::understood(words)?.command.run(out)
+        };
         match self {
             Self::Demo(args) => args.run(out, &line),
             Self::Import(args) => args.run(out),

@@ -9,9 +9,9 @@ use ppum::quantity::Quantity;
 use ppum_format::{ReadError, Series};
 use ppum_render::cells;
 
-use crate::given::{Given, parts};
+use crate::formula_text::{FormulaText, parts};
 use crate::standard::{self, is_standard};
-use ppum_scene::scene::{self, OF_PATCHES, ShownError};
+use ppum_scene::scene::{self, DisplayError, OF_PATCHES};
 
 /// Reads a dataset with all its steps, `-` from standard input; an error names the file.
 pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
@@ -47,7 +47,7 @@ fn standard_input() -> anyhow::Result<Dataset> {
     ppum_format::from_bytes(bytes).context("standard input")
 }
 
-/// What was read of a file, or an error that names it, and the command that finds others.
+/// Returns the data read from a file, or an error that names it, and the command that finds others.
 pub(crate) fn named<T>(path: &Path, read: Result<T, ReadError>) -> anyhow::Result<T> {
     let path = path.display();
     match read {
@@ -68,7 +68,7 @@ pub(crate) fn field(dataset: &Dataset, step: Option<usize>) -> anyhow::Result<Fi
 /// A quantity by its name or formula, or by `@` and a file with one, if the field has what it
 /// needs.
 pub(crate) fn quantity(field: &Field<'_>, given: &str) -> anyhow::Result<Quantity> {
-    let given = Given::read(given)?;
+    let given = FormulaText::read(given)?;
     let found = Quantity::parse(&given.text, field);
     if found.is_err() {
         refuse_cells(field, given.text.trim())?;
@@ -88,10 +88,10 @@ fn refuse_cells(field: &Field<'_>, text: &str) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Refuses what no picture shows of a field: neither a quantity or formula nor a value of cells.
-pub(crate) fn check_shown(field: &Field<'_>, given: &Given) -> anyhow::Result<()> {
+/// Refuses what no image shows of a field: neither a quantity or formula nor a value of cells.
+pub(crate) fn check_shown(field: &Field<'_>, given: &FormulaText) -> anyhow::Result<()> {
     match scene::shown(&given.text, field) {
-        Err(ShownError::Quantity(error)) => given.explain(Err(error)),
+        Err(DisplayError::Quantity(error)) => given.explain(Err(error)),
         other => other.map(|_| ()).map_err(Into::into),
     }
 }

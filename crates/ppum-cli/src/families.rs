@@ -4,7 +4,7 @@ use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 use ppum::dataset::FieldData;
-use ppum::function::{Declared, Frame, Function, FunctionKind};
+use ppum::function::{Frame, Function, FunctionKind, NonsmoothPoints};
 use ppum::text::trimmed;
 
 use crate::number::count;
@@ -167,7 +167,7 @@ fn key<'f>(stem: &'f str, kind: &'f FunctionKind) -> FamilyKey<'f> {
     (stem, frame, text, names, numbers.collect())
 }
 
-type FormulaParts<'f> = (&'f str, &'f Frame, &'f [(String, f64)], &'f Declared);
+type FormulaParts<'f> = (&'f str, &'f Frame, &'f [(String, f64)], &'f NonsmoothPoints);
 
 fn parts(kind: &FunctionKind) -> Option<FormulaParts<'_>> {
     match kind {
@@ -330,7 +330,7 @@ mod tests {
             text: text.into(),
             frame: Frame::Fixed { origin: vec2(x, 0.5), angle: 1.5 },
             parameters: vec![("lambda".into(), 0.5)],
-            declared: Declared::default(),
+            declared: NonsmoothPoints::default(),
             role: Role::Corner,
         };
         let all = [

@@ -1,23 +1,23 @@
 //! The words of figures, as an option.
 
 use anyhow::bail;
-use ppum_scene::look::Look;
-use ppum_scene::request::{Request, Texts};
+use ppum_scene::page_style::PageStyle;
+use ppum_scene::request::{FigureTexts, Request};
 
 /// The option of the words of figures.
 #[derive(Debug, clap::Args)]
 pub(crate) struct LabelArgs {
     /// Words of a figure: title=, x=, y=, bar=, apart by commas; none are left out
     #[arg(long, value_name = "title=…,x=…,y=…,bar=…", value_parser = texts)]
-    labels: Vec<Texts>,
+    labels: Vec<FigureTexts>,
 }
 
 impl LabelArgs {
-    /// Refuses options of figures for pictures that are none.
+    /// Refuses options of figures for images that are none.
     pub(crate) fn check(&self, request: &Request) -> anyhow::Result<()> {
         let Request { look, .. } = request;
         let mut given =
-            Look::of_figures(look).into_iter().chain([("labels", !self.labels.is_empty())]);
+            PageStyle::of_figures(look).into_iter().chain([("labels", !self.labels.is_empty())]);
         match given.find(|(_, is_given)| *is_given).filter(|_| !request.is_figure()) {
             Some((option, _)) => bail!("--{option} is for figures; add --figure"),
             None => Ok(()),
@@ -25,13 +25,13 @@ impl LabelArgs {
     }
 
     /// The texts that were given; of those that were given twice the last one.
-    pub(crate) fn texts(&self) -> Texts {
-        self.labels.iter().cloned().fold(Texts::default(), |all, more| more.or(all))
+    pub(crate) fn texts(&self) -> FigureTexts {
+        self.labels.iter().cloned().fold(FigureTexts::default(), |all, more| more.or(all))
     }
 }
 
 /// `KEY=TEXT` with commas between; a comma that no key follows is part of a text.
-fn texts(text: &str) -> Result<Texts, String> {
+fn texts(text: &str) -> Result<FigureTexts, String> {
     const KEYS: [&str; 4] = ["title=", "x=", "y=", "bar="];
     let (mut all, mut last) = ([const { None::<String> }; 4], None);
     for part in text.split(',') {
@@ -46,7 +46,7 @@ fn texts(text: &str) -> Result<Texts, String> {
         }
     }
     let [title, x, y, bar] = all;
-    Ok(Texts { title, x, y, bar })
+    Ok(FigureTexts { title, x, y, bar })
 }
 
 #[cfg(test)]
@@ -58,7 +58,7 @@ mod tests {
         let found = texts("title=A plate, cracked, x=1,y=up,bar=").unwrap();
         let [title, x, y, bar] =
             ["A plate, cracked", "1", "up", ""].map(|text| Some(text.to_owned()));
-        assert_eq!(found, Texts { title, x, y, bar });
+        assert_eq!(found, FigureTexts { title, x, y, bar });
         assert!(texts("plate").is_err() && texts("").is_err());
     }
 }

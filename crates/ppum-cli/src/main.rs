@@ -9,7 +9,7 @@ mod cli;
 mod commands;
 mod dataset;
 mod families;
-mod given;
+mod formula_text;
 mod graphics;
 mod look;
 mod memory;
@@ -35,7 +35,7 @@ use std::io::{self, Write as _};
 use std::process::ExitCode;
 
 use commands::export::mesh::ToleranceMissed;
-use output::{Output, show, tell};
+use output::{StandardStream, show, tell};
 
 /// A window is open for days, and gives memory back.
 #[cfg(feature = "window")]
@@ -55,7 +55,7 @@ fn main() -> ExitCode {
 }
 
 fn run(command: &cli::Command) -> ExitCode {
-    let mut out = Output::stdout();
+    let mut out = StandardStream::stdout();
     let work = || {
         threads::check()?;
         command.run(&mut out)?;

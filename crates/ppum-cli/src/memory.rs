@@ -6,8 +6,8 @@ use sysinfo::{MemoryRefreshKind, System};
 const LARGEST: usize = (32 << 20) - (64 << 10);
 
 /// Lets memory that is freed stay at hand. glibc hands blocks of megabytes back to the system when
-/// they are freed, and a frame that fetches its own anew takes half as long again (decision 23). It
-/// keeps blocks as small as the largest that it has seen freed; this one is never touched. Other
+/// they are freed, and a frame that fetches its own again takes half as long again (decision 23).
+/// It keeps blocks as small as the largest that it has seen freed; this one is never touched. Other
 /// allocators do not mind.
 pub(crate) fn keep_freed() {
     drop(std::hint::black_box(Vec::<u8>::with_capacity(LARGEST)));

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-pub(crate) use ppum_scene::facts::Number;
+pub(crate) use ppum_scene::facts::JsonNumber;
 use serde::Serialize;
 
 /// Prints a result as JSON.

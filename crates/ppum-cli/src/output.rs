@@ -8,12 +8,12 @@ use std::io::{self, IsTerminal as _, Stderr, StdoutLock, Write};
 use ppum::printable::printable;
 
 /// A standard stream. Texts for people and JSON are written to it as to any writer, and escaped.
-pub(crate) struct Output<W: Write = StdoutLock<'static>> {
+pub(crate) struct StandardStream<W: Write = StdoutLock<'static>> {
     out: W,
     is_terminal: bool,
 }
 
-impl Output {
+impl StandardStream {
     /// Standard output, for results.
     pub(crate) fn stdout() -> Self {
         let out = io::stdout().lock();
@@ -21,7 +21,7 @@ impl Output {
     }
 }
 
-impl Output<Stderr> {
+impl StandardStream<Stderr> {
     /// Standard error, for all that is no result.
     pub(crate) fn stderr() -> Self {
         let out = io::stderr();
@@ -29,14 +29,14 @@ impl Output<Stderr> {
     }
 }
 
-impl<W: Write> Output<W> {
+impl<W: Write> StandardStream<W> {
     /// For data that programs read: byte for byte, but on a terminal.
     pub(crate) fn exact(&mut self) -> &mut dyn Write {
         if self.is_terminal { self } else { &mut self.out }
     }
 }
 
-impl<W: Write> Write for Output<W> {
+impl<W: Write> Write for StandardStream<W> {
     /// Each call brings whole characters, as `write!` and JSON do.
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         let text = String::from_utf8_lossy(bytes);
@@ -51,7 +51,7 @@ impl<W: Write> Write for Output<W> {
 
 /// Writes a line to standard error. If that is closed nobody can be told.
 pub(crate) fn tell(line: &str) {
-    let _ = Output::stderr().write_all(format!("{line}\n").as_bytes());
+    let _ = StandardStream::stderr().write_all(format!("{line}\n").as_bytes());
 }
 
 /// Shows clap's help, version or error, in its colours unless it quotes what must not be shown.
@@ -71,8 +71,8 @@ mod tests {
     const HOSTILE: &str = "a\u{1b}]0;b\u{7}\u{9b}1m\u{202e}\u{7f}\r\n\tσ";
     const SHOWN: &str = "a\\u001b]0;b\\u0007\\u009b1m\\u202e\\u007f\\u000d\n\tσ";
 
-    fn written(is_terminal: bool, write: impl FnOnce(&mut Output<Vec<u8>>)) -> String {
-        let mut output = Output { out: Vec::new(), is_terminal };
+    fn written(is_terminal: bool, write: impl FnOnce(&mut StandardStream<Vec<u8>>)) -> String {
+        let mut output = StandardStream { out: Vec::new(), is_terminal };
         write(&mut output);
         String::from_utf8(output.out).expect("text")
     }
@@ -87,7 +87,7 @@ mod tests {
 
     #[test]
     fn data_are_escaped_on_terminals_only() {
-        let data = |out: &mut Output<Vec<u8>>| {
+        let data = |out: &mut StandardStream<Vec<u8>>| {
             out.exact().write_all(HOSTILE.as_bytes()).expect("memory");
         };
         assert_eq!(written(false, data), HOSTILE);

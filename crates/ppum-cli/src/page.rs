@@ -6,10 +6,10 @@ use std::path::Path;
 use anyhow::Context as _;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::form::PageFormat;
-use ppum_render::png::Text;
+use ppum_render::png::TextChunk;
 use ppum_scene::notice::Notice;
 
-use crate::output::{Output, tell};
+use crate::output::{StandardStream, tell};
 use crate::standard::is_standard;
 use crate::target;
 
@@ -19,9 +19,9 @@ pub(crate) fn save(
     path: &Path,
     page: &Canvas,
     dpi: Option<f64>,
-    texts: &[Text],
+    texts: &[TextChunk],
     told: &str,
-    out: &mut Output,
+    out: &mut StandardStream,
 ) -> anyhow::Result<()> {
     put(path, page, dpi, texts, out)?;
     if is_standard(path) {
@@ -37,8 +37,8 @@ pub(crate) fn put(
     path: &Path,
     page: &Canvas,
     dpi: Option<f64>,
-    texts: &[Text],
-    out: &mut Output,
+    texts: &[TextChunk],
+    out: &mut StandardStream,
 ) -> anyhow::Result<()> {
     let form = PageFormat::of(path);
     warn(Notice::of_glyphs(page, form));
@@ -53,7 +53,7 @@ pub(crate) fn write(
     path: &Path,
     page: &Canvas,
     dpi: Option<f64>,
-    texts: &[Text],
+    texts: &[TextChunk],
 ) -> anyhow::Result<()> {
     let bytes = bytes(PageFormat::of(path), page, dpi, texts)?;
     target::save(path, |out| out.write_all(&bytes))
@@ -63,12 +63,12 @@ fn bytes(
     form: PageFormat,
     page: &Canvas,
     dpi: Option<f64>,
-    texts: &[Text],
+    texts: &[TextChunk],
 ) -> anyhow::Result<Vec<u8>> {
     form.bytes(page, dpi, texts).context("cannot encode the picture")
 }
 
-/// Tells what is to be known of a picture.
+/// Tells what is to be known of an image.
 pub(crate) fn warn(notices: impl IntoIterator<Item = Notice>) {
     notices.into_iter().for_each(|notice| tell(&notice.line()));
 }

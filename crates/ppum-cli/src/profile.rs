@@ -5,21 +5,21 @@ use std::path::Path;
 use anyhow::{Context as _, anyhow, ensure};
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum::sample::Place;
+use ppum::sample::SidedPoint;
 use ppum::vec2::Vec2;
 use ppum_scene::arguments::{circle, degrees, ends, positive};
 use ppum_scene::notice::undefined;
 use ppum_scene::place::numbered_tip;
-use ppum_scene::profile::{self, Along, COUNT, MOST, ProfileError, Variable};
-use ppum_scene::table::Table;
+use ppum_scene::profile::{self, COUNT, MOST, ProfileCurve, ProfileError, Variable};
+use ppum_scene::table::NumberTable;
 
 use crate::output::tell;
-use crate::progress::Bar;
+use crate::progress::ProgressLine;
 use crate::target;
 
 /// Options of places along a curve.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Profile {
+pub(crate) struct ProfileArgs {
     /// Along the line between two points
     #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = ends)]
     #[arg(group = "where")]
@@ -45,7 +45,7 @@ pub(crate) struct Profile {
     count: Option<usize>,
 }
 
-impl Profile {
+impl ProfileArgs {
     /// True if a curve was asked for.
     pub(crate) fn is_given(&self) -> bool {
         self.line.is_some() || self.crack.is_some() || self.circle.is_some() || self.tip.is_some()
@@ -66,39 +66,39 @@ impl Profile {
     pub(crate) fn table(
         &self,
         field: &Field<'_>,
-        quantities: &profile::Named,
-    ) -> anyhow::Result<Table> {
+        quantities: &profile::NamedQuantities,
+    ) -> anyhow::Result<NumberTable> {
         let (along, count) = self.checked(field)?;
-        self.reported_table(along.table(field, quantities, count, &Bar::new()))
+        self.reported_table(along.table(field, quantities, count, &ProgressLine::new()))
     }
 
-    /// The table of a curve that is drawn, see [`Along::drawn`].
+    /// The table of a curve that is drawn, see [`ProfileCurve::drawn`].
     pub(crate) fn drawn(
         &self,
         field: &Field<'_>,
-        quantities: &profile::Named,
-    ) -> anyhow::Result<Table> {
+        quantities: &profile::NamedQuantities,
+    ) -> anyhow::Result<NumberTable> {
         let (along, count) = self.checked(field)?;
-        self.reported_table(along.drawn(field, quantities, count, &Bar::new()))
+        self.reported_table(along.drawn(field, quantities, count, &ProgressLine::new()))
     }
 
     /// The curve.
-    fn along(&self) -> Option<Along> {
+    fn along(&self) -> Option<ProfileCurve> {
         let anchor = [0.0; 2];
-        let line = |[a, b]: [Vec2; 2]| Along::Line { anchor, from: a.into(), to: b.into() };
+        let line = |[a, b]: [Vec2; 2]| ProfileCurve::Line { anchor, from: a.into(), to: b.into() };
         let circle =
-            |(center, radius): (Vec2, f64)| Along::Circle { center: center.into(), radius };
+            |(center, radius): (Vec2, f64)| ProfileCurve::Circle { center: center.into(), radius };
         let near = |tip: usize| match self.angle {
-            Some(angle) => Along::Ray { tip, angle, far: self.radius },
-            None => Along::Around { tip, radius: self.radius },
+            Some(angle) => ProfileCurve::Ray { tip, angle, far: self.radius },
+            None => ProfileCurve::Around { tip, radius: self.radius },
         };
-        let crack = self.crack.map(|index| Along::Crack { index });
+        let crack = self.crack.map(|index| ProfileCurve::Crack { index });
         let others = self.circle.map(circle).or_else(|| self.tip.map(near));
         crack.or(self.line.map(line)).or(others)
     }
 
     /// The curve and the number of its points.
-    fn checked(&self, field: &Field<'_>) -> anyhow::Result<(Along, usize)> {
+    fn checked(&self, field: &Field<'_>) -> anyhow::Result<(ProfileCurve, usize)> {
         // clap does not ask for `--tip` where something else of its group is given
         let is_at_tip = self.tip.is_some() || (self.radius.is_none() && self.angle.is_none());
         ensure!(is_at_tip, "--radius and --angle belong to --tip");
@@ -113,7 +113,7 @@ impl Profile {
     fn reported_table(
         &self,
         found: Result<profile::Profile, ProfileError>,
-    ) -> anyhow::Result<Table> {
+    ) -> anyhow::Result<NumberTable> {
         let found = found.map_err(|error| match (&error, self.count) {
             (ProfileError::Crack { index, .. }, _) => anyhow!("--crack {index}: {error}"),
             (ProfileError::Point, _) => anyhow!("--line: {error}"),
@@ -132,9 +132,9 @@ impl Profile {
 pub(crate) fn listed(
     field: &Field<'_>,
     quantities: &[(String, Quantity)],
-    places: Vec<Place>,
-) -> anyhow::Result<Table> {
-    let found = profile::listed(field, quantities, places, &Bar::new())?;
+    places: Vec<SidedPoint>,
+) -> anyhow::Result<NumberTable> {
+    let found = profile::listed(field, quantities, places, &ProgressLine::new())?;
     tell_undefined(&found);
     Ok(found.table)
 }
@@ -147,7 +147,7 @@ fn tell_undefined(found: &profile::Profile) {
 }
 
 /// Writes a table to a file, of numpy if its extension says so.
-pub(crate) fn save(table: &Table, path: &Path) -> anyhow::Result<()> {
+pub(crate) fn save(table: &NumberTable, path: &Path) -> anyhow::Result<()> {
     let is_npy = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("npy"));
     target::save(path, |out| if is_npy { table.write_npy(out) } else { table.write_csv(out) })
 }

@@ -7,9 +7,9 @@ use indicatif::{HumanDuration, ProgressBar, ProgressStyle};
 use ppum::progress::{Progress, Verdict, Watcher};
 
 /// A line on standard error that disappears when it is dropped; silent where that is no terminal.
-pub(crate) struct Bar(ProgressBar, Mutex<Option<String>>);
+pub(crate) struct ProgressLine(ProgressBar, Mutex<Option<String>>);
 
-impl Bar {
+impl ProgressLine {
     pub(crate) fn new() -> Self {
         let bar = ProgressBar::new_spinner();
         bar.set_prefix(within().clone());
@@ -52,9 +52,9 @@ impl Bar {
     }
 }
 
-impl Watcher for Bar {
+impl Watcher for ProgressLine {
     /// Shows the progress; signals end the program as a whole, so nothing is to be stopped.
-    fn hear(&self, progress: Progress) -> Verdict {
+    fn on_progress(&self, progress: Progress) -> Verdict {
         self.show(progress);
         Verdict::GoOn
     }
@@ -68,7 +68,7 @@ fn style(has_parts: bool) -> ProgressStyle {
         .progress_chars("=> ")
 }
 
-/// What all bars belong to, which they tell in front: `3/20  `.
+/// The task that all bars belong to, which they print in front: `3/20 `.
 static WITHIN: Mutex<String> = Mutex::new(String::new());
 
 fn within() -> std::sync::MutexGuard<'static, String> {
@@ -97,7 +97,7 @@ impl Drop for NestedBars {
     }
 }
 
-impl Drop for Bar {
+impl Drop for ProgressLine {
     fn drop(&mut self) {
         self.0.finish_and_clear();
     }

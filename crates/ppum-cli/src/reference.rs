@@ -92,7 +92,7 @@ fn row(arg: &Arg) -> String {
         .replace("|  |", "| |")
 }
 
-/// What stands behind the name of an option; signs of tables are escaped.
+/// Returns the placeholder after the name of an option; signs of tables are escaped.
 fn value_name(arg: &Arg) -> String {
     let names = arg.get_value_names().unwrap_or_default();
     let name = names.first().map_or_else(String::new, |name| name.replace('|', r"\|"));
@@ -106,7 +106,7 @@ fn value_name(arg: &Arg) -> String {
 mod tests {
     use super::with_tables;
 
-    /// `PPUM_WRITE=1 cargo test --release -p ppum-cli tables` writes them anew.
+    /// `PPUM_WRITE=1 cargo test --release -p ppum-cli tables` writes them again.
     #[test]
     fn tables_of_options_are_those_of_the_program() {
         let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/cli.md");

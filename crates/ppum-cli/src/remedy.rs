@@ -6,9 +6,9 @@ use std::error::Error;
 use ppum::quantity::QuantityError;
 use ppum_format::WriteError;
 use ppum_fracture::solve::{LinearError, SolveError};
-use ppum_render::RenderError;
+use ppum_render::RasterError;
 use ppum_scene::place::PlaceError;
-use ppum_scene::shot::ShotError;
+use ppum_scene::shot::ImageError;
 use ppum_solve::space::{InspectError, SpaceError};
 
 /// The text of an error, with its remedy if there is one.
@@ -22,7 +22,7 @@ pub(crate) fn error_text(error: &(dyn Error + 'static)) -> String {
 
 fn of_quantity(error: &(dyn Error + 'static)) -> Option<&'static str> {
     let quantity = match error.downcast_ref() {
-        Some(RenderError::Quantity(quantity)) => quantity,
+        Some(RasterError::Quantity(quantity)) => quantity,
         _ => error.downcast_ref()?,
     };
     matches!(quantity, QuantityError::NoExact(_))
@@ -31,7 +31,7 @@ fn of_quantity(error: &(dyn Error + 'static)) -> Option<&'static str> {
 
 fn of_place(error: &(dyn Error + 'static)) -> Option<&'static str> {
     let place = match error.downcast_ref() {
-        Some(ShotError::Place(place)) => place,
+        Some(ImageError::Place(place)) => place,
         _ => error.downcast_ref()?,
     };
     matches!(place, PlaceError::Outside).then_some("`ppum info` says where that is")
@@ -62,11 +62,11 @@ fn of_system(error: &LinearError) -> Option<&'static str> {
 mod tests {
     use super::*;
     use ppum::vec2::vec2;
-    use ppum_fracture::solve::Around;
+    use ppum_fracture::solve::Vicinity;
 
     #[test]
     fn remedies_end_the_sentence() {
-        let around = Around { center: vec2(0.5, 0.25), reach: vec2(0.125, 0.125) };
+        let around = Vicinity { center: vec2(0.5, 0.25), reach: vec2(0.125, 0.125) };
         let singular = LinearError::NotPositiveDefinite { patch: 3, unknown: 1 };
         let nowhere = InspectError::Nowhere { name: "sqrt(x)".into() };
         for (error, said) in [
@@ -91,14 +91,14 @@ mod tests {
             assert_eq!(error_text(&error), said);
         }
         let error = QuantityError::NoExact("error".into());
-        for error in [&error as &dyn Error, &RenderError::Quantity(error.clone())] {
+        for error in [&error as &dyn Error, &RasterError::Quantity(error.clone())] {
             assert_eq!(
                 error_text(error),
                 "`error` needs the exact solution, which this dataset does not hold; give it as [exact] in the \
                  problem file"
             );
         }
-        for error in [&PlaceError::Outside as &dyn Error, &ShotError::from(PlaceError::Outside)] {
+        for error in [&PlaceError::Outside as &dyn Error, &ImageError::from(PlaceError::Outside)] {
             assert_eq!(
                 error_text(error),
                 "the view shows nothing of the domain; `ppum info` says where that is"

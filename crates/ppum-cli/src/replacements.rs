@@ -6,17 +6,17 @@ use std::str::FromStr;
 
 use anyhow::{Context as _, ensure};
 use ppum::dataset::Dataset;
-use ppum::decompose::Part;
+use ppum::decompose::FieldPart;
 use ppum::replace::{self, ReplacementsError};
 use ppum_scene::arguments::assignment;
 use ppum_scene::panels::{WHOLE, caption};
 use ppum_scene::scene::{Subject, SubjectError, define};
 
-use crate::given::{Given, file};
+use crate::formula_text::{FormulaText, file};
 
 /// The part that is taken, and what takes the place of what.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Replacements {
+pub(crate) struct ReplacementArgs {
     /// Only a part of the field: smooth, jump, tip, other (of corners, of one's own), or patch:N;
     /// `render` draws several, with commas between, in panels, of which `all` is the whole field
     #[arg(long, value_name = "PART", value_delimiter = ',')]
@@ -34,7 +34,7 @@ pub(crate) struct Replacements {
 
 /// A part of the field, or all of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct PartChoice(Option<Part>);
+struct PartChoice(Option<FieldPart>);
 
 impl FromStr for PartChoice {
     type Err = String;
@@ -58,7 +58,7 @@ impl fmt::Display for PartChoice {
     }
 }
 
-impl Replacements {
+impl ReplacementArgs {
     /// Changes a step of the dataset, by default the last one. No such step is told where the field
     /// is made.
     pub(crate) fn apply(&self, dataset: &mut Dataset, step: Option<usize>) -> anyhow::Result<()> {
@@ -85,11 +85,11 @@ impl Replacements {
         &self,
         dataset: &mut Dataset,
         step: Option<usize>,
-        part: Option<Part>,
+        part: Option<FieldPart>,
     ) -> anyhow::Result<()> {
-        let texts = self.function.iter().map(|(_, text)| Given::read(text));
+        let texts = self.function.iter().map(|(_, text)| FormulaText::read(text));
         let functions = texts.collect::<anyhow::Result<Vec<_>>>()?;
-        let weight = self.weight.as_deref().map(Given::read).transpose()?;
+        let weight = self.weight.as_deref().map(FormulaText::read).transpose()?;
         let names = self.function.iter().map(|(which, _)| which.clone());
         let replacements = replace::Replacements {
             part,
@@ -115,7 +115,7 @@ impl Replacements {
     /// Gives named quantities their formulas.
     fn define(&self, dataset: &mut Dataset, step: usize) -> anyhow::Result<()> {
         for (name, text) in &self.define {
-            let given = Given::read(text)?;
+            let given = FormulaText::read(text)?;
             let defined = define(dataset, step, name, &given.text);
             match defined {
                 Err(SubjectError::Quantity { error, .. }) => given.explain(Err(*error)),
@@ -140,7 +140,7 @@ impl Replacements {
         }
     }
 
-    /// What of a dataset is looked at; formulas are as they were given.
+    /// Returns the chosen subject of a dataset; formulas are as they were given.
     pub(crate) fn subject(&self, step: Option<usize>) -> Subject {
         let part = match self.part[..] {
             [PartChoice(Some(part))] => Some(part.to_string()),
@@ -161,7 +161,7 @@ impl Replacements {
         self.parts().iter().map(|part| caption(part)).collect()
     }
 
-    /// The choices and replacements, as notes in a picture.
+    /// The choices and replacements, as notes in an image.
     pub(crate) fn notes(&self) -> impl Iterator<Item = (String, String)> {
         let functions = self.function.iter().map(|(which, text)| format!("{which} = {text}"));
         let weight = self.weight.iter().map(|text| format!("weight = {text}"));

@@ -40,7 +40,7 @@ pub(crate) fn bytes(what: &'static str, limit: u64) -> anyhow::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// The same, of text.
+/// Reads text from standard input.
 pub(crate) fn text(what: &'static str) -> anyhow::Result<String> {
     let text = String::from_utf8(bytes(what, TEXT)?);
     text.with_context(|| format!("standard input: {what} is no UTF-8 text"))

@@ -1,20 +1,20 @@
-//! What commands that draw have in common: the quantities that are drawn.
+//! Options common to commands that draw: the quantities that are drawn.
 
 use std::path::{Path, PathBuf};
 
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum_scene::drawing::Shown;
+use ppum_scene::drawing::DisplayedQuantity;
 use ppum_scene::scene::default_quantity;
-use ppum_scene::shot::Asked;
+use ppum_scene::shot::QuantityRequest;
 
 use crate::dataset::{field, open_step, quantity};
-use crate::given::{self, Given, parts};
-use crate::replacements::Replacements;
+use crate::formula_text::{self, FormulaText, parts};
+use crate::replacements::ReplacementArgs;
 use crate::standard::{self, is_standard};
 
-/// The subject of a picture: a quantity of a dataset.
+/// The subject of an image: a quantity of a dataset.
 #[derive(Debug, clap::Args)]
 pub(crate) struct QuantityArgs {
     /// Dataset, - for standard input
@@ -26,7 +26,7 @@ pub(crate) struct QuantityArgs {
     #[arg(short, long, value_name = "Q", allow_hyphen_values = true)]
     quantity: Option<String>,
     #[command(flatten)]
-    pub(crate) replacements: Replacements,
+    pub(crate) replacements: ReplacementArgs,
     /// Step of the series, from 0 [default: the last]
     #[arg(long, value_name = "K")]
     pub(crate) step: Option<usize>,
@@ -50,21 +50,24 @@ impl QuantityArgs {
     }
 
     /// The quantity, none but that.
-    pub(crate) fn quantity(&self, field: &Field<'_>) -> anyhow::Result<(Quantity, Asked)> {
+    pub(crate) fn quantity(
+        &self,
+        field: &Field<'_>,
+    ) -> anyhow::Result<(Quantity, QuantityRequest)> {
         let quantity = quantity(field, self.given(field))?;
-        let shown = Shown::Quantity(quantity.clone());
-        Ok((quantity, Asked { name: shown.name(self.given(field)), shown }))
+        let shown = DisplayedQuantity::Quantity(quantity.clone());
+        Ok((quantity, QuantityRequest { name: shown.name(self.given(field)), shown }))
     }
 
-    /// What is shown, as it is given: quantities and values of cells, of a list with commas
-    /// between; nothing if that is left to the program.
+    /// Returns the texts of the quantities as given: quantities and values of cells, of a list with
+    /// commas between; nothing if that is left to the program.
     pub(crate) fn listed(&self) -> Vec<String> {
         self.quantity.iter().flat_map(|list| parts(list)).map(str::to_owned).collect()
     }
 
-    /// What is shown, with the content of files.
-    pub(crate) fn texts(&self) -> anyhow::Result<Vec<Given>> {
-        self.listed().iter().map(|text| Given::read(text)).collect()
+    /// Returns the texts of the quantities, with the content of files.
+    pub(crate) fn texts(&self) -> anyhow::Result<Vec<FormulaText>> {
+        self.listed().iter().map(|text| FormulaText::read(text)).collect()
     }
 
     /// True if several parts are asked for.
@@ -78,11 +81,12 @@ impl QuantityArgs {
 
     /// The files that are read.
     pub(crate) fn inputs(&self) -> impl Iterator<Item = &Path> {
-        let formulas = self.quantity.iter().flat_map(|list| parts(list)).filter_map(given::file);
+        let formulas =
+            self.quantity.iter().flat_map(|list| parts(list)).filter_map(formula_text::file);
         [self.file.as_path()].into_iter().chain(formulas).chain(self.replacements.files())
     }
 
-    /// The name of the dataset in the picture.
+    /// The name of the dataset in the image.
     pub(crate) fn file_name(&self) -> String {
         match self.file.file_name() {
             Some(name) if !is_standard(&self.file) => name.to_string_lossy().into_owned(),

@@ -13,7 +13,7 @@ pub(crate) enum FileKind {
     Dataset,
     Problem,
     Picture,
-    /// Of several pictures.
+    /// An animation.
     Animation,
     Table,
     /// A page, a mesh or lines.

@@ -2,14 +2,14 @@
 
 use std::io::{self, Write};
 
-use ppum::text::Places;
+use ppum::text::LocationText;
 use ppum_scene::facts::{HEADS, MEANING, Tip};
 
 use crate::number::columns;
 
 /// A table, one line per tip; tips are numbered in each step. The one of K_I and K_II that is
 /// rounding of the other is shown as zero.
-pub(crate) fn table(out: &mut dyn Write, tips: &[Tip], places: &Places) -> io::Result<()> {
+pub(crate) fn table(out: &mut dyn Write, tips: &[Tip], places: &LocationText) -> io::Result<()> {
     let has_steps = tips.iter().any(|tip| tip.step != tips[0].step);
     let heads = ["step", "tip", "crack", "position"].into_iter().chain(HEADS).map(str::to_owned);
     let row = |(number, tip): (usize, &Tip)| {

@@ -1,11 +1,11 @@
 //! Warnings of the solver as the commands show them.
 
-use ppum_scene::facts::Warning;
+use ppum_scene::facts::WarningFacts;
 
 use crate::output::tell;
 
 /// Writes warnings to standard error.
-pub(crate) fn warn(warnings: &[Warning]) {
+pub(crate) fn warn(warnings: &[WarningFacts]) {
     for warning in warnings {
         tell(&format!("warning: {}", warning.message));
     }
@@ -13,9 +13,9 @@ pub(crate) fn warn(warnings: &[Warning]) {
 
 /// Writes warnings of the steps of a series: those of a kind in full for the first step that has
 /// them, and the numbers of all others.
-pub(crate) fn warn_of_steps(warnings: &[Warning]) {
+pub(crate) fn warn_of_steps(warnings: &[WarningFacts]) {
     let mut steps: Vec<(&str, Vec<usize>)> = Vec::new();
-    for Warning { step, kind, message, .. } in warnings {
+    for WarningFacts { step, kind, message, .. } in warnings {
         let known = steps.iter().position(|(known, _)| known == kind);
         let of_kind = known.unwrap_or(steps.len());
         if known.is_none() {

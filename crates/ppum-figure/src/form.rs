@@ -3,7 +3,7 @@
 use std::io;
 use std::path::Path;
 
-use ppum_render::png::{self, Text};
+use ppum_render::png::{self, TextChunk};
 
 use crate::canvas::Canvas;
 
@@ -37,8 +37,13 @@ impl PageFormat {
     /// The file's bytes; `dpi` is its number of pixels per inch if that is known.
     ///
     /// # Errors
-    /// A picture that is too large to be encoded.
-    pub fn bytes(self, page: &Canvas, dpi: Option<f64>, texts: &[Text]) -> io::Result<Vec<u8>> {
+    /// An image that is too large to be encoded.
+    pub fn bytes(
+        self,
+        page: &Canvas,
+        dpi: Option<f64>,
+        texts: &[TextChunk],
+    ) -> io::Result<Vec<u8>> {
         let known = dpi.unwrap_or(SCREEN);
         Ok(match self {
             Self::Png => png::encode_at(&page.image(), dpi, texts).map_err(io::Error::other)?,

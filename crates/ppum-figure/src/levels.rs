@@ -69,12 +69,12 @@ fn both_signs(norm: &Normalization, digits: &[i64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ppum_render::range::Range;
+    use ppum_render::range::RangeChoice;
     use ppum_render::raster::Raster;
 
     fn norm(scale: Scale, min: f64, max: f64) -> Normalization {
         let empty = Raster::<f64>::new([0, 0], vec![]);
-        Range::Fixed(min, max).normalization(scale, false, &empty).expect("a range")
+        RangeChoice::Fixed(min, max).normalization(scale, false, &empty).expect("a range")
     }
 
     #[test]

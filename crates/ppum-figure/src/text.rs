@@ -37,8 +37,8 @@ pub(crate) struct TextRun {
     pub(crate) lowered: f64,
 }
 
-/// The pieces of a line, none of them empty. What is not printable is shown by its number, ends of
-/// lines and tabs are blanks.
+/// The pieces of a line, none of them empty. Characters that are not printable are shown by their
+/// numbers, ends of lines and tabs are blanks.
 pub(crate) fn runs(text: &str, size: f64) -> Vec<TextRun> {
     let text = printable(text).replace(['\n', '\t'], " ");
     let mut runs = Vec::new();
@@ -304,7 +304,7 @@ mod tests {
         assert!((width("von Mises", 20.0) - sum).abs() < 1e-4);
     }
 
-    /// What reads to the right reads upwards after a quarter turn.
+    /// Text that reads to the right reads upwards after a quarter turn.
     #[test]
     fn text_turns_about_its_start() {
         let ([lo, hi], [low, high]) =

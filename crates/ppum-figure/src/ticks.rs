@@ -202,7 +202,7 @@ pub fn axis(center: f64, half: f64, step: TickStep, anchor: Option<f64>) -> Tick
     labelled_multiples(&multiples, center, step, notation)
 }
 
-/// The same with a finer step where there were fewer than two marks; of those at most two are
+/// Returns ticks with a finer step where there were fewer than two marks; of those at most two are
 /// labelled, the outermost ones.
 #[must_use]
 pub fn axis_with_two(center: f64, half: f64, step: TickStep, anchor: Option<f64>) -> Ticks {
@@ -462,7 +462,7 @@ fn round_to(x: f64, k: i32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ppum_render::range::Range;
+    use ppum_render::range::RangeChoice;
     use ppum_render::raster::Raster;
     use ppum_testkit::random::Random;
 
@@ -472,7 +472,7 @@ mod tests {
 
     fn norm(scale: Scale, min: f64, max: f64) -> Normalization {
         let empty = Raster::<f64>::new([0, 0], vec![]);
-        Range::Fixed(min, max).normalization(scale, false, &empty).unwrap()
+        RangeChoice::Fixed(min, max).normalization(scale, false, &empty).unwrap()
     }
 
     #[test]

@@ -2,8 +2,8 @@
 //!
 //! [`read()`] and [`text`] take whole files, within a limit that the caller states, and refuse what
 //! has no end. [`replace`] writes files completely or not at all; [`check`] says beforehand whether
-//! it could. [`Ranged`] reads parts of a file, and [`Growing`] is one that is appended to while
-//! others read it. A program that is told to end calls [`abandon`].
+//! it could. [`RangedFile`] reads parts of a file, and [`AppendFile`] is one that is appended to
+//! while others read it. A program that is told to end calls [`abandon`].
 //!
 //! Errors are [`std::io::Error`]s, those of the system and own ones; their texts are reasons that
 //! stand behind `cannot read FILE: ` or `cannot write FILE: `.
@@ -20,7 +20,7 @@
 //! # }
 //! ```
 
-mod growing;
+mod append_file;
 mod lock;
 mod part;
 mod ranged;
@@ -28,9 +28,9 @@ mod read;
 mod same;
 mod write;
 
-pub use growing::Growing;
-pub use part::{Abandoned, abandon};
-pub use ranged::Ranged;
+pub use append_file::AppendFile;
+pub use part::{WritingStop, abandon};
+pub use ranged::RangedFile;
 pub use read::{open, read, text, text_within, within};
 pub use same::is_same;
 pub use write::{check, replace};

@@ -23,18 +23,18 @@ pub(crate) fn live() -> MutexGuard<'static, BTreeSet<PathBuf>> {
 /// Removes all part files and locks of this program, which is about to end: none is made, and none
 /// takes its place, as long as the result is kept.
 #[must_use = "files can be written again once it is dropped"]
-pub fn abandon() -> Abandoned {
+pub fn abandon() -> WritingStop {
     let mut live = live();
     for path in std::mem::take(&mut *live) {
         // nothing better can be done about a file that cannot be removed
         let _ = fs::remove_file(path);
     }
-    Abandoned(live)
+    WritingStop(live)
 }
 
 /// All writing of this program stands still.
 #[derive(Debug)]
-pub struct Abandoned(
+pub struct WritingStop(
     #[expect(dead_code, reason = "it is held")] MutexGuard<'static, BTreeSet<PathBuf>>,
 );
 
@@ -94,7 +94,7 @@ pub(crate) fn folder(target: &Path) -> &Path {
     target.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// The same, if it exists.
+/// Returns the folder if it exists.
 pub(crate) fn existing_folder(target: &Path) -> io::Result<&Path> {
     let folder = folder(target);
     if folder.is_dir() {

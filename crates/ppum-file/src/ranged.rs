@@ -8,11 +8,11 @@ use crate::read::{open, too_long};
 
 /// A file that is read in parts. It remains the opened file even if another file replaces it.
 #[derive(Debug)]
-pub struct Ranged {
+pub struct RangedFile {
     file: File,
 }
 
-impl Ranged {
+impl RangedFile {
     /// Opens a regular file of at most `limit` bytes.
     ///
     /// # Errors
@@ -84,8 +84,8 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("a");
         std::fs::write(&path, "0123456789").expect("written");
-        assert!(Ranged::open(&path, 9).is_err());
-        let file = Ranged::open(&path, 10).expect("short enough");
+        assert!(RangedFile::open(&path, 9).is_err());
+        let file = RangedFile::open(&path, 10).expect("short enough");
         let mut part = [0; 3];
         for (at, expected) in [(0, b"012"), (7, b"789"), (2, b"234")] {
             file.read(at, &mut part).expect("there");

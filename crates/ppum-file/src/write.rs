@@ -17,7 +17,7 @@ use crate::part::{PartFile, folder};
 ///
 /// # Errors
 /// Those of `write`, and of the system; a folder, a device, a file without write permission, one
-/// that [grows](crate::Growing) just now. Whatever stood at `path` then still stands there
+/// that [grows](crate::AppendFile) just now. Whatever stood at `path` then still stands there
 /// unchanged, and no part file is left.
 pub fn replace<E: From<io::Error>>(
     path: &Path,
@@ -28,7 +28,7 @@ pub fn replace<E: From<io::Error>>(
     replace_locked(&target, write)
 }
 
-/// The same for a target that is no link, and that nobody else may write.
+/// Replaces a target that is no link, and that no other process may write.
 pub(crate) fn replace_locked<E: From<io::Error>>(
     target: &Path,
     write: impl FnOnce(&mut dyn Write) -> Result<(), E>,

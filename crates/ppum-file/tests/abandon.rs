@@ -15,7 +15,7 @@ fn writing_stops_and_leaves_nothing() {
     let other = tempfile::tempdir().expect("a folder");
     let locks = || std::fs::read_dir(other.path()).expect("a folder").count() - 1;
     let begun: io::Result<_> =
-        ppum_file::Growing::begin(&other.path().join("b"), |out| out.write_all(b"head"));
+        ppum_file::AppendFile::begin(&other.path().join("b"), |out| out.write_all(b"head"));
     let _growing = begun.expect("begun");
     assert_eq!(locks(), 1);
     let (in_the_middle, started) = channel();

@@ -4,7 +4,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use ppum::dataset::{Dataset, Step};
-use ppum_file::Growing;
+use ppum_file::AppendFile;
 
 use crate::bytes::{appended, begun};
 use crate::error::WriteError;
@@ -21,7 +21,7 @@ use crate::series::{Series, numbered};
 #[derive(Debug)]
 pub struct SeriesWriter {
     path: PathBuf,
-    file: Growing,
+    file: AppendFile,
     trunk: Trunk,
     head: Dataset,
     len: usize,
@@ -38,7 +38,7 @@ impl SeriesWriter {
         dataset.check()?;
         let bytes = begun(dataset)?;
         let trunk = Trunk::read(&bytes).expect("this program made it");
-        let file: io::Result<_> = Growing::begin(path, |out| out.write_all(&bytes));
+        let file: io::Result<_> = AppendFile::begin(path, |out| out.write_all(&bytes));
         let file = file.map_err(|error| failed(path, error))?;
         let mut head = dataset.clone();
         let steps = std::mem::take(&mut head.steps);
@@ -55,7 +55,7 @@ impl SeriesWriter {
     /// it cannot be read; [`WriteError::NoSeries`]: it was written as a whole, or another program
     /// has rewritten it.
     pub fn resume(path: &Path) -> Result<Self, WriteError> {
-        let file = Growing::open(path).map_err(|error| failed(path, error))?;
+        let file = AppendFile::open(path).map_err(|error| failed(path, error))?;
         let series = Series::open(path).map_err(|error| WriteError::Unreadable {
             path: path.to_owned(),
             source: Box::new(error),

@@ -3,7 +3,7 @@
 use ppum::dataset::Dataset;
 
 use crate::bytes::{all_errors, checked};
-use crate::content::{Array, ArrayValues, Content};
+use crate::content::{Array, ArrayValues, ObjectTree};
 use crate::error::{ReadError, WriteError};
 use crate::limits::FORMAT_VERSION;
 use crate::{checksum, encode, hdf5};
@@ -11,7 +11,7 @@ use crate::{checksum, encode, hdf5};
 /// Named arrays and attributes, as `FORMAT.md` names them, or those of an HDF5 file of another
 /// format.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Arrays(Content);
+pub struct Arrays(ObjectTree);
 
 impl Arrays {
     /// Those of a dataset, which need not obey the rules, without a checksum.
@@ -31,8 +31,8 @@ impl Arrays {
     }
 
     /// Adds an array (`steps/0000/partition/center`) or an attribute (`steps/0000@load`, `@title`),
-    /// row-major, of shape `[]` if it is a scalar, and the groups that it is in. One of this path is
-    /// replaced.
+    /// row-major, of shape `[]` if it is a scalar, and the groups that it is in. One of this path
+    /// is replaced.
     pub fn insert(&mut self, path: &str, shape: impl Into<Vec<u64>>, values: ArrayValues) {
         self.0.insert(path.to_owned(), Array { shape: shape.into(), values });
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use ppum::check::CheckError;
 use ppum::dataset::{Dataset, Step};
 
-use crate::content::{Content, join, step_of, step_path};
+use crate::content::{ObjectTree, join, step_of, step_path};
 use crate::error::{ReadError, WriteError};
 use crate::hdf5::{Ranges, Trunk};
 use crate::limits::FORMAT_VERSION;
@@ -35,7 +35,7 @@ pub(crate) fn begun(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
     hdf5::to_bytes(&content)
 }
 
-/// The same bytes as if the steps after the first one had been appended one by one.
+/// Returns the bytes that appending the steps one by one after the first would give.
 fn series(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
     let mut bytes = begun(dataset)?;
     let mut trunk = Trunk::read(&bytes).expect("this program made it");
@@ -48,7 +48,7 @@ fn series(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
     Ok(bytes)
 }
 
-/// What makes a step part of a file, and the trunk of the file that has it.
+/// Returns the objects that make a step part of a file, and the trunk of the file that has it.
 pub(crate) fn appended(
     trunk: &Trunk,
     number: usize,
@@ -92,7 +92,7 @@ pub fn diagnose_bytes(bytes: &[u8]) -> Vec<ReadError> {
     all_errors(hdf5::from_bytes(bytes))
 }
 
-pub(crate) fn all_errors(content: Result<Content, ReadError>) -> Vec<ReadError> {
+pub(crate) fn all_errors(content: Result<ObjectTree, ReadError>) -> Vec<ReadError> {
     let errors = match content {
         Ok(content) => diagnose(&content),
         Err(error) => vec![error],
@@ -107,7 +107,7 @@ pub(crate) fn from_file(file: &dyn Ranges, length: u64) -> Result<Dataset, ReadE
 }
 
 /// The dataset of a content. Its checksums are compared while it is made.
-pub(crate) fn checked(content: &Content) -> Result<Dataset, ReadError> {
+pub(crate) fn checked(content: &ObjectTree) -> Result<Dataset, ReadError> {
     let minor = decode::check_version(content)?;
     let dataset = || {
         let dataset = decode::dataset(content)?;
@@ -120,7 +120,7 @@ pub(crate) fn checked(content: &Content) -> Result<Dataset, ReadError> {
 }
 
 /// An error of the dataset as one of its file.
-pub(crate) fn invalid(mut error: CheckError, content: &Content) -> ReadError {
+pub(crate) fn invalid(mut error: CheckError, content: &ObjectTree) -> ReadError {
     error.place = in_file(&error.place, content);
     ReadError::Invalid(error)
 }
@@ -137,9 +137,9 @@ const NEEDS: &[(&str, &[&str])] = &[
     ("reactions", &["fields", "equation"]),
 ];
 
-/// All that is wrong with a content: nothing if it is a dataset. Of each object one error, and none
-/// that may follow from another.
-pub(crate) fn diagnose(content: &Content) -> Vec<ReadError> {
+/// All that is wrong with a content: nothing if it is a dataset. Returns one error for each object,
+/// and none that may follow from another.
+pub(crate) fn diagnose(content: &ObjectTree) -> Vec<ReadError> {
     let minor = match decode::check_version(content) {
         Ok(minor) => minor,
         Err(error) => return vec![error],
@@ -171,7 +171,7 @@ fn part(object: &str) -> (&str, &str) {
     (step, rest.split(['/', '@', '[', ' ']).next().unwrap_or_default())
 }
 
-/// The same error with the version of the file, if that is later than this program.
+/// Returns the error with the version of the file, if that is later than this program.
 pub(crate) fn newer(error: ReadError, minor: u32) -> ReadError {
     let source = Box::new(error);
     if minor > FORMAT_VERSION.1 { ReadError::Newer { minor, source } } else { *source }

@@ -6,7 +6,7 @@ use std::fmt::Write as _;
 use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
-use crate::content::{Array, ArrayValues, Content, ObjectKind, key, step_of};
+use crate::content::{Array, ArrayValues, ObjectKind, ObjectTree, key, step_of};
 use crate::error::ReadError;
 
 /// Name of the attribute that holds the checksum as 64 hexadecimal digits: of the root over all, of
@@ -18,13 +18,13 @@ const REST: &str = "sha256_rest";
 
 /// The parts of a content that have a checksum of their own.
 #[derive(Clone, Debug)]
-enum Scope {
+enum ChecksumScope {
     All,
     Rest,
     Step(String),
 }
 
-impl Scope {
+impl ChecksumScope {
     /// The group and the name of the attribute.
     fn place(&self) -> (&str, &'static str) {
         match self {
@@ -42,7 +42,7 @@ impl Scope {
 
     /// The items that count, by the names under which they do, in their order. Its own checksum
     /// does not count, nor does that over all, which counts the others.
-    fn items<'c>(&'c self, content: &'c Content) -> BTreeMap<&'c str, (&'c String, &'c Array)> {
+    fn items<'c>(&'c self, content: &'c ObjectTree) -> BTreeMap<&'c str, (&'c String, &'c Array)> {
         let begin = if let Self::Step(path) = self { path.as_str() } else { "" };
         let left_out = [self.key(), Self::All.key()];
         let counted = content.beginning(begin).filter(|(name, _)| !left_out.contains(name));
@@ -63,64 +63,64 @@ impl Scope {
 }
 
 /// All scopes of a content but that over all.
-fn parts(content: &Content) -> Vec<Scope> {
+fn parts(content: &ObjectTree) -> Vec<ChecksumScope> {
     let steps: BTreeSet<&str> = content.groups().filter_map(step_of).collect();
-    let steps = steps.into_iter().map(|path| Scope::Step(path.to_owned()));
-    [Scope::Rest].into_iter().chain(steps).collect()
+    let steps = steps.into_iter().map(|path| ChecksumScope::Step(path.to_owned()));
+    [ChecksumScope::Rest].into_iter().chain(steps).collect()
 }
 
 /// Takes all checksums out of the content.
-pub(crate) fn remove(content: &mut Content) {
-    for scope in [Scope::All].into_iter().chain(parts(content)) {
+pub(crate) fn remove(content: &mut ObjectTree) {
+    for scope in [ChecksumScope::All].into_iter().chain(parts(content)) {
         content.remove(&scope.key());
     }
 }
 
 /// Adds the checksum over all to the content, or makes it right.
-pub(crate) fn seal(content: &mut Content) {
+pub(crate) fn seal(content: &mut ObjectTree) {
     remove(content);
-    add(content, &Scope::All);
+    add(content, &ChecksumScope::All);
 }
 
 /// Adds a checksum for each step and one for the rest, or makes them right.
-pub(crate) fn seal_parts(content: &mut Content) {
+pub(crate) fn seal_parts(content: &mut ObjectTree) {
     remove(content);
     parts(content).iter().for_each(|scope| add(content, scope));
 }
 
 /// Adds the checksum of a step.
-pub(crate) fn seal_step(content: &mut Content, path: &str) {
-    add(content, &Scope::Step(path.to_owned()));
+pub(crate) fn seal_step(content: &mut ObjectTree, path: &str) {
+    add(content, &ChecksumScope::Step(path.to_owned()));
 }
 
-fn add(content: &mut Content, scope: &Scope) {
+fn add(content: &mut ObjectTree, scope: &ChecksumScope) {
     let sum = digest(content, scope).expect("what is written has types of the format only");
     content.insert(scope.key(), Array::scalar(sum));
 }
 
 /// True if the content has the checksum over all.
-pub(crate) fn is_whole(content: &Content) -> bool {
-    content.contains_key(&Scope::All.key())
+pub(crate) fn is_whole(content: &ObjectTree) -> bool {
+    content.contains_key(&ChecksumScope::All.key())
 }
 
 /// Compares the checksums of the content. A part without one is fine.
-pub(crate) fn verify(content: &Content) -> Result<(), ReadError> {
-    let scopes: Vec<_> = [Scope::All].into_iter().chain(parts(content)).collect();
+pub(crate) fn verify(content: &ObjectTree) -> Result<(), ReadError> {
+    let scopes: Vec<_> = [ChecksumScope::All].into_iter().chain(parts(content)).collect();
     let compared: Vec<_> = scopes.par_iter().map(|scope| check(content, scope)).collect();
     compared.into_iter().collect()
 }
 
-/// The same for what is in no step.
-pub(crate) fn verify_rest(content: &Content) -> Result<(), ReadError> {
-    check(content, &Scope::Rest)
+/// Verifies the content outside of steps.
+pub(crate) fn verify_rest(content: &ObjectTree) -> Result<(), ReadError> {
+    check(content, &ChecksumScope::Rest)
 }
 
-/// The same for a step.
-pub(crate) fn verify_step(content: &Content, path: &str) -> Result<(), ReadError> {
-    check(content, &Scope::Step(path.to_owned()))
+/// Verifies a step.
+pub(crate) fn verify_step(content: &ObjectTree, path: &str) -> Result<(), ReadError> {
+    check(content, &ChecksumScope::Step(path.to_owned()))
 }
 
-fn check(content: &Content, scope: &Scope) -> Result<(), ReadError> {
+fn check(content: &ObjectTree, scope: &ChecksumScope) -> Result<(), ReadError> {
     let (group, name) = scope.place();
     content.holds(group, name, ObjectKind::Attribute)?;
     let Some(stored) = content.get(&scope.key()) else { return Ok(()) };
@@ -135,7 +135,7 @@ fn check(content: &Content, scope: &Scope) -> Result<(), ReadError> {
     Err(ReadError::Checksum { attribute: scope.key(), stored, computed })
 }
 
-fn digest(content: &Content, scope: &Scope) -> Result<String, ReadError> {
+fn digest(content: &ObjectTree, scope: &ChecksumScope) -> Result<String, ReadError> {
     let mut hash = Sha256::new();
     for (name, (full, array)) in scope.items(content) {
         let shape: Vec<String> = array.shape.iter().map(u64::to_string).collect();

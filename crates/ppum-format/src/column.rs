@@ -2,7 +2,7 @@
 
 use crate::content::ObjectKind;
 use crate::reader::{GroupReader, most};
-use crate::writer::{GroupWriter, Written};
+use crate::writer::{EncodeResult, GroupWriter};
 
 /// An array of what a group holds, `S`: a slice of rows, or a struct of vectors.
 #[derive(Clone, Copy)]
@@ -13,7 +13,7 @@ pub(crate) struct ArrayColumn<S: ?Sized> {
     /// True if its length is the number of rows.
     pub(crate) counts: bool,
     pub(crate) is_used: fn(&S) -> bool,
-    pub(crate) put: fn(&S, &mut GroupWriter, &str) -> Written,
+    pub(crate) put: fn(&S, &mut GroupWriter, &str) -> EncodeResult,
     pub(crate) take: fn(&mut S, &GroupReader, &str, usize),
 }
 
@@ -35,14 +35,14 @@ impl<S: ?Sized> ArrayColumn<S> {
     /// An array that is always written, by functions of its own.
     pub(crate) const fn new(
         array: &'static str,
-        put: fn(&S, &mut GroupWriter, &str) -> Written,
+        put: fn(&S, &mut GroupWriter, &str) -> EncodeResult,
         take: fn(&mut S, &GroupReader, &str, usize),
     ) -> Self {
         let names = ColumnNames { array, field: array, offsets: None };
         Self { names, is_optional: false, counts: false, is_used: |_| true, put, take }
     }
 
-    /// The same array, not written where it says nothing.
+    /// The array, not written where it says nothing.
     pub(crate) const fn optional(self) -> Self {
         Self { is_optional: true, ..self }
     }
@@ -79,14 +79,22 @@ impl GroupReader<'_> {
 
 impl GroupWriter<'_> {
     /// The arrays of a value.
-    pub(crate) fn columns<S: ?Sized>(&mut self, columns: &[ArrayColumn<S>], value: &S) -> Written {
+    pub(crate) fn columns<S: ?Sized>(
+        &mut self,
+        columns: &[ArrayColumn<S>],
+        value: &S,
+    ) -> EncodeResult {
         let mut used =
             columns.iter().filter(|column| !column.is_optional || (column.is_used)(value));
         used.try_for_each(|column| (column.put)(value, self, column.names.array))
     }
 
     /// Nothing where there are no rows.
-    pub(crate) fn table_of_some<R>(&mut self, columns: &[ArrayColumn<[R]>], rows: &[R]) -> Written {
+    pub(crate) fn table_of_some<R>(
+        &mut self,
+        columns: &[ArrayColumn<[R]>],
+        rows: &[R],
+    ) -> EncodeResult {
         if rows.is_empty() { Ok(()) } else { self.columns(columns, rows) }
     }
 }

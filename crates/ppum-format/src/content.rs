@@ -11,13 +11,13 @@ use crate::error::ReadError;
 /// A dataset's name is its path without the leading slash (`steps/0000/partition/center`), an
 /// attribute's is that of its object, `@` and its own (`steps/0000@load`; of the root: `@title`).
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(crate) struct Content {
+pub(crate) struct ObjectTree {
     arrays: BTreeMap<String, Array>,
     /// Paths of the groups but the root, also of those with nothing in them.
     groups: BTreeSet<String>,
 }
 
-impl Deref for Content {
+impl Deref for ObjectTree {
     type Target = BTreeMap<String, Array>;
 
     fn deref(&self) -> &Self::Target {
@@ -25,7 +25,7 @@ impl Deref for Content {
     }
 }
 
-impl DerefMut for Content {
+impl DerefMut for ObjectTree {
     fn deref_mut(&mut self) -> &mut Self::Target {
         &mut self.arrays
     }
@@ -51,7 +51,7 @@ impl ObjectKind {
     }
 }
 
-impl Content {
+impl ObjectTree {
     pub(crate) fn new() -> Self {
         Self::default()
     }
@@ -214,7 +214,7 @@ fn little_endian<T: bytemuck::Pod>(numbers: &[T]) -> Cow<'_, [u8]> {
 }
 
 /// A Rust type that stands for one of the element types.
-pub(crate) trait Element: Clone + std::fmt::Debug {
+pub(crate) trait ElementType: Clone + std::fmt::Debug {
     /// Name of the type in messages and in the checksum.
     const NAME: &'static str;
     fn wrap(values: Vec<Self>) -> ArrayValues;
@@ -224,7 +224,7 @@ pub(crate) trait Element: Clone + std::fmt::Debug {
 
 macro_rules! elements {
     ($($type:ty, $variant:ident, $name:literal;)*) => {
-        $(impl Element for $type {
+        $(impl ElementType for $type {
             const NAME: &'static str = $name;
             fn wrap(values: Vec<Self>) -> ArrayValues {
                 ArrayValues::$variant(values)
@@ -259,12 +259,12 @@ elements! {
 
 impl Array {
     /// One value.
-    pub(crate) fn scalar<T: Element>(value: T) -> Self {
+    pub(crate) fn scalar<T: ElementType>(value: T) -> Self {
         Self { shape: vec![], values: T::wrap(vec![value]) }
     }
 
     /// A vector.
-    pub(crate) fn vector<T: Element>(values: impl IntoIterator<Item = T>) -> Self {
+    pub(crate) fn vector<T: ElementType>(values: impl IntoIterator<Item = T>) -> Self {
         let values: Vec<T> = values.into_iter().collect();
         Self { shape: vec![values.len() as u64], values: T::wrap(values) }
     }

@@ -17,19 +17,19 @@ use ppum::polynomial::PolynomialSpace;
 use ppum::vec2::Rect;
 use ppum::weight::{WeightError, WeightFunction};
 
-use crate::content::{ArrayValues, Content, ObjectKind, step_path};
+use crate::content::{ArrayValues, ObjectKind, ObjectTree, step_path};
 use crate::error::ReadError;
 use crate::limits::FORMAT_VERSION;
 pub(crate) use crate::reader::missing;
 use crate::reader::{GroupReader, attempt, numbered, optional, read};
 use crate::schema::{self, StoredFunction, StoredHole};
-use crate::stored::{DomainKind, EquationKind, PartitionKind, WEIGHTS, Worded as _};
+use crate::stored::{DomainKind, EquationKind, PartitionKind, StoredWord as _, WEIGHTS};
 use tables::{Scopes, tables};
 
-type Read<T> = Result<T, ReadError>;
+type DecodeResult<T> = Result<T, ReadError>;
 
 /// The minor version, if this is a dataset and of a major version that can be read here.
-pub(crate) fn check_version(content: &Content) -> Read<u32> {
+pub(crate) fn check_version(content: &ObjectTree) -> DecodeResult<u32> {
     let name = ArrayValues::Text(vec!["ppum".to_owned()]);
     if content.get("@format").is_none_or(|array| array.values != name) {
         return Err(ReadError::NotADataset);
@@ -50,13 +50,13 @@ fn first(errors: Vec<ReadError>) -> ReadError {
 }
 
 /// The dataset in a content. Shapes and words are right afterwards, meaning is not yet checked.
-pub(crate) fn dataset(content: &Content) -> Read<Dataset> {
+pub(crate) fn dataset(content: &ObjectTree) -> DecodeResult<Dataset> {
     read(content, whole).map_err(first)
 }
 
-/// What can be read of a dataset, and all that is wrong with the objects of its content, about
-/// which the dataset says nothing.
-pub(crate) fn diagnose(content: &Content) -> (Dataset, Vec<ReadError>) {
+/// Reads as much of a dataset as possible, and lists all errors in the objects of its content,
+/// about which the dataset says nothing.
+pub(crate) fn diagnose(content: &ObjectTree) -> (Dataset, Vec<ReadError>) {
     attempt(content, whole)
 }
 
@@ -84,7 +84,11 @@ fn one_kind(root: &GroupReader, domain: DomainKind, number: usize, step: &Step) 
 }
 
 /// The step of the dataset with these tables, in a content that holds nothing else.
-pub(crate) fn one_step(content: &Content, path: &str, tables: &[Arc<Table>]) -> Read<Step> {
+pub(crate) fn one_step(
+    content: &ObjectTree,
+    path: &str,
+    tables: &[Arc<Table>],
+) -> DecodeResult<Step> {
     read(content, |root| step(&root.group(path), &scopes(root, tables))).map_err(first)
 }
 
@@ -93,7 +97,7 @@ pub(crate) const RESULTS: &[&str] = &["cracks", "intensities", "history", "warni
 
 /// The cracks of a step, and what its solver tells of it, in a content that holds this alone. The
 /// step has no patches.
-pub(crate) fn results(content: &Content, path: &str) -> Read<Step> {
+pub(crate) fn results(content: &ObjectTree, path: &str) -> DecodeResult<Step> {
     let results = |root: &GroupReader| {
         let group = &root.group(path);
         let mut step = empty_step(group.attribute("load"));
@@ -112,7 +116,7 @@ fn results_of(group: &GroupReader, step: &mut Step) {
 }
 
 /// A step with its load alone.
-pub(crate) fn empty(content: &Content, path: &str) -> Read<Step> {
+pub(crate) fn empty(content: &ObjectTree, path: &str) -> DecodeResult<Step> {
     read(content, |root| empty_step(root.group(path).attribute("load"))).map_err(first)
 }
 
@@ -124,7 +128,7 @@ pub(crate) fn empty_step(load: f64) -> Step {
 }
 
 /// The dataset without its steps.
-pub(crate) fn head(content: &Content) -> Read<Dataset> {
+pub(crate) fn head(content: &ObjectTree) -> DecodeResult<Dataset> {
     read(content, |root| head_of(root).0).map_err(first)
 }
 

@@ -8,21 +8,21 @@ use ppum::formula::Table;
 use ppum::mesh::Mesh;
 use ppum::weight::WeightFunction;
 
-use crate::content::{Array, ArrayValues, Content, step_path};
+use crate::content::{Array, ArrayValues, ObjectTree, step_path};
 use crate::error::WriteError;
 use crate::limits::{FORMAT_VERSION, MAX_TABLE_VALUES};
 use crate::schema::{self, StoredFunction, StoredHole};
 use crate::stored::{DomainKind, EquationKind, PartitionKind};
-use crate::writer::{GroupWriter, Written};
+use crate::writer::{EncodeResult, GroupWriter};
 
 /// Everything of a dataset under its names in the file, without checksums.
-pub(crate) fn content(dataset: &Dataset) -> Result<Content, WriteError> {
+pub(crate) fn content(dataset: &Dataset) -> Result<ObjectTree, WriteError> {
     beginning(dataset, dataset.steps.len())
 }
 
-/// The same of the first steps alone.
-pub(crate) fn beginning(dataset: &Dataset, steps: usize) -> Result<Content, WriteError> {
-    let mut content = Content::new();
+/// Encodes the first steps alone.
+pub(crate) fn beginning(dataset: &Dataset, steps: usize) -> Result<ObjectTree, WriteError> {
+    let mut content = ObjectTree::new();
     let mut root = GroupWriter { path: String::new(), content: &mut content };
     root.attribute("format", &"ppum".to_owned())?;
     root.attribute("format_version", &<[u32; 2]>::from(FORMAT_VERSION))?;
@@ -43,13 +43,13 @@ pub(crate) fn beginning(dataset: &Dataset, steps: usize) -> Result<Content, Writ
 }
 
 /// A step under its names in the file.
-pub(crate) fn one_step(number: usize, one: &Step) -> Result<Content, WriteError> {
-    let mut content = Content::new();
+pub(crate) fn one_step(number: usize, one: &Step) -> Result<ObjectTree, WriteError> {
+    let mut content = ObjectTree::new();
     step(&mut GroupWriter { path: step_path(number), content: &mut content }, one)?;
     Ok(content)
 }
 
-fn domain(group: &mut GroupWriter, domain: &Domain, is_mesh: bool) -> Written {
+fn domain(group: &mut GroupWriter, domain: &Domain, is_mesh: bool) -> EncodeResult {
     let kind = match (is_mesh, domain.holes.is_empty()) {
         (true, _) => DomainKind::Mesh,
         (false, true) => DomainKind::Box,
@@ -62,7 +62,7 @@ fn domain(group: &mut GroupWriter, domain: &Domain, is_mesh: bool) -> Written {
     group.group("holes").table_of_some(schema::HOLES, &holes)
 }
 
-fn equation(group: &mut GroupWriter, equation: &Equation) -> Written {
+fn equation(group: &mut GroupWriter, equation: &Equation) -> EncodeResult {
     for (name, expression) in equation.constants() {
         match expression.constant() {
             Some(value) => group.attribute(name, &value)?,
@@ -81,7 +81,7 @@ fn equation(group: &mut GroupWriter, equation: &Equation) -> Written {
     group.attribute("kind", &kind)
 }
 
-fn tables(root: &mut GroupWriter, tables: &[Arc<Table>]) -> Written {
+fn tables(root: &mut GroupWriter, tables: &[Arc<Table>]) -> EncodeResult {
     for (k, table) in tables.iter().enumerate() {
         let mut group = root.group(&format!("tables/{k:04}"));
         let (x, y, values) = (table.x(), table.y(), table.values());
@@ -103,7 +103,7 @@ fn tables(root: &mut GroupWriter, tables: &[Arc<Table>]) -> Written {
     Ok(())
 }
 
-fn step(group: &mut GroupWriter, step: &Step) -> Written {
+fn step(group: &mut GroupWriter, step: &Step) -> EncodeResult {
     group.attribute("load", &step.load)?;
     match &step.partition {
         Partition::Boxes(boxes) => partition(&mut group.group("partition"), boxes)?,
@@ -129,7 +129,7 @@ fn step(group: &mut GroupWriter, step: &Step) -> Written {
     step.growth.iter().try_for_each(|g| growth(&mut group.group("growth"), g))
 }
 
-fn partition(group: &mut GroupWriter, partition: &BoxPartition) -> Written {
+fn partition(group: &mut GroupWriter, partition: &BoxPartition) -> EncodeResult {
     let weight = &partition.weight;
     group.attribute("kind", &PartitionKind::Boxes)?;
     group.attribute("weight", &weight.name().to_owned())?;
@@ -140,7 +140,7 @@ fn partition(group: &mut GroupWriter, partition: &BoxPartition) -> Written {
     group.columns(schema::BOXES, partition)
 }
 
-fn mesh(group: &mut GroupWriter, mesh: &Mesh) -> Written {
+fn mesh(group: &mut GroupWriter, mesh: &Mesh) -> EncodeResult {
     group.attribute("kind", &PartitionKind::Mesh)?;
     group.columns(schema::MESH, mesh)?;
     if !mesh.clips.is_empty() {
@@ -150,13 +150,13 @@ fn mesh(group: &mut GroupWriter, mesh: &Mesh) -> Written {
     Ok(())
 }
 
-fn field(group: &mut GroupWriter, field: &FieldData) -> Written {
+fn field(group: &mut GroupWriter, field: &FieldData) -> EncodeResult {
     group.attribute("name", &field.name)?;
     group.attribute("unit", &field.unit)?;
     group.columns(schema::FIELD, field)
 }
 
-fn growth(group: &mut GroupWriter, growth: &Growth) -> Written {
+fn growth(group: &mut GroupWriter, growth: &Growth) -> EncodeResult {
     growth.cycles.iter().try_for_each(|cycles| group.attribute("cycles", cycles))?;
     growth.stop.iter().try_for_each(|stop| group.attribute("stop", stop))?;
     group.columns(schema::GROWTH, &growth.tips)

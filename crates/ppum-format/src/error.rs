@@ -21,7 +21,7 @@ pub enum ReadError {
     /// Not an HDF5 file, or a damaged one.
     #[error("not a readable HDF5 file: {message}")]
     Hdf5 {
-        /// The mistake.
+        /// The error.
         message: String,
     },
     /// HDF5, but not a dataset of this format.
@@ -56,7 +56,7 @@ pub enum ReadError {
     Object {
         /// Path in the file; attributes are written `group@attribute`.
         object: String,
-        /// The mistake.
+        /// The error.
         mistake: String,
     },
     /// The content is not what was written.
@@ -98,7 +98,7 @@ impl ReadError {
         }
     }
 
-    /// The same with the texts of the file that it quotes cut: they may be of any length.
+    /// Returns the error with shortened quotations of the file's texts: they may be of any length.
     pub(crate) fn shortened(mut self) -> Self {
         match &mut self {
             Self::Object { object, mistake } => [object, mistake].into_iter().for_each(shorten),
@@ -119,7 +119,7 @@ impl ReadError {
     }
 }
 
-/// Longest text of an error, in characters: a formula's mistake with two lines of it fits.
+/// Longest text of an error, in characters: a formula's error with two lines of it fits.
 const LONGEST: usize = 700;
 
 /// Cuts the middle out of a long text.
@@ -176,7 +176,7 @@ pub enum WriteError {
     Object {
         /// Path it would have in the file.
         object: String,
-        /// The mistake.
+        /// The error.
         mistake: String,
     },
     /// The HDF5 library refused.

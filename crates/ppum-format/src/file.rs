@@ -4,7 +4,7 @@ use std::io;
 use std::path::Path;
 
 use ppum::dataset::Dataset;
-use ppum_file::Ranged;
+use ppum_file::RangedFile;
 
 use crate::bytes::{all_errors, from_file, to_bytes};
 use crate::error::{ReadError, WriteError};
@@ -18,7 +18,7 @@ use crate::limits::MAX_LENGTH;
 /// [`ReadError`]; the dataset returned has passed [`Dataset::check`].
 pub fn read(path: &Path) -> Result<Dataset, ReadError> {
     let io = |error| ReadError::io(path, error);
-    let file = Ranged::open(path, MAX_LENGTH).map_err(io)?;
+    let file = RangedFile::open(path, MAX_LENGTH).map_err(io)?;
     from_file(&file, file.length(MAX_LENGTH).map_err(io)?)
 }
 
@@ -27,7 +27,7 @@ pub fn read(path: &Path) -> Result<Dataset, ReadError> {
 pub fn diagnose(path: &Path) -> Vec<ReadError> {
     let content = || {
         let io = |error| ReadError::io(path, error);
-        let file = Ranged::open(path, MAX_LENGTH).map_err(io)?;
+        let file = RangedFile::open(path, MAX_LENGTH).map_err(io)?;
         hdf5::from_file(&file, file.length(MAX_LENGTH).map_err(io)?)
     };
     all_errors(content())

@@ -2,7 +2,7 @@
 //! HDF5 object.
 
 use crate::column::{ArrayColumn, ColumnNames};
-use crate::content::{ArrayValues, Content, ObjectKind, join, key, step_path};
+use crate::content::{ArrayValues, ObjectKind, ObjectTree, join, key, step_path};
 use crate::schema;
 
 /// Lists whose entries are rows of the arrays of a group.
@@ -47,8 +47,8 @@ fn in_group(group: &str, name: &str) -> String {
 }
 
 /// The object that a place such as `steps[0].functions[2].cuts[1].left` is about, with the indices
-/// in its array. What is between back ticks is a name.
-pub(crate) fn in_file(place: &str, content: &Content) -> String {
+/// in its array. Text between back ticks is a name.
+pub(crate) fn in_file(place: &str, content: &ObjectTree) -> String {
     let (path, name) = place.split_at(place.find(" `").unwrap_or(place.len()));
     let mut found = String::new();
     let mut row = None;
@@ -91,7 +91,7 @@ fn column_of_cut(name: &str) -> Option<usize> {
 }
 
 /// An entry of an array of offsets, 0 if there is none.
-fn entry(content: &Content, name: &str, k: usize) -> usize {
+fn entry(content: &ObjectTree, name: &str, k: usize) -> usize {
     match content.get(name).map(|array| &array.values) {
         Some(ArrayValues::U64(values)) => values.get(k).map_or(0, |v| *v as usize),
         _ => 0,
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn places_are_those_of_the_file() {
-        let mut content = Content::new();
+        let mut content = ObjectTree::new();
         let mut offsets = |name: &str| {
             content.insert(format!("steps/0002/{name}"), Array::vector([0_u64, 4, 10]));
         };

@@ -7,9 +7,9 @@
 use std::cell::RefCell;
 use std::ops::Range;
 
-use crate::content::{ArrayValues, Content, Element, ObjectKind, join, key};
+use crate::content::{ArrayValues, ElementType, ObjectKind, ObjectTree, join, key};
 use crate::error::ReadError;
-use crate::stored::{StoredValue, Words, value};
+use crate::stored::{StoredValue, WordTable, value};
 
 /// Most errors that are kept.
 const MOST_ERRORS: usize = 100;
@@ -17,13 +17,13 @@ const MOST_ERRORS: usize = 100;
 /// Takes arrays from a group of the file.
 pub(crate) struct GroupReader<'a> {
     pub(crate) path: String,
-    pub(crate) content: &'a Content,
+    pub(crate) content: &'a ObjectTree,
     errors: &'a RefCell<Vec<ReadError>>,
 }
 
-/// What `read` makes of a content, or all that is wrong with it.
+/// Returns the result of `read` for a content, or all of its errors.
 pub(crate) fn read<T>(
-    content: &Content,
+    content: &ObjectTree,
     read: impl FnOnce(&GroupReader) -> T,
 ) -> Result<T, Vec<ReadError>> {
     let (found, errors) = attempt(content, read);
@@ -33,7 +33,7 @@ pub(crate) fn read<T>(
 /// Returns what `read` makes of a content, and all errors; where there are any, the first is not to
 /// be used.
 pub(crate) fn attempt<T>(
-    content: &Content,
+    content: &ObjectTree,
     read: impl FnOnce(&GroupReader) -> T,
 ) -> (T, Vec<ReadError>) {
     let errors = RefCell::default();
@@ -108,7 +108,12 @@ impl<'a> GroupReader<'a> {
     }
 
     /// The values of an array or attribute of the given shape.
-    fn look<T: Element>(&self, name: &str, form: ObjectKind, shape: &[Extent]) -> Option<&'a [T]> {
+    fn look<T: ElementType>(
+        &self,
+        name: &str,
+        form: ObjectKind,
+        shape: &[Extent],
+    ) -> Option<&'a [T]> {
         let is_there = self.is_there(name, form)?;
         let key = key(&self.path, name, form);
         let Some(array) = self.content.get(&key).filter(|_| is_there) else {
@@ -193,7 +198,7 @@ impl<'a> GroupReader<'a> {
     }
 
     /// The values of an array of the given shape, row-major, if it is of that.
-    pub(crate) fn array<T: Element>(&self, name: &str, shape: &[Extent]) -> Option<Vec<T>> {
+    pub(crate) fn array<T: ElementType>(&self, name: &str, shape: &[Extent]) -> Option<Vec<T>> {
         self.look(name, ObjectKind::Dataset, shape).map(<[T]>::to_vec)
     }
 
@@ -249,7 +254,7 @@ impl<'a> GroupReader<'a> {
         ends.windows(2).map(|w| list[part(w)].to_vec()).collect()
     }
 
-    pub(crate) fn word<T: Clone>(&self, words: &Words<T>, word: &str, name: &str) -> Option<T> {
+    pub(crate) fn word<T: Clone>(&self, words: &WordTable<T>, word: &str, name: &str) -> Option<T> {
         value(words, word).map_err(|mistake| self.error(name, mistake)).ok()
     }
 }

@@ -5,8 +5,8 @@ mod functions;
 
 use ppum::crack::Crack;
 use ppum::dataset::{
-    Advance, Attribute, BoxPartition, Fate, FieldData, NamedQuantity, Reaction, Record,
-    TipIntensity, Warning,
+    Attribute, BoxPartition, FieldData, NamedQuantity, Reaction, Record, TipIncrement,
+    TipIntensity, TipStatus, Warning,
 };
 use ppum::domain::Hole;
 use ppum::mesh::{Clip, Mesh};
@@ -15,7 +15,7 @@ use ppum::vec2::Vec2;
 
 use crate::column::{ArrayColumn, TableColumns, any_vector, table, vector};
 use crate::reader::GroupReader;
-use crate::stored::{self, Worded as _};
+use crate::stored::{self, StoredWord as _};
 #[cfg(test)]
 pub(crate) use functions::role_by_name;
 pub(crate) use functions::{FUNCTIONS, StoredFunction};
@@ -126,14 +126,14 @@ const HELD: ArrayColumn<[Reaction]> = ArrayColumn {
     )
 };
 
-pub(crate) const GROWTH: &TableColumns<Advance> = table!(Advance:
+pub(crate) const GROWTH: &TableColumns<TipIncrement> = table!(TipIncrement:
     cell("crack", tip.crack), cell("end", tip.end), cell("fate", fate), custom(OTHER),
-    list("path", "path_offsets", path), cell("strength", strength), cell("direction", direction),
+    list("path", "path_offsets", path), cell("strength", k_eq), cell("direction", direction),
     cell("curvature", curvature), cell("length", length), cell("due", due),
     cell("extension", extension),
 );
 
-const OTHER: ArrayColumn<[Advance]> = ArrayColumn {
+const OTHER: ArrayColumn<[TipIncrement]> = ArrayColumn {
     counts: true,
     ..ArrayColumn::new(
         "other",
@@ -146,17 +146,17 @@ const OTHER: ArrayColumn<[Advance]> = ArrayColumn {
 };
 
 /// The index of what a tip meets, −1 for none.
-fn other(tip: &Advance) -> i64 {
+fn other(tip: &TipIncrement) -> i64 {
     match tip.fate {
-        Fate::MeetsHole(k) | Fate::MeetsCrack(k) => k.into(),
+        TipStatus::MeetsHole(k) | TipStatus::MeetsCrack(k) => k.into(),
         _ => -1,
     }
 }
 
-fn set_other(group: &GroupReader, tip: &mut Advance, other: i64) {
+fn set_other(group: &GroupReader, tip: &mut TipIncrement, other: i64) {
     let word = tip.fate.word().unwrap_or_default();
     match &mut tip.fate {
-        Fate::MeetsHole(k) | Fate::MeetsCrack(k) => match u32::try_from(other) {
+        TipStatus::MeetsHole(k) | TipStatus::MeetsCrack(k) => match u32::try_from(other) {
             Ok(index) => *k = index,
             Err(_) => group.error("other", format!("{other} is no index of what `{word}`")),
         },

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use ppum::check::CheckError;
 use ppum::dataset::{Dataset, Step};
-use ppum_file::Ranged;
+use ppum_file::RangedFile;
 
 use crate::bytes::{from_file, invalid, newer};
 use crate::content::step_path;
@@ -22,14 +22,14 @@ use crate::{checksum, decode};
 pub struct Series {
     head: Dataset,
     minor: u32,
-    steps: Steps,
+    steps: StepStore,
 }
 
 #[derive(Debug)]
-enum Steps {
+enum StepStore {
     /// All of them are in memory.
     Read(Vec<Step>),
-    Stored(Ranged, Outline),
+    Stored(RangedFile, Outline),
 }
 
 /// Attempts to read what another program may be changing: it changes it once in a step,
@@ -45,7 +45,7 @@ impl Series {
     /// one checksum over all of it whatever [`read`](crate::read()) refuses.
     pub fn open(path: &Path) -> Result<Self, ReadError> {
         let io = |error| ReadError::io(path, error);
-        let file = Ranged::open(path, MAX_SERIES_LENGTH).map_err(io)?;
+        let file = RangedFile::open(path, MAX_SERIES_LENGTH).map_err(io)?;
         let outline = || Outline::read(&file, file.length(MAX_SERIES_LENGTH).map_err(io)?);
         let mut read = outline();
         for _ in 1..ATTEMPTS {
@@ -60,17 +60,17 @@ impl Series {
             return from_file(&file, file.length(MAX_LENGTH).map_err(io)?).map(Self::of);
         }
         let head = head(&outline).map_err(|error| newer(error, minor).shortened())?;
-        Ok(Self { head, minor, steps: Steps::Stored(file, outline) })
+        Ok(Self { head, minor, steps: StepStore::Stored(file, outline) })
     }
 
     /// A dataset that is in memory.
     #[must_use]
     pub fn of(mut dataset: Dataset) -> Self {
         let steps = std::mem::take(&mut dataset.steps);
-        Self { head: dataset, minor: 0, steps: Steps::Read(steps) }
+        Self { head: dataset, minor: 0, steps: StepStore::Read(steps) }
     }
 
-    /// What all steps have in common: a dataset without steps.
+    /// Returns the data that all steps have in common: a dataset without steps.
     #[must_use]
     pub fn head(&self) -> &Dataset {
         &self.head
@@ -80,7 +80,7 @@ impl Series {
     /// checksum over all of it.
     #[must_use]
     pub fn can_grow(&self) -> bool {
-        matches!(self.steps, Steps::Stored(..))
+        matches!(self.steps, StepStore::Stored(..))
     }
 
     /// The number of steps, at least one.
@@ -88,8 +88,8 @@ impl Series {
     #[must_use]
     pub fn len(&self) -> usize {
         match &self.steps {
-            Steps::Read(steps) => steps.len(),
-            Steps::Stored(_, outline) => outline.steps().len(),
+            StepStore::Read(steps) => steps.len(),
+            StepStore::Stored(_, outline) => outline.steps().len(),
         }
     }
 
@@ -101,12 +101,12 @@ impl Series {
     /// has passed [`Dataset::check`].
     pub fn dataset(&self, number: usize) -> Result<Dataset, ReadError> {
         match &self.steps {
-            Steps::Read(steps) => {
+            StepStore::Read(steps) => {
                 let mut dataset = self.head.clone();
                 dataset.steps.push(get(steps, number)?.clone());
                 Ok(dataset)
             }
-            Steps::Stored(file, outline) => self.explained(self.stored(file, outline, number)),
+            StepStore::Stored(file, outline) => self.explained(self.stored(file, outline, number)),
         }
     }
 
@@ -119,8 +119,8 @@ impl Series {
     /// [`ReadError`]: there is no such step, or these parts of it are not what they should be.
     pub fn results(&self, number: usize) -> Result<Step, ReadError> {
         match &self.steps {
-            Steps::Read(steps) => get(steps, number).cloned(),
-            Steps::Stored(file, outline) => {
+            StepStore::Read(steps) => get(steps, number).cloned(),
+            StepStore::Stored(file, outline) => {
                 self.explained(self.stored_results(file, outline, number))
             }
         }
@@ -134,7 +134,7 @@ impl Series {
     /// As [`dataset`](Self::dataset).
     pub fn into_dataset(self, number: usize) -> Result<Dataset, ReadError> {
         match &self.steps {
-            Steps::Stored(..) if number < self.len() => self.at(number),
+            StepStore::Stored(..) if number < self.len() => self.at(number),
             _ => self.filled(|series, _| series.empty(0)),
         }
     }
@@ -172,8 +172,8 @@ impl Series {
         step: impl Fn(&Self, usize) -> Result<Step, ReadError>,
     ) -> Result<Dataset, ReadError> {
         let steps = match &mut self.steps {
-            Steps::Read(steps) => std::mem::take(steps),
-            Steps::Stored(..) => {
+            StepStore::Read(steps) => std::mem::take(steps),
+            StepStore::Stored(..) => {
                 (0..self.len()).map(|k| step(&self, k)).collect::<Result<_, _>>()?
             }
         };
@@ -185,8 +185,8 @@ impl Series {
     /// A step with its load alone.
     fn empty(&self, number: usize) -> Result<Step, ReadError> {
         let (file, outline) = match &self.steps {
-            Steps::Stored(file, outline) => (file, outline),
-            Steps::Read(steps) => return Ok(decode::empty_step(get(steps, number)?.load)),
+            StepStore::Stored(file, outline) => (file, outline),
+            StepStore::Read(steps) => return Ok(decode::empty_step(get(steps, number)?.load)),
         };
         let path = path(number, self.len())?;
         let read = outline.step(file, &path, Some(&[]));

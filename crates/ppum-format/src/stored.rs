@@ -1,26 +1,26 @@
 //! How values of the data model are stored: as numbers, texts and words in the rows of arrays.
 
 use ppum::crack::{CrackEnd, End, SegmentId};
-use ppum::dataset::{Fate, GrowthStop, Ring, StressState, WarningKind};
+use ppum::dataset::{GrowthStop, Ring, StressState, TipStatus, WarningKind};
 use ppum::domain::PolygonSide;
-use ppum::function::{Cut, Part, Role};
+use ppum::function::{Cut, CutSide, Role};
 use ppum::mesh::Shape;
 use ppum::polynomial::PolynomialSpace;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
-use crate::content::Element;
+use crate::content::ElementType;
 
 /// A value that is a row of an array, or an attribute.
 pub(crate) trait StoredValue: Clone {
-    type Element: Element + Default;
+    type Element: ElementType + Default;
     /// The shape of an attribute; an array has one more extent, its rows.
     const SHAPE: &'static [u64] = &[];
 
     /// Adds its elements to others; none if the format has no word for it.
     fn store(&self, elements: &mut Vec<Self::Element>) -> Option<()>;
 
-    /// The value in a row. What is wrong with it is reported, and another takes its place.
+    /// The value in a row. Mistakes in it are reported, and another takes its place.
     fn restore(row: usize, elements: &[Self::Element], report: &mut dyn FnMut(String)) -> Self;
 
     /// Takes the place of what cannot be read.
@@ -96,7 +96,7 @@ numbers! {
         |numbers, row, report| cut(numbers).unwrap_or_else(|| {
             report(format!("row {row} is no cut"));
             let segment = SegmentId { crack: 0, segment: 0 };
-            Cut { segment, left: Part::Outside, right: Part::Outside }
+            Cut { segment, left: CutSide::Outside, right: CutSide::Outside }
         });
 }
 
@@ -104,7 +104,7 @@ numbers! {
 fn cut([crack, segment, left, right]: [i64; 4]) -> Option<Cut> {
     let index = |number: i64| u32::try_from(number).ok();
     let segment = SegmentId { crack: index(crack)?, segment: index(segment)? };
-    Some(Cut { segment, left: Part::of_number(left)?, right: Part::of_number(right)? })
+    Some(Cut { segment, left: CutSide::of_number(left)?, right: CutSide::of_number(right)? })
 }
 
 /// NaN stands for what is not known.
@@ -155,11 +155,11 @@ impl StoredValue for WarningKind {
 }
 
 /// Words of a closed set of values.
-pub(crate) type Words<T> = [(T, &'static str)];
+pub(crate) type WordTable<T> = [(T, &'static str)];
 
 /// A value that is stored as a word.
-pub(crate) trait Worded: Copy + PartialEq + 'static {
-    const WORDS: &'static Words<Self>;
+pub(crate) trait StoredWord: Copy + PartialEq + 'static {
+    const WORDS: &'static WordTable<Self>;
 
     /// The value that has its word.
     fn kind(self) -> Self {
@@ -177,14 +177,14 @@ pub(crate) trait Worded: Copy + PartialEq + 'static {
 /// # Errors
 ///
 /// A message that lists the words known here.
-pub(crate) fn value<T: Clone>(words: &Words<T>, word: &str) -> Result<T, String> {
+pub(crate) fn value<T: Clone>(words: &WordTable<T>, word: &str) -> Result<T, String> {
     words.iter().find(|(_, w)| *w == word).map(|(v, _)| v.clone()).ok_or_else(|| {
         let known: Vec<&str> = words.iter().map(|(_, w)| *w).collect();
         format!("unknown word `{word}`, expected one of: {}", known.join(", "))
     })
 }
 
-impl<T: Worded> StoredValue for T {
+impl<T: StoredWord> StoredValue for T {
     type Element = String;
 
     fn store(&self, elements: &mut Vec<String>) -> Option<()> {
@@ -214,11 +214,11 @@ impl StoredValue for [CrackEnd; 2] {
 }
 
 /// An empty text stands for no word.
-impl<T: Worded> StoredValue for Option<T> {
+impl<T: StoredWord> StoredValue for Option<T> {
     type Element = String;
 
     fn store(&self, elements: &mut Vec<String>) -> Option<()> {
-        self.map_or(Some(""), Worded::word)?.to_owned().store(elements)
+        self.map_or(Some(""), StoredWord::word)?.to_owned().store(elements)
     }
 
     fn restore(_: usize, elements: &[String], report: &mut dyn FnMut(String)) -> Self {
@@ -229,8 +229,8 @@ impl<T: Worded> StoredValue for Option<T> {
 
 macro_rules! words {
     ($($type:ty: $($value:ident $word:literal),*;)*) => {
-        $(impl Worded for $type {
-            const WORDS: &'static Words<Self> = &[$((Self::$value, $word)),*];
+        $(impl StoredWord for $type {
+            const WORDS: &'static WordTable<Self> = &[$((Self::$value, $word)),*];
         })*
     };
 }
@@ -243,8 +243,8 @@ words! {
         PieceComesOff "piece-comes-off", Unsolvable "unsolvable";
 }
 
-impl Worded for Role {
-    const WORDS: &'static Words<Self> = &Self::NAMES;
+impl StoredWord for Role {
+    const WORDS: &'static WordTable<Self> = &Self::NAMES;
 }
 
 /// Kinds of what the data model tells apart by other means.
@@ -270,9 +270,9 @@ kinds! {
     FrameKind: World "world", Fixed "fixed", Tip "tip", Levels "levels";
 }
 
-/// What a tip meets has an index beside the word.
-impl Worded for Fate {
-    const WORDS: &'static Words<Self> = &[
+/// An index beside the word says which thing a tip meets.
+impl StoredWord for TipStatus {
+    const WORDS: &'static WordTable<Self> = &[
         (Self::Unknown, "unknown"),
         (Self::Grows, "grows"),
         (Self::LeavesPlate, "leaves-plate"),
@@ -295,7 +295,7 @@ impl Worded for Fate {
 }
 
 /// Weight functions that have a name, and none for a formula.
-pub(crate) const WEIGHTS: &Words<Option<WeightFunction>> = &[
+pub(crate) const WEIGHTS: &WordTable<Option<WeightFunction>> = &[
     (Some(WeightFunction::Linear), "linear"),
     (Some(WeightFunction::Quadratic), "quadratic"),
     (Some(WeightFunction::Cubic), "cubic"),
@@ -303,7 +303,7 @@ pub(crate) const WEIGHTS: &Words<Option<WeightFunction>> = &[
 ];
 
 /// Kinds of holes: a circle, or what is cut out of a polygon.
-pub(crate) const HOLES: &Words<Option<PolygonSide>> = &[
+pub(crate) const HOLES: &WordTable<Option<PolygonSide>> = &[
     (None, "circle"),
     (Some(PolygonSide::Inside), "polygon"),
     (Some(PolygonSide::Outside), "outside"),
@@ -316,13 +316,13 @@ macro_rules! codes {
             type Element = u8;
 
             fn store(&self, elements: &mut Vec<u8>) -> Option<()> {
-                let codes: &Words<Self> = $codes;
+                let codes: &WordTable<Self> = $codes;
                 let code = codes.iter().position(|(value, _)| value == self)?;
                 (code as u8).store(elements)
             }
 
             fn restore(row: usize, elements: &[u8], report: &mut dyn FnMut(String)) -> Self {
-                let codes: &Words<Self> = $codes;
+                let codes: &WordTable<Self> = $codes;
                 codes.get(usize::from(elements[0])).map_or_else(|| {
                     let all = codes.iter().enumerate().map(|(k, (_, word))| format!("{k} ({word})"));
                     let all = all.collect::<Vec<_>>().join(", ");

@@ -1,15 +1,15 @@
 //! A place in the content that is written: arrays are put into it by name.
 
-use crate::content::{Array, Content, Element as _, join};
+use crate::content::{Array, ElementType as _, ObjectTree, join};
 use crate::error::WriteError;
 use crate::stored::StoredValue;
 
-pub(crate) type Written = Result<(), WriteError>;
+pub(crate) type EncodeResult = Result<(), WriteError>;
 
 /// Puts arrays into a group of the file.
 pub(crate) struct GroupWriter<'a> {
     pub(crate) path: String,
-    pub(crate) content: &'a mut Content,
+    pub(crate) content: &'a mut ObjectTree,
 }
 
 impl GroupWriter<'_> {
@@ -25,7 +25,7 @@ impl GroupWriter<'_> {
         self.content.insert(self.path_of(name), array);
     }
 
-    pub(crate) fn attribute<T: StoredValue>(&mut self, name: &str, value: &T) -> Written {
+    pub(crate) fn attribute<T: StoredValue>(&mut self, name: &str, value: &T) -> EncodeResult {
         let mut elements = Vec::new();
         let name = format!("@{name}");
         value.store(&mut elements).ok_or_else(|| self.unknown(&name))?;
@@ -38,7 +38,7 @@ impl GroupWriter<'_> {
         &mut self,
         name: &str,
         values: impl IntoIterator<Item = &'v T>,
-    ) -> Written {
+    ) -> EncodeResult {
         let mut elements = Vec::new();
         for value in values {
             value.store(&mut elements).ok_or_else(|| self.unknown(name))?;
@@ -62,7 +62,7 @@ impl GroupWriter<'_> {
         &mut self,
         name: &str,
         rows: impl Iterator<Item = R>,
-    ) -> Written {
+    ) -> EncodeResult {
         let rows: Vec<R> = rows.collect();
         let columns = rows.first().map_or(0, |row| row.as_ref().len());
         self.array(name, Array::matrix(&rows, columns));

@@ -2,15 +2,15 @@
 
 use crate::jets::FormulaJets;
 use crate::lanes::{Tape, VECTORS, interpret};
-use crate::real::Scalar;
+use crate::real::LaneNumber;
 
 /// Memory for [`Block`]s, best kept from block to block.
 #[derive(Clone, Debug, Default)]
-pub struct Scratch<T> {
+pub struct BlockScratch<T> {
     memory: Vec<T>,
 }
 
-impl<T: Scalar> Scratch<T> {
+impl<T: LaneNumber> BlockScratch<T> {
     /// Memory for `n` numbers.
     fn numbers(&mut self, n: usize) -> &mut [T] {
         let whole = n + T::VECTOR;
@@ -26,16 +26,16 @@ impl<T: Scalar> Scratch<T> {
 
 /// A block of [`Block::POINTS`] points at which formulas are evaluated together.
 ///
-/// Write the inputs, run, read the outputs. Inputs stay what they are until they are written anew:
+/// Write the inputs, run, read the outputs. Inputs stay what they are until they are written again:
 /// one that is the same at all points is written once. Where there are fewer points than the block
 /// has, leave the rest as it is and do not read the outputs there.
 ///
 /// ```
-/// use ppum_formula::{Formula, FormulaJets, Scope, Scratch};
+/// use ppum_formula::{BlockScratch, Formula, FormulaJets, Scope};
 ///
 /// let f = Formula::parse("x^2*y", &Scope::cartesian())?;
 /// let jets = FormulaJets::new(&[&f], 1)?;
-/// let mut scratch = Scratch::<f32>::default();
+/// let mut scratch = BlockScratch::<f32>::default();
 /// let mut block = jets.block(&mut scratch);
 /// block.input(0)[..3].copy_from_slice(&[1.0, 2.0, 3.0]);
 /// block.input(1).fill(0.5);
@@ -52,13 +52,13 @@ pub struct Block<'a, T> {
 
 impl FormulaJets {
     /// A block for these formulas. Its inputs are whatever the memory holds.
-    pub fn block<'a, T: Scalar>(&'a self, scratch: &'a mut Scratch<T>) -> Block<'a, T> {
+    pub fn block<'a, T: LaneNumber>(&'a self, scratch: &'a mut BlockScratch<T>) -> Block<'a, T> {
         let tape = self.tape();
         Block { tape, registers: scratch.numbers(tape.n_registers() * Block::<T>::POINTS) }
     }
 }
 
-impl<T: Scalar> Block<'_, T> {
+impl<T: LaneNumber> Block<'_, T> {
     /// Points of a block: 64 in double, 128 in single precision.
     pub const POINTS: usize = VECTORS * T::VECTOR;
 

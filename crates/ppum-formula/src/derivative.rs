@@ -43,7 +43,8 @@ pub(crate) fn gradients(
     let needed = graph.needed(roots);
     let zero = graph.constant(0.0);
     let defined = scope.definitions(graph);
-    let mut pass = Pass { graph, scope, zero, defined, partials: vec![Vec::new(); needed.len()] };
+    let mut pass =
+        DerivativePass { graph, scope, zero, defined, partials: vec![Vec::new(); needed.len()] };
     for node in (0u32..).zip(needed).filter(|&(_, needed)| needed).map(|(id, _)| NodeId(id)) {
         if pass.graph.len() > MAX_NODES {
             return Err(DerivativeError::TooLarge);
@@ -57,7 +58,7 @@ pub(crate) fn gradients(
 }
 
 /// One sweep over the nodes. `v` is the index of the variable of a derivative throughout.
-struct Pass<'a> {
+struct DerivativePass<'a> {
     graph: &'a mut Graph,
     scope: &'a Scope,
     zero: NodeId,
@@ -67,7 +68,7 @@ struct Pass<'a> {
     partials: Vec<Vec<NodeId>>,
 }
 
-impl Pass<'_> {
+impl DerivativePass<'_> {
     fn partial(&mut self, node: NodeId, v: usize) -> NodeId {
         if let Some(defined) = self.defined.iter().position(|&defined| defined == node) {
             return self.rule(&self.scope.defined_rules(defined)[v]);

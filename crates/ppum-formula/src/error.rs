@@ -5,9 +5,9 @@ use std::ops::Range;
 use crate::limits::{MAX_DEPTH, MAX_LENGTH};
 use crate::printable::is_printable;
 
-/// A mistake in the text of a formula.
+/// An error in the text of a formula.
 ///
-/// Displayed as place and mistake, then the source line with the place marked:
+/// Displayed as place and error, then the source line with the place marked:
 ///
 /// ```text
 /// line 1, column 13: unknown name `thet`; did you mean `theta`?
@@ -17,8 +17,8 @@ use crate::printable::is_printable;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("line {line}, column {column}: {}\n{excerpt}", .mistake.message(.found))]
 pub struct FormulaError {
-    /// The mistake.
-    pub mistake: Mistake,
+    /// The error.
+    pub mistake: ErrorKind,
     /// Line of the offending text, from 1.
     pub line: usize,
     /// Column of its first character, from 1, counted in characters.
@@ -29,10 +29,10 @@ pub struct FormulaError {
     pub excerpt: Box<str>,
 }
 
-/// The kinds of mistakes in a formula.
+/// The kinds of errors in a formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Mistake {
+pub enum ErrorKind {
     /// The grammar wants something else here.
     Unexpected {
         /// The expectation.
@@ -113,7 +113,7 @@ pub enum Mistake {
     InvalidOrder,
 }
 
-impl Mistake {
+impl ErrorKind {
     /// The message without the place; `found` is the offending text.
     fn message(&self, found: &str) -> String {
         let quoted = if found.is_empty() { "the end".to_owned() } else { format!("`{found}`") };
@@ -209,7 +209,7 @@ impl TextSpan {
 }
 
 impl FormulaError {
-    /// The mistake in words, without its place.
+    /// The error in words, without its place.
     #[must_use]
     pub fn message(&self) -> String {
         self.mistake.message(&self.found)
@@ -228,7 +228,7 @@ impl FormulaError {
     }
 
     /// The error at a place of `source`.
-    pub(crate) fn new(source: &str, span: TextSpan, mistake: Mistake) -> Self {
+    pub(crate) fn new(source: &str, span: TextSpan, mistake: ErrorKind) -> Self {
         let before = &source[..span.start];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
         let rest = &source[line_start..];

@@ -9,7 +9,7 @@ use crate::graph::{self, Graph, NodeId};
 use crate::language::scope::Scope;
 use crate::language::{lower, parser};
 use crate::print;
-use crate::program::Program;
+use crate::program::FormulaProgram;
 
 /// A formula of the variables of a [`Scope`], ready for evaluation.
 ///
@@ -25,7 +25,7 @@ use crate::program::Program;
 pub struct Formula {
     pub(crate) text: String,
     pub(crate) scope: Arc<Scope>,
-    pub(crate) program: Program,
+    pub(crate) program: FormulaProgram,
 }
 
 impl Formula {
@@ -38,7 +38,7 @@ impl Formula {
         let mut graph = Graph::new(scope.tables());
         let root =
             lower::lower(&ast, scope, &mut graph).map_err(|mistake| mistake.locate(text, &ast))?;
-        let program = Program::new(&graph, &[root]);
+        let program = FormulaProgram::new(&graph, &[root]);
         Ok(Self { text: text.to_owned(), scope: Arc::new(scope.clone()), program })
     }
 
@@ -52,7 +52,7 @@ impl Formula {
         let mut graph = Graph::new(scope.tables());
         let root = lower::lower_condition(&ast, scope, &mut graph)
             .map_err(|mistake| mistake.locate(text, &ast))?;
-        let program = Program::new(&graph, &[root]);
+        let program = FormulaProgram::new(&graph, &[root]);
         let text = print::print(&program, scope);
         Ok(Self { text, scope: Arc::new(scope.clone()), program })
     }
@@ -128,7 +128,7 @@ impl Formula {
         let v = self.independent(variable)?;
         let mut graph = self.program.graph();
         let gradient = gradients(&mut graph, &self.scope, &[self.root()])?;
-        let program = Program::new(&graph, &[gradient[0][v]]);
+        let program = FormulaProgram::new(&graph, &[gradient[0][v]]);
         let text = print::print(&program, &self.scope);
         Ok(Self { text, scope: Arc::clone(&self.scope), program })
     }

@@ -81,7 +81,7 @@ impl Op {
         array.into_iter().flatten()
     }
 
-    /// The same operation on other operands.
+    /// Returns the operation on other operands.
     fn renumbered(self, new: impl Fn(NodeId) -> NodeId) -> Self {
         match self {
             Self::Constant(_) | Self::Input(_) | Self::Truth(_) => self,
@@ -370,7 +370,7 @@ impl Graph {
         needed
     }
 
-    /// The part of the graph that the roots need, numbered anew without gaps, and the roots in it.
+    /// The part of the graph that the roots need, numbered again without gaps, and the roots in it.
     pub(crate) fn extract(&self, roots: &[NodeId]) -> (Vec<Op>, Vec<NodeId>) {
         let mut number = vec![NodeId(0); self.len()];
         let mut ops = Vec::new();

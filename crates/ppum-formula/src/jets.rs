@@ -26,7 +26,7 @@ use crate::formula::check_inputs;
 use crate::graph::{Graph, NodeId, Op};
 use crate::lanes::Tape;
 use crate::language::scope::Scope;
-use crate::program::Program;
+use crate::program::FormulaProgram;
 use crate::reciprocal::share_reciprocals;
 use crate::wgsl;
 use crate::wgsl::WgslError;
@@ -45,7 +45,7 @@ use crate::wgsl::WgslError;
 #[derive(Clone, Debug)]
 pub struct FormulaJets {
     scope: Arc<Scope>,
-    program: Program,
+    program: FormulaProgram,
     tape: Tape,
 }
 
@@ -98,7 +98,7 @@ impl FormulaJets {
     }
 
     fn of_outputs(graph: &Graph, outputs: &[NodeId], scope: &Arc<Scope>) -> Self {
-        let program = Program::new(graph, outputs);
+        let program = FormulaProgram::new(graph, outputs);
         let tape = Tape::new(&program, scope.n_inputs());
         Self { scope: Arc::clone(scope), program, tape }
     }
@@ -167,7 +167,7 @@ impl FormulaJets {
     #[cfg(test)]
     /// The program that every back end starts from.
     #[cfg(test)]
-    pub(crate) fn program(&self) -> &Program {
+    pub(crate) fn program(&self) -> &FormulaProgram {
         &self.program
     }
 

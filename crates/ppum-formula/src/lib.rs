@@ -2,14 +2,14 @@
 //! printed as functions of a shader.
 //!
 //! ```
-//! use ppum_formula::{Formula, FormulaJets, Scope, Scratch};
+//! use ppum_formula::{BlockScratch, Formula, FormulaJets, Scope};
 //!
 //! let f = Formula::parse("exp(-x^2)*cos(y)", &Scope::cartesian())?;
 //! assert_eq!(f.evaluate(&[0.0, 0.0]), 1.0);
 //! assert_eq!(f.derivative("y")?.text(), "-(exp(-x^2)*sin(y))");
 //!
 //! let jets = FormulaJets::new(&[&f], 1)?; // with both first derivatives, compiled together
-//! let mut scratch = Scratch::<f64>::default();
+//! let mut scratch = BlockScratch::<f64>::default();
 //! let mut block = jets.block(&mut scratch); // many points at once, on the lanes of the processor
 //! block.input(0)[..2].copy_from_slice(&[0.0, 0.5]); // x
 //! block.input(1)[..2].copy_from_slice(&[0.0, 1.0]); // y
@@ -63,8 +63,9 @@
 //!
 //! Derivatives are exact, symbolic, and of any order. Where a function has a kink or a jump, the
 //! derivative is that of one piece, the right one, and where that is undecided, the upper one: |x|
-//! has slope +1 at 0, and so has |1 − x| at 1; `max(1 - t, 0)` has slope 0 at 1. Of `if` the branch
-//! that gives the value gives the derivatives. `sign` and `floor` have derivative 0 everywhere.
+//! has slope +1 at 0, and so has |1 − x| at 1; `max(1 - t, 0)` has slope 0 at 1. For `if`, the
+//! branch that gives the value gives the derivatives. `sign` and `floor` have derivative 0
+//! everywhere.
 //!
 //! A table is flat outside its range; on the ends of the range its derivatives are those of the
 //! inside. `side` has derivative 0.
@@ -114,9 +115,9 @@ mod table;
 mod tests;
 mod wgsl;
 
-pub use block::{Block, Scratch};
+pub use block::{Block, BlockScratch};
 pub use derivative::DerivativeError;
-pub use error::{FormulaError, Mistake};
+pub use error::{ErrorKind, FormulaError};
 pub use formula::{Formula, one_line};
 pub use jets::FormulaJets;
 pub use kinks::Kink;

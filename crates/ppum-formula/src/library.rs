@@ -4,7 +4,7 @@ use crate::operation::{Binary, Unary};
 
 /// A function as a formula calls it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Function {
+pub(crate) enum LibraryFunction {
     /// One operation of one number.
     Unary(Unary),
     /// One operation of two numbers.
@@ -21,7 +21,7 @@ pub(crate) enum Function {
     Side,
 }
 
-impl Function {
+impl LibraryFunction {
     /// The function of a name.
     pub(crate) fn named(name: &str) -> Option<Self> {
         FUNCTIONS.iter().find(|(known, _)| *known == name).map(|&(_, function)| function)
@@ -44,33 +44,33 @@ pub fn function_names() -> impl Iterator<Item = &'static str> {
 }
 
 /// All functions.
-pub(crate) const FUNCTIONS: [(&str, Function); 26] = [
-    ("sqrt", Function::Unary(Unary::Sqrt)),
-    ("cbrt", Function::Unary(Unary::Cbrt)),
-    ("exp", Function::Unary(Unary::Exp)),
-    ("log", Function::Unary(Unary::Log)),
-    ("log10", Function::Unary(Unary::Log10)),
-    ("sin", Function::Unary(Unary::Sin)),
-    ("cos", Function::Unary(Unary::Cos)),
-    ("tan", Function::Unary(Unary::Tan)),
-    ("asin", Function::Unary(Unary::Asin)),
-    ("acos", Function::Unary(Unary::Acos)),
-    ("atan", Function::Unary(Unary::Atan)),
-    ("sinh", Function::Unary(Unary::Sinh)),
-    ("cosh", Function::Unary(Unary::Cosh)),
-    ("tanh", Function::Unary(Unary::Tanh)),
-    ("abs", Function::Unary(Unary::Abs)),
-    ("sign", Function::Unary(Unary::Sign)),
-    ("floor", Function::Unary(Unary::Floor)),
-    ("atan2", Function::Binary(Binary::Atan2)),
-    ("min", Function::Binary(Binary::Min)),
-    ("max", Function::Binary(Binary::Max)),
-    ("hypot", Function::Binary(Binary::Hypot)),
-    ("if", Function::If),
-    ("clamp", Function::Clamp),
-    ("table", Function::Table),
-    ("dtable", Function::TableDerivative),
-    ("side", Function::Side),
+pub(crate) const FUNCTIONS: [(&str, LibraryFunction); 26] = [
+    ("sqrt", LibraryFunction::Unary(Unary::Sqrt)),
+    ("cbrt", LibraryFunction::Unary(Unary::Cbrt)),
+    ("exp", LibraryFunction::Unary(Unary::Exp)),
+    ("log", LibraryFunction::Unary(Unary::Log)),
+    ("log10", LibraryFunction::Unary(Unary::Log10)),
+    ("sin", LibraryFunction::Unary(Unary::Sin)),
+    ("cos", LibraryFunction::Unary(Unary::Cos)),
+    ("tan", LibraryFunction::Unary(Unary::Tan)),
+    ("asin", LibraryFunction::Unary(Unary::Asin)),
+    ("acos", LibraryFunction::Unary(Unary::Acos)),
+    ("atan", LibraryFunction::Unary(Unary::Atan)),
+    ("sinh", LibraryFunction::Unary(Unary::Sinh)),
+    ("cosh", LibraryFunction::Unary(Unary::Cosh)),
+    ("tanh", LibraryFunction::Unary(Unary::Tanh)),
+    ("abs", LibraryFunction::Unary(Unary::Abs)),
+    ("sign", LibraryFunction::Unary(Unary::Sign)),
+    ("floor", LibraryFunction::Unary(Unary::Floor)),
+    ("atan2", LibraryFunction::Binary(Binary::Atan2)),
+    ("min", LibraryFunction::Binary(Binary::Min)),
+    ("max", LibraryFunction::Binary(Binary::Max)),
+    ("hypot", LibraryFunction::Binary(Binary::Hypot)),
+    ("if", LibraryFunction::If),
+    ("clamp", LibraryFunction::Clamp),
+    ("table", LibraryFunction::Table),
+    ("dtable", LibraryFunction::TableDerivative),
+    ("side", LibraryFunction::Side),
 ];
 
 /// All constants.
@@ -109,7 +109,7 @@ pub(crate) fn constant(name: &str) -> Option<f64> {
 }
 
 /// Name of an operation that formulas write as a function.
-pub(crate) fn name_of(function: Function) -> &'static str {
+pub(crate) fn name_of(function: LibraryFunction) -> &'static str {
     FUNCTIONS
         .iter()
         .find(|(_, known)| *known == function)
@@ -119,5 +119,5 @@ pub(crate) fn name_of(function: Function) -> &'static str {
 
 /// True if the language itself uses the name.
 pub(crate) fn is_reserved(name: &str) -> bool {
-    KEYWORDS.contains(&name) || constant(name).is_some() || Function::named(name).is_some()
+    KEYWORDS.contains(&name) || constant(name).is_some() || LibraryFunction::named(name).is_some()
 }

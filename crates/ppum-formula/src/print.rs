@@ -5,9 +5,9 @@ use std::collections::HashSet;
 use crate::graph::{NodeId, Op};
 use crate::language::ast::precedence;
 use crate::language::scope::Scope;
-use crate::library::{Function, name_of};
+use crate::library::{LibraryFunction, name_of};
 use crate::operation::{Binary, Unary};
-use crate::program::Program;
+use crate::program::FormulaProgram;
 
 /// Longer or deeper pieces of text get a name by `let`, as shared ones do: it keeps the text
 /// readable, and within the parser's limit of nesting.
@@ -15,7 +15,7 @@ const MAX_PIECE: usize = 100;
 const MAX_PIECE_DEPTH: usize = 20;
 
 /// The text of a program with one output.
-pub(crate) fn print(program: &Program, scope: &Scope) -> String {
+pub(crate) fn print(program: &FormulaProgram, scope: &Scope) -> String {
     let root = program.outputs()[0];
     let mut printer = Printer::new(program, scope);
     for (index, &op) in program.ops().iter().enumerate() {
@@ -58,7 +58,7 @@ struct Printer<'a> {
 }
 
 impl<'a> Printer<'a> {
-    fn new(program: &Program, scope: &'a Scope) -> Self {
+    fn new(program: &FormulaProgram, scope: &'a Scope) -> Self {
         let defined = defined(program, scope);
         let uses = uses(program, &defined);
         Self {
@@ -97,7 +97,7 @@ impl<'a> Printer<'a> {
             Op::Constant(bits) => number(f64::from_bits(bits)),
             Op::Input(index) => atom(self.inputs[index as usize].to_owned(), 0),
             Op::Unary(Unary::Neg, a) => self.prefix("-", a, precedence::POWER, precedence::MINUS),
-            Op::Unary(op, a) => self.call(Function::Unary(op), &[a]),
+            Op::Unary(op, a) => self.call(LibraryFunction::Unary(op), &[a]),
             Op::Power(a, n) if n < 0 => {
                 self.before(a, precedence::ATOM, &format!("^({n})"), precedence::POWER)
             }
@@ -106,7 +106,7 @@ impl<'a> Printer<'a> {
             }
             Op::Binary(op, a, b) => self.binary(op, a, b),
             Op::Table { table, orders, x, y } => self.table(table as usize, orders, x, y),
-            Op::Select(c, a, b) => self.call(Function::If, &[c, a, b]),
+            Op::Select(c, a, b) => self.call(LibraryFunction::If, &[c, a, b]),
             Op::Truth(holds) => PrintedTerm {
                 text: if holds { "0 == 0" } else { "0 == 1" }.to_owned(),
                 strength: precedence::COMPARISON,
@@ -139,7 +139,7 @@ impl<'a> Printer<'a> {
                 }
             }
             Binary::Atan2 | Binary::Min | Binary::Max | Binary::Hypot => {
-                self.call(Function::Binary(op), &[a, b])
+                self.call(LibraryFunction::Binary(op), &[a, b])
             }
         }
     }
@@ -162,7 +162,7 @@ impl<'a> Printer<'a> {
         PrintedTerm { text: format!("{}{sign}", a.text), strength, depth: a.depth }
     }
 
-    fn call(&mut self, function: Function, arguments: &[NodeId]) -> PrintedTerm {
+    fn call(&mut self, function: LibraryFunction, arguments: &[NodeId]) -> PrintedTerm {
         let pieces: Vec<PrintedTerm> = arguments.iter().map(|&a| self.operand(a, 0)).collect();
         let depth = pieces.iter().map(|piece| piece.depth).max().unwrap_or(0);
         let texts: Vec<&str> = pieces.iter().map(|piece| piece.text.as_str()).collect();
@@ -181,7 +181,8 @@ impl<'a> Printer<'a> {
             [Some(x), y].into_iter().flatten().map(|a| self.operand(a, 0)).collect();
         let depth = pieces.iter().map(|piece| piece.depth).max().unwrap_or(0);
         parts.extend(pieces.into_iter().map(|piece| piece.text));
-        let function = if derived { Function::TableDerivative } else { Function::Table };
+        let function =
+            if derived { LibraryFunction::TableDerivative } else { LibraryFunction::Table };
         atom(format!("{}({})", name_of(function), parts.join(", ")), depth + 1)
     }
 
@@ -196,7 +197,7 @@ impl<'a> Printer<'a> {
 }
 
 /// The names of the operations that are functions which the scope defines.
-fn defined(program: &Program, scope: &Scope) -> Vec<Option<&'static str>> {
+fn defined(program: &FormulaProgram, scope: &Scope) -> Vec<Option<&'static str>> {
     let mut names = vec![None; program.ops().len()];
     let definitions = scope.definitions(&mut program.graph());
     for (index, node) in definitions.into_iter().enumerate() {
@@ -209,7 +210,7 @@ fn defined(program: &Program, scope: &Scope) -> Vec<Option<&'static str>> {
 }
 
 /// Number of needed texts that show each operation as an operand.
-fn uses(program: &Program, defined: &[Option<&str>]) -> Vec<u32> {
+fn uses(program: &FormulaProgram, defined: &[Option<&str>]) -> Vec<u32> {
     let mut uses = vec![0; program.ops().len()];
     let root = program.outputs()[0].index();
     for (index, op) in program.ops().iter().enumerate().rev() {

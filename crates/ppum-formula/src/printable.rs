@@ -24,7 +24,7 @@ pub fn is_printable(c: char) -> bool {
     !c.is_control() && !is_format
 }
 
-/// The text with what is not printable, but for ends of lines and tabs, as JSON escapes it:
+/// The text with what is not printable, except for ends of lines and tabs, as JSON escapes it:
 /// `\u001b`. Outside of strings JSON has no such characters, so JSON stays the same to who reads
 /// it.
 ///

@@ -8,13 +8,13 @@ use crate::table::Table;
 /// A list of operations, each the operand of later ones only, and the operations whose results
 /// are wanted. It is the common form from which every back end starts; here is the scalar one.
 #[derive(Clone, Debug)]
-pub(crate) struct Program {
+pub(crate) struct FormulaProgram {
     tables: Arc<[Arc<Table>]>,
     ops: Vec<Op>,
     outputs: Vec<NodeId>,
 }
 
-impl Program {
+impl FormulaProgram {
     /// The program for some nodes of a graph.
     pub(crate) fn new(graph: &Graph, outputs: &[NodeId]) -> Self {
         let (ops, outputs) = graph.extract(outputs);

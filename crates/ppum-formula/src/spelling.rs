@@ -6,7 +6,7 @@ const MAX_SUGGESTED: usize = 40;
 /// Letters of a word that may be a part of another one.
 const LEAST_PART: usize = 4;
 
-/// The known word that was meant by an unknown one: the same but for case or for a third of its
+/// The known word that was meant by an unknown one: the same except for case or for a third of its
 /// letters (at least one), else one that it is a part of. Letters are inserted, left out, replaced,
 /// or exchanged with their neighbour.
 #[must_use]

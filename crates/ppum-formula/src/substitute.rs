@@ -7,7 +7,7 @@ use crate::derivative::DerivativeError;
 use crate::formula::Formula;
 use crate::graph::Graph;
 use crate::limits::MAX_NODES;
-use crate::program::Program;
+use crate::program::FormulaProgram;
 
 impl Formula {
     /// The formula with definitions in place of some of its inputs: pairs of an input's name and a
@@ -45,7 +45,7 @@ impl Formula {
             }
         }
         let root = graph.absorb_with(self.program.ops(), &replaced)[self.root().index()];
-        let program = Program::new(&graph, &[root]);
+        let program = FormulaProgram::new(&graph, &[root]);
         Ok(Self { text: self.text.clone(), scope: Arc::clone(&self.scope), program })
     }
 }

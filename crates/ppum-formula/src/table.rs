@@ -223,7 +223,7 @@ impl Table {
     /// [`Table::derivative`] at a vector of points.
     #[inline(always)]
     pub(crate) fn derivatives<R: Double>(&self, [m, n]: [u8; 2], x: R, y: R) -> R {
-        let zero = x.lit(0.0);
+        let zero = x.broadcast(0.0);
         if m > 3 || n > 3 || n > 0 && self.y.is_empty() {
             return zero;
         }
@@ -272,8 +272,8 @@ const FEW: usize = 24;
 impl<R: Double> KnotSpan<R> {
     #[inline(always)]
     fn new(knots: &[f64], x: R) -> Self {
-        let (first, last) = (x.lit(knots[0]), x.lit(knots[knots.len() - 1]));
-        let (zero, one) = (x.lit(0.0), x.lit(1.0));
+        let (first, last) = (x.broadcast(knots[0]), x.broadcast(knots[knots.len() - 1]));
+        let (zero, one) = (x.broadcast(0.0), x.broadcast(1.0));
         let near = last.min(first.max(x));
         let cells = cells(&knots[1..knots.len() - 1], near);
         let distance = near - x.with_lanes(|lane| knots[cells[lane] as usize]);
@@ -284,7 +284,7 @@ impl<R: Double> KnotSpan<R> {
     /// The derivative of an order if it is not 0, whatever the polynomial.
     #[inline(always)]
     fn unless_flat(&self, order: u8, value: R) -> R {
-        let zero = value.lit(0.0);
+        let zero = value.broadcast(0.0);
         if order == 0 { value } else { R::select(self.inside.gt(zero), value, zero) }
     }
 }
@@ -292,7 +292,7 @@ impl<R: Double> KnotSpan<R> {
 /// How many of the inner knots are not above each argument.
 #[inline(always)]
 fn cells<R: Double>(knots: &[f64], x: R) -> Lanes {
-    let (zero, one) = (x.lit(0.0), x.lit(1.0));
+    let (zero, one) = (x.broadcast(0.0), x.broadcast(1.0));
     if R::LANES == 1 || knots.len() > FEW {
         let mut cells = x.lanes();
         for x in &mut cells[..R::LANES] {
@@ -302,7 +302,7 @@ fn cells<R: Double>(knots: &[f64], x: R) -> Lanes {
     }
     let (mut count, mut k) = (zero, 0);
     while k < knots.len() {
-        count = count + R::select(x.ge(x.lit(knots[k])), one, zero);
+        count = count + R::select(x.ge(x.broadcast(knots[k])), one, zero);
         k += 1;
     }
     count.lanes()
@@ -312,7 +312,7 @@ fn cells<R: Double>(knots: &[f64], x: R) -> Lanes {
 /// at `t`.
 #[inline(always)]
 fn polynomial<R: Double>(c: Cubic<R>, order: u8, t: R) -> R {
-    let (two, three, six) = (t.lit(2.0), t.lit(3.0), t.lit(6.0));
+    let (two, three, six) = (t.broadcast(2.0), t.broadcast(3.0), t.broadcast(6.0));
     match order {
         0 => ((c[3] * t + c[2]) * t + c[1]) * t + c[0],
         1 => (three * c[3] * t + two * c[2]) * t + c[1],

@@ -11,6 +11,7 @@
 //!
 //! use ppum::progress::unwatched;
 //! use ppum_fracture::solve::solve;
+//! use ppum_problem::Problem;
 //!
 //! let text = r#"
 //!     [domain]
@@ -41,7 +42,7 @@
 //!
 //! # Tour
 //!
-//! - [`ppum_problem`]: what is to be solved, read from TOML or built in code, every mistake at its
+//! - [`ppum_problem`]: what is to be solved, read from TOML or built in code, every error at its
 //!   place.
 //! - [`solve`]: [`Plan`](solve::Plan) tells what a solution takes before it is made;
 //!   [`solve()`](solve::solve) does both; [`spectrum`](solve::spectrum) measures the condition of a

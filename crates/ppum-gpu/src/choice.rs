@@ -37,8 +37,8 @@ impl fmt::Display for AdapterKind {
     }
 }
 
-/// The adapters that are good enough. Of several the best [kind](AdapterKind) is taken, and of one
-/// kind the first.
+/// The adapters that are good enough. If there are several, the best [kind](AdapterKind) is taken,
+/// and the first of one kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum AdapterChoice {
     /// Graphics hardware that is known to be such: discrete, integrated or virtual.

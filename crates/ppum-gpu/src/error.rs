@@ -40,7 +40,7 @@ pub enum GpuError {
         /// The compiler's words, with the place.
         message: String,
     },
-    /// The device was lost: driver reset, card removed. What lived on it has to be made anew.
+    /// The device was lost: driver reset, card removed. Everything on it has to be made again.
     #[error("the graphics device was lost; open it again")]
     Lost,
     /// Data that do not fit into what the device binds at once.
@@ -53,7 +53,7 @@ pub enum GpuError {
         /// Bytes that there can be.
         most: u64,
     },
-    /// A picture with more pixels than the device draws.
+    /// An image with more pixels than the device draws.
     #[error(
         "a picture of {}x{} pixels: this graphics device draws at most {most}x{most}",
         pixels[0], pixels[1]
@@ -77,7 +77,7 @@ pub enum GpuError {
     Formula {
         /// The formula.
         what: String,
-        /// The mistake.
+        /// The error.
         message: String,
     },
     /// A formula that is right, but too large for a shader.
@@ -144,7 +144,7 @@ impl GpuError {
     }
 }
 
-/// The reason why a picture was not drawn.
+/// The reason why an image was not drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RenderError {

@@ -19,13 +19,13 @@ macro_rules! record {
         impl $name {
             /// Names and types of the fields in WGSL.
             pub(crate) const MEMBERS: &'static [(&'static str, &'static str)] = &[$(
-                (stringify!($field), <$crate::layout::kinds::$kind as $crate::layout::Words>::WGSL),
+                (stringify!($field), <$crate::layout::kinds::$kind as $crate::layout::GpuWords>::WGSL),
             )+];
 
             /// The words of all fields, up to a multiple of 16 bytes.
             pub(crate) fn words(&self) -> Vec<u32> {
                 let mut words = Vec::new();
-                $( $crate::layout::Words::push(&self.$field, &mut words); )+
+                $( $crate::layout::GpuWords::push(&self.$field, &mut words); )+
                 words.resize(words.len().next_multiple_of(4), 0);
                 words
             }
@@ -57,7 +57,7 @@ pub(crate) mod kinds {
 }
 
 /// A type of a field.
-pub(crate) trait Words {
+pub(crate) trait GpuWords {
     /// Its name in WGSL.
     const WGSL: &'static str;
     /// Appends its words.
@@ -66,7 +66,7 @@ pub(crate) trait Words {
 
 macro_rules! words {
     ($($kind:ty, $name:literal, |$value:ident| $words:expr;)+) => { $(
-        impl Words for $kind {
+        impl GpuWords for $kind {
             const WGSL: &'static str = $name;
             fn push(&self, words: &mut Vec<u32>) {
                 let $value = self;

@@ -13,9 +13,9 @@
 //!
 //! ```
 //! use ppum::prelude::*;
-//! use ppum_gpu::{AdapterChoice, Colors, GpuError, Method, Renderer, Shading, Values};
+//! use ppum_gpu::{AdapterChoice, Colors, GpuError, Method, Renderer, TransferFunction, Values};
 //! use ppum_render::picture::Style;
-//! use ppum_render::range::Range;
+//! use ppum_render::range::RangeChoice;
 //! use ppum_render::view::View;
 //!
 //! // one patch, u = 1 + 2ξ with ξ = x / 1.25
@@ -41,8 +41,8 @@
 //!
 //! // a program draws any view, here with colours of one range
 //! let Style { colormap, scale, undefined, .. } = Style::default();
-//! let normalization = Range::Auto.normalization(scale, colormap.diverging, &raster)?;
-//! let shading = Shading { normalization, colormap, undefined };
+//! let normalization = RangeChoice::Auto.normalization(scale, colormap.diverging, &raster)?;
+//! let shading = TransferFunction { normalization, colormap, undefined };
 //! let colors = Colors { quantity: u, shading: shading.clone() };
 //! let mut movie = renderer.compile(&scene, colors, Method::Gather)?;
 //! for half in [1.0, 0.1, 0.01] {
@@ -53,7 +53,7 @@
 //! // and with other colours, without being compiled again
 //! let before = renderer.draw(&mut movie, &view)?.read()?;
 //! let colormap = Style::named("magma")?.colormap;
-//! movie.shade(Shading { colormap, ..shading });
+//! movie.shade(TransferFunction { colormap, ..shading });
 //! assert_ne!(renderer.draw(&mut movie, &view)?.read()?, before);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -87,10 +87,10 @@ pub use device::adapter::AdapterInfo;
 #[cfg(not(target_arch = "wasm32"))]
 pub use device::adapter::adapters;
 pub use error::{GpuError, RenderError};
-pub use frame::shading::Shading;
+pub use frame::shading::TransferFunction;
 pub use program::Program;
 pub use program::output::{Colors, Derivatives, Output, Values};
 pub use renderer::Renderer;
-pub use renderer::drawn::Drawn;
+pub use renderer::pending::QueuedOutput;
 pub use scene::Scene;
 pub use shader::passes::Method;

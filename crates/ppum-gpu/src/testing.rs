@@ -6,7 +6,7 @@ use crate::error::RenderError;
 use crate::program::output::Output;
 use crate::scene::SceneLayout;
 use crate::scene::bodies::Bodies;
-use crate::scene::groups::Groups;
+use crate::scene::groups::FunctionGroups;
 use crate::shader::compose::ShaderText;
 use crate::shader::passes::Method;
 
@@ -20,7 +20,7 @@ pub fn texts<O: Output>(
     method: Method,
 ) -> Result<Vec<String>, RenderError> {
     output.check(field)?;
-    let groups = Groups::new(&field.step.functions);
+    let groups = FunctionGroups::new(&field.step.functions);
     let (layout, ..) = SceneLayout::of_field(field, Bodies::new(field, &groups).shape);
     let wanted = (&output.quantity(), output.order());
     Ok(ShaderText::new(&groups, field, wanted, method, O::FINISH)?.shaders(layout))

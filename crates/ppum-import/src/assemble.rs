@@ -15,7 +15,7 @@ const MOST_CHAINS: usize = 10_000;
 /// How far cracks may end beyond the outline, in parts of the size: flattened arcs are so exact.
 const BEYOND: f64 = 1e-3;
 
-/// The border and the cracks of a body.
+/// The boundary and the cracks of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct BodyDrawing {
     /// The closed curve around everything, counter-clockwise.
@@ -28,7 +28,7 @@ pub struct BodyDrawing {
     pub size: f64,
     /// The distance within which ends were joined.
     pub tolerance: f64,
-    /// What the file says of its units and version.
+    /// The units and version that the file states.
     pub about: Option<String>,
     /// Sentences on what was not read or was changed, with its place.
     pub notices: Vec<String>,
@@ -37,13 +37,13 @@ pub struct BodyDrawing {
 }
 
 /// A closed curve with its points.
-struct Closed {
+struct ClosedCurve {
     chain: CurveChain,
     points: Vec<Vec2>,
     area: f64,
 }
 
-impl Closed {
+impl ClosedCurve {
     fn new(chain: CurveChain) -> Self {
         let points = chain.flattened();
         let area = segment::signed_area(&points);
@@ -66,7 +66,7 @@ pub(crate) fn assemble(mut sketch: Sketch, tolerance: f64) -> Result<BodyDrawing
     let mut network = Network::new(curves, &mut Joints::new(tolerance));
     let open = Network::new(network.without_open(), &mut Joints::new(tolerance)).chains();
     network.check_branches()?;
-    let closed: Vec<_> = network.chains().into_iter().map(Closed::new).collect();
+    let closed: Vec<_> = network.chains().into_iter().map(ClosedCurve::new).collect();
     let cracks = Network::new(cracks, &mut Joints::new(tolerance)).chains();
     let [outline, holes @ ..] = &mut nested(closed, &open)?[..] else {
         return Err(no_outline(&open));
@@ -126,12 +126,15 @@ fn centroid(points: &[Vec2], length: f64) -> Vec2 {
 }
 
 /// The closed curves, the outline first; the others lie in it and not in each other.
-fn nested(mut closed: Vec<Closed>, open: &[CurveChain]) -> Result<Vec<Closed>, ImportError> {
+fn nested(
+    mut closed: Vec<ClosedCurve>,
+    open: &[CurveChain],
+) -> Result<Vec<ClosedCurve>, ImportError> {
     if closed.len().max(open.len()) > MOST_CHAINS {
         return Err(ImportError::TooMany { what: "separate curves", most: MOST_CHAINS });
     }
     closed.sort_by(|a, b| b.area.total_cmp(&a.area));
-    let source = |c: &Closed| c.chain.curves[0].source;
+    let source = |c: &ClosedCurve| c.chain.curves[0].source;
     crossing::check(&closed.iter().map(|c| (&c.points[..], source(c))).collect::<Vec<_>>())?;
     let Some((outline, holes)) = closed.split_first() else { return Ok(closed) };
     if let Some(beside) = holes.iter().find(|hole| !contains(&outline.points, hole.points[0])) {
@@ -173,7 +176,11 @@ fn no_outline(open: &[CurveChain]) -> ImportError {
 }
 
 /// Refuses cracks that close, or lie outside.
-fn check_cracks(cracks: &[CurveChain], outline: &Closed, size: f64) -> Result<(), ImportError> {
+fn check_cracks(
+    cracks: &[CurveChain],
+    outline: &ClosedCurve,
+    size: f64,
+) -> Result<(), ImportError> {
     for crack in cracks {
         let (points, curve) = (crack.flattened(), crack.curves[0].source);
         if crack.is_closed {
@@ -188,8 +195,8 @@ fn check_cracks(cracks: &[CurveChain], outline: &Closed, size: f64) -> Result<()
     Ok(())
 }
 
-/// The segments of the straight parts of borders.
-fn straight_segments<'a>(borders: impl Iterator<Item = &'a Closed>) -> Vec<[Vec2; 2]> {
+/// The segments of the straight parts of boundaries.
+fn straight_segments<'a>(borders: impl Iterator<Item = &'a ClosedCurve>) -> Vec<[Vec2; 2]> {
     let curves = borders.flat_map(|border| &border.chain.curves);
     let polylines = curves.filter_map(|named| match &named.curve {
         PlaneCurve::Polyline(points) => Some(points),
@@ -198,7 +205,7 @@ fn straight_segments<'a>(borders: impl Iterator<Item = &'a Closed>) -> Vec<[Vec2
     polylines.flat_map(|points| points.windows(2).map(|p| [p[0], p[1]])).collect()
 }
 
-/// The crack with ends on the border, where they miss a straight part of it by the tolerance.
+/// The crack with ends on the boundary, where they miss a straight part of it by the tolerance.
 fn snapped(crack: CurveChain, borders: &[[Vec2; 2]], tolerance: f64) -> CurveChain {
     let ([first, .., last] | [first @ last]) = &crack.curves[..] else { return crack };
     let ends = [first.curve.ends()[0], last.curve.ends()[1]];

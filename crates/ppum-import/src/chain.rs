@@ -138,8 +138,8 @@ impl Network {
 }
 
 impl CurveChain {
-    /// The same with curves whose ends are equal where they join: those of polylines move, of two
-    /// others the second one.
+    /// Returns the chain with curves whose ends are equal where they join: those of polylines move,
+    /// of two others the second one.
     fn joined(mut self) -> Self {
         use crate::curve::PlaneCurve::Polyline;
         let n = self.curves.len();

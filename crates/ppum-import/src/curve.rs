@@ -35,7 +35,7 @@ pub struct EllipseArc {
 
 /// An ellipse by its axes; all angles in radians.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Axes {
+pub(crate) struct EllipseAxes {
     pub(crate) axes: [f64; 2],
     /// Angle of the first axis.
     pub(crate) angle: f64,
@@ -77,7 +77,7 @@ impl EllipseArc {
 
     /// The axes, by the parameter t₀ at which the radii are at right angles:
     /// tan 2t₀ = 2 p·q / (p² − q²). A mirrored ellipse runs back.
-    pub(crate) fn axes(&self) -> Axes {
+    pub(crate) fn axes(&self) -> EllipseAxes {
         let [p, q] = self.radii;
         let (mixed, apart) = (2.0 * p.dot(q), p.dot(p) - q.dot(q));
         let is_circle = mixed.hypot(apart) < 1e-12 * (p.dot(p) + q.dot(q));
@@ -88,14 +88,14 @@ impl EllipseArc {
         let (axes, turn) = ([first.length(), second.length()], first.y.atan2(first.x));
         let range = self.range.map(|t| way * (t - start));
         if !is_circle {
-            return Axes { axes, angle: turn, range };
+            return EllipseAxes { axes, angle: turn, range };
         }
         let radius = 0.5 * (axes[0] + axes[1]);
-        Axes { axes: [radius; 2], angle: 0.0, range: range.map(|t| t + turn) }
+        EllipseAxes { axes: [radius; 2], angle: 0.0, range: range.map(|t| t + turn) }
     }
 
     pub(crate) fn is_circle(&self) -> bool {
-        let Axes { axes: [a, b], .. } = self.axes();
+        let EllipseAxes { axes: [a, b], .. } = self.axes();
         a == b
     }
 

@@ -16,7 +16,7 @@ pub enum ImportError {
     Syntax {
         /// Where.
         source_line: SourceLine,
-        /// What is wrong, and the remedy.
+        /// The error, and its remedy.
         message: String,
     },
     /// More than is read.
@@ -27,7 +27,7 @@ pub enum ImportError {
         /// The largest number.
         most: usize,
     },
-    /// A mesh of lines alone, which are no border.
+    /// A mesh of lines alone, which are no boundary.
     #[error(
         "the mesh has no triangles or quadrilaterals, and its lines are no border: {0}; save it with its \
          surfaces: a Physical Surface, or Mesh.SaveAll = 1"
@@ -38,7 +38,7 @@ pub enum ImportError {
     Empty {
         /// The names of those that were left out.
         layers: Vec<String>,
-        /// What else was left out.
+        /// Notices about things that were left out.
         notices: Vec<String>,
     },
     /// Curves, but none that closes.

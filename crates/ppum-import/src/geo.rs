@@ -15,7 +15,7 @@ use crate::error::ImportError;
 use crate::sketch::{NamedCurve, Sketch};
 use crate::source::SourceLine;
 
-/// Statements that make nothing of the border.
+/// Statements that make nothing of the boundary.
 const SILENT: [&str; 15] = [
     "SetFactory",
     "Mesh",
@@ -47,18 +47,18 @@ const BLOCKS: [(&str, &str); 5] = [
 const LONGEST: usize = 100_000;
 
 /// A curve of the file, before physical groups name it.
-enum Made {
+enum GeoCurve {
     Curve(PlaneCurve),
     Splines(Vec<BSpline>),
 }
 
 #[derive(Default)]
-struct Geometry {
+struct GeoFile {
     variables: BTreeMap<String, f64>,
     /// Variables whose values are not read, with their lines.
     unread: BTreeMap<String, SourceLine>,
     points: BTreeMap<i64, Vec2>,
-    curves: BTreeMap<i64, (Made, SourceLine)>,
+    curves: BTreeMap<i64, (GeoCurve, SourceLine)>,
     names: BTreeMap<i64, String>,
     sketch: Sketch,
 }
@@ -73,7 +73,7 @@ struct Statement<'a> {
 
 pub(crate) fn read(text: &str) -> Result<Sketch, ImportError> {
     let text = without_comments(text);
-    let mut geometry = Geometry::default();
+    let mut geometry = GeoFile::default();
     let (mut rest, mut line) = (text.as_str(), 1);
     while !rest.trim().is_empty() {
         let blank = rest.len() - rest.trim_start().len();
@@ -166,7 +166,7 @@ fn block_end(rest: &str, source: SourceLine) -> Result<Option<(&'static str, usi
     Err(ImportError::syntax(source, format!("{kind} has no {end}; the file may be cut off")))
 }
 
-impl Geometry {
+impl GeoFile {
     fn statement(&mut self, text: &str, source: SourceLine) -> Result<(), ImportError> {
         let Some((left, value)) = text.split_once('=') else {
             let kind = text.split(['(', '{', '[']).next().unwrap_or_default().trim();
@@ -344,8 +344,8 @@ impl Geometry {
         for (tag, (made, source)) in std::mem::take(&mut self.curves) {
             let name = self.names.get(&tag).cloned();
             match made {
-                Made::Curve(curve) => self.sketch.add(NamedCurve::new(curve, name, source))?,
-                Made::Splines(all) => {
+                GeoCurve::Curve(curve) => self.sketch.add(NamedCurve::new(curve, name, source))?,
+                GeoCurve::Splines(all) => {
                     all.into_iter().try_for_each(|spline| {
                         self.sketch.add_spline(spline, name.clone(), source)
                     })?;
@@ -398,34 +398,34 @@ fn words(text: &str) -> Vec<&str> {
 }
 
 /// A circle, or an arc of one, by centre, radius and angles.
-fn centred(numbers: &[f64]) -> Option<Made> {
+fn centred(numbers: &[f64]) -> Option<GeoCurve> {
     let [x, y, _, radius, angles @ ..] = numbers else { return None };
     let range = [angles.first().copied().unwrap_or(0.0), angles.get(1).copied().unwrap_or(TAU)];
     let arc = EllipseArc::circle(vec2(*x, *y), *radius, range);
-    (*radius > 0.0).then_some(Made::Curve(PlaneCurve::Arc(arc)))
+    (*radius > 0.0).then_some(GeoCurve::Curve(PlaneCurve::Arc(arc)))
 }
 
 /// A curve by its points.
-fn made(kind: &str, points: &[Vec2]) -> Option<Made> {
+fn made(kind: &str, points: &[Vec2]) -> Option<GeoCurve> {
     let is_straight = points.len() == 2 && matches!(kind, "Spline" | "BSpline" | "Bezier");
     match (kind, points) {
-        ("Line", [_, _, ..]) => Some(Made::Curve(PlaneCurve::Polyline(points.to_vec()))),
-        _ if is_straight => Some(Made::Curve(PlaneCurve::Polyline(points.to_vec()))),
+        ("Line", [_, _, ..]) => Some(GeoCurve::Curve(PlaneCurve::Polyline(points.to_vec()))),
+        _ if is_straight => Some(GeoCurve::Curve(PlaneCurve::Polyline(points.to_vec()))),
         ("Circle", &[a, center, b]) => arc(a, center, a, b),
         ("Ellipse" | "Ellipsis", &[a, center, major, b]) => arc(a, center, major, b),
-        ("Spline", [_, _, ..]) => Some(Made::Splines(catmull_rom(points)?)),
-        ("BSpline", _) => Some(Made::Splines(vec![BSpline::clamped(
+        ("Spline", [_, _, ..]) => Some(GeoCurve::Splines(catmull_rom(points)?)),
+        ("BSpline", _) => Some(GeoCurve::Splines(vec![BSpline::clamped(
             points.len().saturating_sub(1).min(3),
             points,
         )?])),
-        ("Bezier", _) => Some(Made::Splines(vec![BSpline::bezier(points)?])),
+        ("Bezier", _) => Some(GeoCurve::Splines(vec![BSpline::bezier(points)?])),
         _ => None,
     }
 }
 
 /// The shorter arc between two points of an ellipse with a point on its first axis. In the axes'
 /// frame x² / a² + y² / b² = 1 holds at both points, which gives a and b; a circle needs one.
-fn arc(from: Vec2, center: Vec2, major: Vec2, to: Vec2) -> Option<Made> {
+fn arc(from: Vec2, center: Vec2, major: Vec2, to: Vec2) -> Option<GeoCurve> {
     let axis = (major - center).unit();
     let own = [from, to].map(|p| vec2((p - center).dot(axis), axis.cross(p - center)));
     let [p, q] = own.map(|v| vec2(v.x * v.x, v.y * v.y));
@@ -444,7 +444,7 @@ fn arc(from: Vec2, center: Vec2, major: Vec2, to: Vec2) -> Option<Made> {
     let radii = [axis * radii[0], axis.left() * radii[1]];
     let arc = EllipseArc { center, radii, range: [start, start + turn] };
     let is_arc = turn.is_finite() && turn != 0.0 && radii.iter().all(|r| r.is_finite());
-    is_arc.then_some(Made::Curve(PlaneCurve::Arc(arc)))
+    is_arc.then_some(GeoCurve::Curve(PlaneCurve::Arc(arc)))
 }
 
 /// The Catmull–Rom spline of Gmsh, one Bézier curve between two points; the tangent at a point is

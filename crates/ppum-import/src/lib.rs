@@ -72,7 +72,7 @@ impl DrawingFormat {
     }
 }
 
-/// What is taken of a file, and how.
+/// Options of reading a file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportOptions {
     /// Ends at most this far apart are joined, and curves that the problem file does not know are

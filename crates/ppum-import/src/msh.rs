@@ -1,6 +1,6 @@
-//! Meshes of Gmsh as text, formats 2.2 and 4.1: the border of the triangles and quadrilaterals.
+//! Meshes of Gmsh as text, formats 2.2 and 4.1: the boundary of the triangles and quadrilaterals.
 //!
-//! Edges of one element are the border. Two of them between the same places, but with nodes of
+//! Edges of one element are the boundary. Two of them between the same places, but with nodes of
 //! their own, are the faces of a crack. Physical groups of lines are the names.
 
 use std::collections::{BTreeMap, HashMap};
@@ -30,7 +30,7 @@ const ELEMENTS: [(usize, usize, usize); 13] = [
     (37, 4, 4),
 ];
 
-/// A point, which no border needs.
+/// A point, which no boundary needs.
 const POINT: usize = 15;
 
 /// Lines of a file as lists of words.
@@ -66,7 +66,7 @@ impl<'a> MeshLines<'a> {
 }
 
 /// Nodes along an edge of an element, with the line of the element.
-struct ElementEdge {
+struct EdgeNodes {
     nodes: Vec<usize>,
     line: usize,
 }
@@ -82,9 +82,9 @@ struct GmshMesh {
     numbers: HashMap<usize, usize>,
     nodes: Vec<Vec2>,
     /// Edges of triangles and quadrilaterals.
-    edges: Vec<ElementEdge>,
+    edges: Vec<EdgeNodes>,
     /// Lines with their physical groups.
-    lines: Vec<(ElementEdge, i64)>,
+    lines: Vec<(EdgeNodes, i64)>,
     sketch: Sketch,
 }
 
@@ -259,7 +259,7 @@ impl GmshMesh {
         let edge = |k: usize| {
             let inner = &nodes[corners + k * (order - 1)..][..order - 1];
             let ends = [nodes[k], nodes[(k + 1) % corners]];
-            ElementEdge { nodes: [&ends[..1], inner, &ends[1..]].concat(), line: words.line }
+            EdgeNodes { nodes: [&ends[..1], inner, &ends[1..]].concat(), line: words.line }
         };
         if *corners == 2 {
             self.lines.push((edge(0), group));
@@ -269,7 +269,7 @@ impl GmshMesh {
         Ok(())
     }
 
-    /// The border and the cracks, or the lines of a mesh without faces.
+    /// The boundary and the cracks, or the lines of a mesh without faces.
     fn draw(&mut self) -> Result<(), ImportError> {
         let groups: BTreeMap<_, _> =
             self.lines.iter().map(|(edge, group)| (key(edge), *group)).collect();
@@ -307,7 +307,7 @@ impl GmshMesh {
         self.add_with_cracks(curves)
     }
 
-    fn named(&self, edge: &ElementEdge, group: Option<&i64>) -> NamedCurve {
+    fn named(&self, edge: &EdgeNodes, group: Option<&i64>) -> NamedCurve {
         let points = edge.nodes.iter().map(|node| self.nodes[*node]).collect();
         let name = group.filter(|group| **group != 0);
         let name = name.map(|group| {
@@ -336,7 +336,7 @@ impl GmshMesh {
 }
 
 /// The ends of an edge, the same for both of its sides.
-fn key(edge: &ElementEdge) -> [usize; 2] {
+fn key(edge: &EdgeNodes) -> [usize; 2] {
     let [a, b] = [edge.nodes[0], edge.nodes[edge.nodes.len() - 1]];
     [a.min(b), a.max(b)]
 }

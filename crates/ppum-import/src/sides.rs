@@ -17,7 +17,7 @@ const CORNER: f64 = 0.94;
 const MOST_SIDES: usize = 64;
 
 impl CurveChain {
-    /// The same with as few curves as names and kinds allow.
+    /// Returns the sides with as few curves as names and kinds allow.
     pub(crate) fn tidied(mut self, size: f64) -> Self {
         if self.is_closed {
             self.begin_at_a_change();
@@ -64,7 +64,7 @@ impl CurveChain {
         differ || (first.is_some() && !is_layered)
     }
 
-    /// The same without names, if these are one layer.
+    /// Returns the sides without names, if these are one layer.
     pub(crate) fn without_layer(mut self, is_layered: bool) -> Self {
         if !self.has_names(is_layered) {
             self.curves.iter_mut().for_each(|named| named.name = None);
@@ -72,7 +72,7 @@ impl CurveChain {
         self
     }
 
-    /// The same with a name for each run between corners, if it has no names of its own.
+    /// Returns the sides with a name for each run between corners, if it has no names of its own.
     pub(crate) fn with_sides(mut self, is_layered: bool) -> Self {
         if self.has_names(is_layered) {
             return self;

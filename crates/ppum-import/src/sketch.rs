@@ -1,4 +1,5 @@
-//! What readers make of a file: curves with names and places, and notices of what they left.
+//! The data that readers make from a file: curves with names and places, and notices of what they
+//! left.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -49,12 +50,12 @@ pub(crate) struct Sketch {
     pub(crate) is_mesh_without_faces: bool,
     /// How far curves of the problem file are from those of the drawing.
     fit: Option<String>,
-    /// What is to be said of lines: how often, and the first one.
+    /// Remarks about lines: how often, and the first one.
     remarks: BTreeMap<String, (usize, SourceLine)>,
 }
 
 impl Sketch {
-    /// Of layers and groups.
+    /// A sketch of a file with layers and groups.
     pub(crate) fn layered() -> Self {
         Self { is_layered: true, ..Self::default() }
     }

@@ -17,7 +17,7 @@ const DIGITS: f64 = 15.0;
 /// Columns of a line of points.
 const COLUMNS: usize = 100;
 
-/// What is left to the user.
+/// The values that are left to the user.
 const TO_BE_FILLED: &str = r#"
 # Material and loads are missing: remove the signs # and enter your own.
 #
@@ -27,7 +27,7 @@ const TO_BE_FILLED: &str = r#"
 # state = "plane-stress"                # or "plane-strain"
 "#;
 
-/// Conditions for the first parts of the border.
+/// Conditions for the first parts of the boundary.
 const EXAMPLES: [&str; 2] = ["displacement = [0, 0]", "traction = [0, 1]"];
 
 impl BodyDrawing {
@@ -73,7 +73,7 @@ impl BodyDrawing {
             + &format!("title = {}\n", quoted(title))
     }
 
-    /// Examples of loads, and all parts of the border that can have some.
+    /// Examples of loads, and all parts of the boundary that can have some.
     fn boundaries(&self, outline: &CurveChain, holes: &[CurveChain]) -> String {
         let mut names = std::collections::BTreeSet::new();
         let mut parts = Vec::new();

@@ -1,7 +1,7 @@
 //! Symmetric block-sparse matrices over the patch graph.
 //!
-//! Block (i, j) couples the unknowns of patches i and j; it is there if the patches overlap. Of
-//! K = Kᵀ only the blocks with i ≤ j are stored, diagonal blocks in full.
+//! Block (i, j) couples the unknowns of patches i and j; it is there if the patches overlap. For K
+//! = Kᵀ, only the blocks with i ≤ j are stored, diagonal blocks in full.
 //!
 //! **Unknowns of a patch are ordered component-major**: unknown `c · n_i + k` is component c of
 //! function k, with n_i functions in patch i. So a block of a two-component problem is made of

@@ -13,7 +13,7 @@
 use super::block_matrix::BlockMatrix;
 use super::conjugate::norm;
 use super::elimination::Elimination;
-use super::factor::Factor;
+use super::factor::CholeskyFactor;
 use super::neighbours::Neighbours;
 use super::solver::{LinearError, LinearSolution, LinearSolver};
 use faer::Mat;
@@ -30,7 +30,7 @@ const LAST_CORRECTION: f64 = 1e-9;
 /// leave 1.
 const CONSISTENT: f64 = 1e-6;
 
-/// Pivots are at most one, the diagonal, but for those that are replaced.
+/// Pivots are at most one, the diagonal, except for those that are replaced.
 const REPLACED: f64 = 2.0;
 
 /// The factorisation of a symmetric positive semi-definite matrix, for any number of
@@ -40,7 +40,7 @@ pub struct Cholesky<'a> {
     matrix: Cow<'a, BlockMatrix>,
     /// D
     scale: Vec<f64>,
-    factor: Factor,
+    factor: CholeskyFactor,
     /// Unknowns that are left out, because they depend on others.
     dependent: Vec<usize>,
 }
@@ -63,14 +63,14 @@ impl<'a> Cholesky<'a> {
         Cholesky::of(Cow::Owned(matrix))
     }
 
-    /// The same of a matrix that it may own.
+    /// Factors a matrix that it may own.
     pub(super) fn of(matrix: Cow<'a, BlockMatrix>) -> Result<Self, LinearError> {
         let scale = inverse_root_diagonal(&matrix)?;
         let sizes: Vec<_> = (0..matrix.n_blocks()).map(|i| matrix.unknowns(i).len()).collect();
         let neighbours = Neighbours::new(matrix.pattern());
         let elimination = Elimination::new(&neighbours, &sizes);
         let no_memory = |_| LinearError::OutOfMemory { unknowns: matrix.n_unknowns() };
-        let factor = Factor::new(&matrix, &scale, elimination).map_err(no_memory)?;
+        let factor = CholeskyFactor::new(&matrix, &scale, elimination).map_err(no_memory)?;
         let dependent = replaced_pivots(&factor, &matrix)?;
         Ok(Self { matrix, scale, factor, dependent })
     }
@@ -107,8 +107,8 @@ impl LinearSolver for Cholesky<'_> {
     /// Up to two steps of iterative refinement.
     fn solve_all(&self, loads: &[Vec<f64>]) -> Result<Vec<LinearSolution>, LinearError> {
         let first = self.solve_roughly(loads)?;
-        let unrefined = loads.iter().zip(first).map(|(f, u)| Refined::new(self, f, u));
-        let mut all: Vec<Refined<'_>> = unrefined.collect();
+        let unrefined = loads.iter().zip(first).map(|(f, u)| RefinementState::new(self, f, u));
+        let mut all: Vec<RefinementState<'_>> = unrefined.collect();
         for _ in 0..REFINEMENTS {
             let open: Vec<_> = all.iter_mut().filter(|refined| !refined.is_done).collect();
             let rests: Vec<_> = open.iter().map(|refined| refined.rest.clone()).collect();
@@ -144,7 +144,7 @@ impl LinearSolver for Cholesky<'_> {
 
 impl Cholesky<'_> {
     /// A solution, unless the load is not consistent with a semi-definite matrix.
-    fn consistent(&self, refined: Refined<'_>) -> Result<LinearSolution, LinearError> {
+    fn consistent(&self, refined: RefinementState<'_>) -> Result<LinearSolution, LinearError> {
         let residual = norm(&refined.rest);
         let relative_residual = if residual == 0.0 { 0.0 } else { residual / norm(refined.load) };
         match self.dependent.first() {
@@ -157,7 +157,7 @@ impl Cholesky<'_> {
 }
 
 /// A solution on the way.
-struct Refined<'f> {
+struct RefinementState<'f> {
     load: &'f [f64],
     unknowns: Vec<f64>,
     /// f − K u
@@ -165,7 +165,7 @@ struct Refined<'f> {
     is_done: bool,
 }
 
-impl<'f> Refined<'f> {
+impl<'f> RefinementState<'f> {
     fn new(solver: &Cholesky<'_>, load: &'f [f64], unknowns: Vec<f64>) -> Self {
         let rest = solver.residual(load, &unknowns);
         Self { load, unknowns, rest, is_done: false }
@@ -186,7 +186,10 @@ impl<'f> Refined<'f> {
 }
 
 /// The unknowns whose pivots were replaced, ascending.
-fn replaced_pivots(factor: &Factor, matrix: &BlockMatrix) -> Result<Vec<usize>, LinearError> {
+fn replaced_pivots(
+    factor: &CholeskyFactor,
+    matrix: &BlockMatrix,
+) -> Result<Vec<usize>, LinearError> {
     let mut replaced = Vec::new();
     for (u, pivot) in factor.order(matrix).into_iter().zip(factor.pivots()) {
         if !pivot.is_finite() {

@@ -13,21 +13,21 @@ const CHUNK: usize = 1 << 14;
 
 /// The way to a solution.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Course {
+pub struct ConvergenceHistory {
     /// (rᵀ M r)^½ before the first step.
     pub size: f64,
-    /// The same before the first step and after each, as a part of the first.
+    /// The residual norms before the first step and after each, relative to the first.
     pub residuals: Vec<f64>,
     /// Condition of M K, a bound from below.
     pub condition: f64,
-    /// Of each step and each level, the finest first, the norm of its right-hand side as a part of
+    /// For each step and each level, the finest first, the norm of the right-hand side relative to
     /// that of the first step.
     pub levels: Vec<Vec<f64>>,
 }
 
 /// Why an iteration has ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum End {
+pub(super) enum IterationEnd {
     Reached,
     /// The residual no longer falls, or the steps are used up.
     Stalled,
@@ -35,10 +35,10 @@ pub(super) enum End {
     Stopped,
 }
 
-/// What is solved: products with K and M, and who may stop it.
+/// The system that is solved: products with K and M, and the watcher that may stop it.
 pub(super) struct Iteration<'a> {
     pub(super) multiply: &'a dyn Fn(&[f64], &mut [f64]),
-    pub(super) precondition: &'a dyn Fn(&[f64], &mut Course) -> Vec<f64>,
+    pub(super) precondition: &'a dyn Fn(&[f64], &mut ConvergenceHistory) -> Vec<f64>,
     pub(super) goes_on: &'a (dyn Fn() -> bool + Sync),
     /// The part of (rᵀ M r)^½ that may be left.
     pub(super) tolerance: f64,
@@ -50,9 +50,9 @@ const PATIENCE: usize = 12;
 
 impl Iteration<'_> {
     /// Solves for the residual `r` of x = 0, which becomes that of the solution.
-    pub(super) fn run(&self, r: &mut [f64]) -> (Vec<f64>, Course, End) {
+    pub(super) fn run(&self, r: &mut [f64]) -> (Vec<f64>, ConvergenceHistory, IterationEnd) {
         let mut x = vec![0.0; r.len()];
-        let mut course = Course::default();
+        let mut course = ConvergenceHistory::default();
         let mut z = (self.precondition)(r, &mut course);
         let first = dot(r, &z);
         course.size = first.max(0.0).sqrt();
@@ -61,16 +61,16 @@ impl Iteration<'_> {
         let (mut best, mut best_at, mut product) = (1.0, 0, vec![0.0; r.len()]);
         let end = loop {
             if rho <= 0.0 || (rho / first).sqrt() <= self.tolerance {
-                break if rho >= 0.0 { End::Reached } else { End::Stalled };
+                break if rho >= 0.0 { IterationEnd::Reached } else { IterationEnd::Stalled };
             }
             if steps.len() == self.most_steps
                 || steps.len() - best_at > PATIENCE
                 || !rho.is_finite()
             {
-                break End::Stalled;
+                break IterationEnd::Stalled;
             }
             if !(self.goes_on)() {
-                break End::Stopped;
+                break IterationEnd::Stopped;
             }
             (self.multiply)(&p, &mut product);
             let alpha = rho / dot(&p, &product);

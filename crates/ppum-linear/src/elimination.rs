@@ -2,9 +2,9 @@
 //! of them.
 //!
 //! Blocks that are eliminated together are the *pivots* of a front; the later blocks that they
-//! couple are *below* them. What a front leaves there goes to its parent, the front of the first
-//! block below. So fronts of different subtrees know nothing of each other, and each front is a
-//! dense matrix. Columns of blocks are joined to fronts with more zeros in them where that is
+//! couple are *below* them. The contribution block of a front goes to its parent, the front of the
+//! first block below. So fronts of different subtrees know nothing of each other, and each front is
+//! a dense matrix. Columns of blocks are joined to fronts with more zeros in them where that is
 //! faster than to take them one after the other.
 
 use super::block_matrix::BlockPattern;
@@ -14,11 +14,10 @@ use super::ordering::by_degree;
 use std::cmp::Reverse;
 use std::ops::Range;
 
-/// What a value of a front costs in operations, for what is written, read and added to
-/// the parent's.
+/// The cost of a value of a front in operations, to write, read and add it to the parent's.
 const TRAFFIC: f64 = 12.0;
 
-/// What a front costs in operations, however small it is.
+/// The cost of a front in operations, however small it is.
 const FRONT: f64 = 1e5;
 
 /// Subtrees with at most this part of all work are done by one thread. Enough of them that threads
@@ -30,7 +29,7 @@ const SUBTREE: f64 = 1.0 / 32.0;
 pub(super) struct Elimination {
     /// The blocks in their order.
     pub(super) order: Vec<u32>,
-    /// Of each block, its place in the order.
+    /// The position of each block in the order.
     pub(super) places: Vec<u32>,
     /// The first unknown of each place, and their number.
     pub(super) offsets: Vec<usize>,
@@ -53,8 +52,8 @@ impl Elimination {
         let ranked = by_degree(neighbours);
         let drafts = drafts(neighbours, sizes, &ranked);
         let (sequence, subtrees) = sequence(&drafts);
-        let numbered = Numbered::new(&drafts, &sequence, &ranked);
-        let Numbered { order, places, numbers } = numbered;
+        let numbered = FrontNumbering::new(&drafts, &sequence, &ranked);
+        let FrontNumbering { order, places, numbers } = numbered;
         let mut offsets = vec![0];
         for &block in &order {
             offsets.push(offsets[offsets.len() - 1] + sizes[block as usize]);
@@ -96,14 +95,14 @@ impl Elimination {
 }
 
 /// Blocks and fronts in their order.
-struct Numbered {
+struct FrontNumbering {
     order: Vec<u32>,
     places: Vec<u32>,
-    /// Of each draft its number as a front.
+    /// The number of each draft as a front.
     numbers: Vec<usize>,
 }
 
-impl Numbered {
+impl FrontNumbering {
     fn new(drafts: &[SymbolicFront], sequence: &[usize], ranked: &[u32]) -> Self {
         let pivots = sequence.iter().flat_map(|&draft| &drafts[draft].pivots);
         let order: Vec<u32> = pivots.map(|&rank| ranked[rank as usize]).collect();
@@ -244,7 +243,7 @@ mod tests {
     use crate::test_matrices::grid_matrix;
     use ppum_testkit::random::Random;
 
-    /// What is below a front is in its parent, in the rows that its runs tell.
+    /// The rows below a front are in its parent, where its runs say.
     #[test]
     fn fronts_hand_on_to_their_parents() {
         let matrix = grid_matrix(23, 17, &mut Random(3));

@@ -2,14 +2,14 @@
 //!
 //! A front holds the columns of its pivots with what earlier fronts have left there, eliminates
 //! them as a dense matrix, and hands on what that leaves to its parent (the multifrontal method of
-//! Duff & Reid 1983). Threads take subtrees, and strips of large fronts. What belongs to a strip is
+//! Duff & Reid 1983). Threads take subtrees, and strips of large fronts. The values of a strip are
 //! computed in one order, so that results have the same bits on any number of threads.
 
 use super::block_matrix::BlockMatrix;
 use super::elimination::Elimination;
 use super::front::{Front, RowRun, divided};
 use super::neighbours::Neighbours;
-use super::strip::{FactorFailure, Strip, Vanishing};
+use super::panel::{FactorFailure, FrontPanel, ZeroPivotPolicy};
 use rayon::prelude::*;
 use std::ops::Range;
 
@@ -21,10 +21,10 @@ const SHARED: usize = 1 << 22;
 
 /// The factor of a matrix.
 #[derive(Debug)]
-pub(super) struct Factor {
+pub(super) struct CholeskyFactor {
     pub(super) elimination: Elimination,
-    /// Of each front the columns of its pivots.
-    pub(super) strips: Vec<Vec<Strip>>,
+    /// The columns of the pivots of each front.
+    pub(super) strips: Vec<Vec<FrontPanel>>,
 }
 
 /// A matrix that is to be factorised, and how.
@@ -34,21 +34,21 @@ struct FactorInput<'m> {
     /// D
     scale: &'m [f64],
     elimination: &'m Elimination,
-    vanishing: Vanishing,
+    vanishing: ZeroPivotPolicy,
 }
 
-/// What a child has left, and where that is in its parent.
-type Left<'e> = (&'e [RowRun], Vec<Strip>);
+/// The contribution block of a child, and its rows in the parent.
+type ContributionBlock<'e> = (&'e [RowRun], Vec<FrontPanel>);
 
-/// What a front has left: the columns of its pivots, and until its parent takes it what is
-/// below them.
+/// The result of a front: the columns of its pivots, and its contribution block until the parent
+/// takes that.
 #[derive(Debug, Default)]
-struct Done {
-    pivots: Vec<Strip>,
-    below: Vec<Strip>,
+struct FactoredFront {
+    pivots: Vec<FrontPanel>,
+    below: Vec<FrontPanel>,
 }
 
-impl Factor {
+impl CholeskyFactor {
     /// The factor of D K D; unknowns of pivots that vanish are left out.
     pub(super) fn new(
         matrix: &BlockMatrix,
@@ -56,12 +56,12 @@ impl Factor {
         elimination: Elimination,
     ) -> Result<Self, FactorFailure> {
         let neighbours = Neighbours::new(matrix.pattern());
-        let vanishing = Vanishing::Refused;
+        let vanishing = ZeroPivotPolicy::Refused;
         let source =
             FactorInput { matrix, neighbours, scale, elimination: &elimination, vanishing };
         let strips = match source.factor() {
             Err(FactorFailure::Pivot) => {
-                FactorInput { vanishing: Vanishing::LeftOut, ..source }.factor()?
+                FactorInput { vanishing: ZeroPivotPolicy::LeftOut, ..source }.factor()?
             }
             other => other?,
         };
@@ -70,7 +70,7 @@ impl Factor {
 
     /// Bytes of the values.
     pub(super) fn bytes(&self) -> usize {
-        self.strips.iter().flatten().map(Strip::bytes).sum()
+        self.strips.iter().flatten().map(FrontPanel::bytes).sum()
     }
 
     /// The unknowns of a matrix in the order of elimination.
@@ -80,17 +80,17 @@ impl Factor {
 
     /// The pivots L_kk in that order.
     pub(super) fn pivots(&self) -> impl Iterator<Item = f64> {
-        self.strips.iter().flatten().flat_map(Strip::diagonal)
+        self.strips.iter().flatten().flat_map(FrontPanel::diagonal)
     }
 }
 
 impl FactorInput<'_> {
-    fn factor(&self) -> Result<Vec<Vec<Strip>>, FactorFailure> {
+    fn factor(&self) -> Result<Vec<Vec<FrontPanel>>, FactorFailure> {
         let Elimination { fronts, subtrees, .. } = self.elimination;
-        let mut done: Vec<Done> = Vec::new();
-        done.resize_with(fronts.len(), Done::default);
+        let mut done: Vec<FactoredFront> = Vec::new();
+        done.resize_with(fronts.len(), FactoredFront::default);
         let parts = divided(&mut done, subtrees);
-        let of_subtree = |(range, part): (&Range<usize>, &mut [Done])| {
+        let of_subtree = |(range, part): (&Range<usize>, &mut [FactoredFront])| {
             range.clone().try_for_each(|front| self.eliminate(front, part, range.start))
         };
         subtrees.par_iter().zip(parts).with_max_len(1).try_for_each(of_subtree)?;
@@ -103,7 +103,7 @@ impl FactorInput<'_> {
     fn eliminate(
         &self,
         number: usize,
-        done: &mut [Done],
+        done: &mut [FactoredFront],
         first: usize,
     ) -> Result<(), FactorFailure> {
         let front = &self.elimination.fronts[number];
@@ -120,7 +120,7 @@ impl FactorInput<'_> {
             let (before, after) = strips.split_at_mut(k + 1);
             let own = &mut before[k];
             own.eliminate(self.vanishing, shared)?;
-            let subtract = |strip: &mut Strip| strip.subtract(own);
+            let subtract = |strip: &mut FrontPanel| strip.subtract(own);
             if shared {
                 after.par_iter_mut().with_max_len(1).for_each(subtract);
             } else {
@@ -129,7 +129,7 @@ impl FactorInput<'_> {
         }
         let mut below = strips.split_off(n_strips);
         below.iter_mut().for_each(|strip| strip.first -= front.n_pivots());
-        done[number - first] = Done { pivots: strips, below };
+        done[number - first] = FactoredFront { pivots: strips, below };
         Ok(())
     }
 
@@ -137,12 +137,12 @@ impl FactorInput<'_> {
     fn gathered(
         &self,
         front: &Front,
-        left: &[Left<'_>],
+        left: &[ContributionBlock<'_>],
         shared: bool,
-    ) -> Result<Vec<Strip>, FactorFailure> {
-        let strip = |blocks: &Range<usize>| -> Result<Strip, FactorFailure> {
+    ) -> Result<Vec<FrontPanel>, FactorFailure> {
+        let strip = |blocks: &Range<usize>| -> Result<FrontPanel, FactorFailure> {
             let [from, to] = [blocks.start, blocks.end].map(|block| front.starts[block]);
-            let mut strip = Strip::new(from, to - from, front.rows())?;
+            let mut strip = FrontPanel::new(from, to - from, front.rows())?;
             if from < front.n_pivots() {
                 self.add_entries(front, blocks.clone(), &mut strip);
             }
@@ -158,7 +158,7 @@ impl FactorInput<'_> {
     }
 
     /// Adds the matrix's own entries in the columns of some pivots.
-    fn add_entries(&self, front: &Front, blocks: Range<usize>, strip: &mut Strip) {
+    fn add_entries(&self, front: &Front, blocks: Range<usize>, strip: &mut FrontPanel) {
         let Elimination { order, places, .. } = self.elimination;
         for local in blocks {
             let place = front.pivots.start + local;
@@ -186,7 +186,7 @@ impl FactorInput<'_> {
 }
 
 /// Adds what a child has left to a strip of its parent.
-fn add(strip: &mut Strip, runs: &[RowRun], left: &[Strip]) {
+fn add(strip: &mut FrontPanel, runs: &[RowRun], left: &[FrontPanel]) {
     let columns = strip.first..strip.end();
     for part in left {
         let mut number = runs.partition_point(|run| run.end() <= part.first);

@@ -21,7 +21,7 @@ pub(super) struct Front {
 pub(super) struct RowRun {
     /// The first of them below the front.
     pub(super) from: usize,
-    /// The same row of the parent.
+    /// The corresponding row of the parent.
     pub(super) to: usize,
     len: usize,
 }

@@ -5,8 +5,8 @@ use faer::linalg::solvers::DenseSolveCore;
 use faer::{Mat, MatRef, Side};
 
 /// Eigenvalues of a diagonal block, scaled to ones on its diagonal, up to this one belong to
-/// functions that depend on others, or to motions without energy: they are left alone. What the
-/// stable basis keeps is far above.
+/// functions that depend on others, or to motions without energy: they are left alone. The pivots
+/// that the stable basis keeps are far above.
 const DEPENDENT: f64 = 1e-11;
 
 /// The inverse of a part of the matrix, row-major; of one that is nearly singular

@@ -1,25 +1,26 @@
 //! Modes of a singular symmetric matrix, K z = 0, in the way of iteration.
 //!
-//! K u = f has solutions for balanced f alone, zᵀ f = 0. What a load lacks of that is taken by the
-//! functionals r_k that would hold the modes, as a penalty γ Σ r_k r_kᵀ takes it whatever its size:
+//! K u = f has solutions for balanced f alone, zᵀ f = 0. The part of a load outside of the range is
+//! taken by the functionals r_k that would hold the modes, as a penalty γ Σ r_k r_kᵀ takes it
+//! whatever its size:
 //!
 //! ```text
 //! f ← f − Σ s_k r_k,   zᵀ f = 0
 //! ```
 
 use super::conjugate::{dot, norm};
-use super::rows::Rows;
+use super::rows::SymmetricRows;
 use faer::Mat;
 use faer::linalg::solvers::Solve;
 
 /// The modes of a matrix, orthonormal, and functionals that hold them.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Kernel {
+pub(super) struct NullSpace {
     pub(super) modes: Vec<Vec<f64>>,
     functionals: Vec<Vec<f64>>,
 }
 
-impl Kernel {
+impl NullSpace {
     /// The kernel that some vectors span.
     pub(super) fn new(vectors: Vec<Vec<f64>>, functionals: Vec<Vec<f64>>) -> Self {
         let mut kernel = Self { modes: Vec::new(), functionals };
@@ -60,7 +61,7 @@ impl Kernel {
 
     /// The largest ‖K z‖ over the stiffness of the stiffest unknown; not a number where modes
     /// are none.
-    pub(super) fn force(&self, rows: &Rows<'_>, stiffest: f64) -> f64 {
+    pub(super) fn force(&self, rows: &SymmetricRows<'_>, stiffest: f64) -> f64 {
         let of = |mode: &Vec<f64>| {
             let mut product = vec![0.0; mode.len()];
             rows.multiply(mode, &mut product);

@@ -7,14 +7,14 @@
 //!
 //! is one if a function of block i is one of block j: sweeps part the two at a rate of cos², and
 //! coarser levels have nothing like them. A knot is a group of blocks that such pairs tie together.
-//! What is left of the residual there is solved for at once, after the sweep forward and before the
-//! sweep back.
+//! The remaining residual there is solved for at once, after the forward sweep and before the
+//! backward sweep.
 
 use super::block_matrix::BlockMatrix;
 use super::dense::product;
 use super::eigen::SymmetricEigen;
 use super::inverse::inverse;
-use super::rows::{Rows, add_product};
+use super::rows::{SymmetricRows, add_product};
 use faer::linalg::solvers::Solve;
 use faer::{Mat, Side};
 use rayon::prelude::*;
@@ -41,22 +41,34 @@ pub(super) struct Knot {
 impl Knot {
     /// x ← x + A⁻¹ r with the part A of the matrix and the part r of `rest`, the residual of x,
     /// which is renewed.
-    pub(super) fn relax(&self, rows: &Rows<'_>, f: &[f64], x: &mut [f64], rest: &mut [f64]) {
+    pub(super) fn relax(
+        &self,
+        rows: &SymmetricRows<'_>,
+        f: &[f64],
+        x: &mut [f64],
+        rest: &mut [f64],
+    ) {
         self.correct(rows, rest, x);
         for &i in &self.around {
             rows.remainder(i, f, x, rest);
         }
     }
 
-    /// The same of a residual that nobody has yet, and nobody asks for.
-    pub(super) fn relax_alone(&self, rows: &Rows<'_>, f: &[f64], x: &mut [f64], rest: &mut [f64]) {
+    /// Relaxes without a residual, which is neither known nor needed.
+    pub(super) fn relax_alone(
+        &self,
+        rows: &SymmetricRows<'_>,
+        f: &[f64],
+        x: &mut [f64],
+        rest: &mut [f64],
+    ) {
         for &i in &self.blocks {
             rows.remainder(i, f, x, rest);
         }
         self.correct(rows, rest, x);
     }
 
-    fn correct(&self, rows: &Rows<'_>, rest: &[f64], x: &mut [f64]) {
+    fn correct(&self, rows: &SymmetricRows<'_>, rest: &[f64], x: &mut [f64]) {
         let own: Vec<f64> =
             self.blocks.iter().flat_map(|&i| rest[rows.unknowns(i)].iter().copied()).collect();
         let mut correction = vec![0.0; own.len()];
@@ -76,12 +88,12 @@ impl Knot {
 }
 
 /// The knots of a matrix, in the order of their first blocks.
-pub(super) fn knots(rows: &Rows<'_>) -> Vec<Knot> {
+pub(super) fn knots(rows: &SymmetricRows<'_>) -> Vec<Knot> {
     let groups = groups(&rows.matrix, &near_pairs(&rows.matrix));
     groups.into_iter().map(|blocks| knot(rows, blocks)).collect()
 }
 
-fn knot(rows: &Rows<'_>, blocks: Vec<usize>) -> Knot {
+fn knot(rows: &SymmetricRows<'_>, blocks: Vec<usize>) -> Knot {
     let mut around: Vec<usize> = blocks.iter().flat_map(|&i| rows.neighbours(i)).collect();
     around.sort_unstable();
     around.dedup();
@@ -110,9 +122,8 @@ fn part(matrix: &BlockMatrix, blocks: &[usize]) -> Mat<f64> {
     all
 }
 
-/// Pairs of blocks with cos² above [`NEAR`], the nearest first. Of blocks that have no more
-/// unknowns than the smallest one nothing is asked: they are all alike, and far from depending on
-/// each other.
+/// Pairs of blocks with cos² above [`NEAR`], the nearest first. Blocks that have no more unknowns
+/// than the smallest one are not tested: they are all alike, and far from depending on each other.
 fn near_pairs(matrix: &BlockMatrix) -> Vec<(f64, usize, usize)> {
     let size = |i: usize| matrix.unknowns(i).len();
     let least = (0..matrix.n_blocks()).map(size).min().unwrap_or(0);
@@ -206,7 +217,7 @@ mod tests {
         }
         assert!(near_pairs(&chain(0.9)).is_empty(), "0.81");
         let rows = chain(0.96);
-        let found = knots(&Rows::new(Cow::Borrowed(&rows)));
+        let found = knots(&SymmetricRows::new(Cow::Borrowed(&rows)));
         assert_eq!(found.len(), 1);
         assert_eq!((&found[0].blocks[..], &found[0].around[..]), (&[2, 3][..], &[1, 2, 3, 4][..]));
     }
@@ -228,7 +239,7 @@ mod tests {
     fn knots_part_what_sweeps_do_not() {
         let left = |c: f64, with_knots: bool| {
             let matrix = chain(c);
-            let mut smoother = Smoother::new(Rows::new(Cow::Borrowed(&matrix)));
+            let mut smoother = Smoother::new(SymmetricRows::new(Cow::Borrowed(&matrix)));
             if !with_knots {
                 smoother.forget_knots();
             }

@@ -17,12 +17,12 @@ mod multilevel;
 mod neighbours;
 mod nonnegative;
 mod ordering;
+mod panel;
 mod pencil;
 mod rows;
 mod smoother;
 mod solver;
 mod spectrum;
-mod strip;
 mod sweep;
 #[cfg(test)]
 mod test_matrices;
@@ -30,11 +30,11 @@ mod transfer;
 
 pub use block_matrix::{BlockMatrix, BlockPattern};
 pub use cholesky::Cholesky;
-pub use conjugate::Course;
+pub use conjugate::ConvergenceHistory;
 pub use dense::{add_at, product, taken, times};
 pub use eigen::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
 pub use elimination::fill;
-pub use multilevel::{Coarse, Multilevel};
+pub use multilevel::{CoarseLevel, Multilevel};
 pub use nonnegative::nonnegative_residual;
 pub use pencil::largest_eigenvalue;
 pub use solver::{LinearError, LinearSolution, LinearSolver};

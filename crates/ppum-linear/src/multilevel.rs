@@ -12,9 +12,9 @@
 
 use super::block_matrix::BlockMatrix;
 use super::cholesky::Cholesky;
-use super::conjugate::{Course, End, Iteration, dot, norm};
-use super::kernel::Kernel;
-use super::rows::Rows;
+use super::conjugate::{ConvergenceHistory, Iteration, IterationEnd, dot, norm};
+use super::kernel::NullSpace;
+use super::rows::SymmetricRows;
 use super::smoother::Smoother;
 use super::solver::{LinearError, LinearSolution, LinearSolver};
 use super::transfer::Transfer;
@@ -35,7 +35,7 @@ const SLACK: f64 = 3.0;
 /// leaves about 1e-14.
 const RIGID: f64 = 1e-10;
 
-/// What dual solutions need, which only weigh estimated errors.
+/// The tolerance of dual solutions, which only weigh estimated errors.
 const ROUGH: f64 = 1e-7;
 
 /// Rounding of K x, in units of the stiffest unknown times x: about fifty products in a row, of
@@ -44,7 +44,7 @@ const ROUNDING: f64 = 2e-14;
 
 /// A coarse level: its matrix, and the way from it to the next finer one.
 #[derive(Debug)]
-pub struct Coarse {
+pub struct CoarseLevel {
     /// The matrix of this level.
     pub matrix: BlockMatrix,
     /// The prolongation to the next finer level.
@@ -63,8 +63,8 @@ pub struct Multilevel<'a> {
     /// The system, by rows.
     levels: Vec<SmoothedLevel<'a>>,
     /// The coarsest level: its rows, in whose order vectors are, and its factor.
-    coarsest: (Rows<'a>, Cholesky<'a>),
-    kernel: Kernel,
+    coarsest: (SymmetricRows<'a>, Cholesky<'a>),
+    kernel: NullSpace,
     /// The largest entry of the diagonal.
     stiffest: f64,
     goes_on: &'a (dyn Fn() -> bool + Sync),
@@ -81,23 +81,23 @@ impl<'a> Multilevel<'a> {
     /// Those of the factorisation of the coarsest level; modes that the levels do not show.
     pub fn new(
         matrix: &'a BlockMatrix,
-        coarser: Vec<Coarse>,
+        coarser: Vec<CoarseLevel>,
         free: &[Vec<f64>],
         (tolerance, goes_on): (f64, &'a (dyn Fn() -> bool + Sync)),
     ) -> Result<Self, LinearError> {
         let mut levels = Vec::new();
         let mut finer = Cow::Borrowed(matrix);
-        for Coarse { matrix, transfer } in coarser {
-            let smoother = Smoother::new(Rows::new(finer));
+        for CoarseLevel { matrix, transfer } in coarser {
+            let smoother = Smoother::new(SymmetricRows::new(finer));
             levels.push(SmoothedLevel { smoother, transfer });
             finer = Cow::Owned(matrix);
         }
-        let rows = Rows::new(finer);
+        let rows = SymmetricRows::new(finer);
         let on_coarsest = restricted(&levels, &rows, free);
         let mut held = rows.matrix.clone().into_owned();
         on_coarsest.iter().for_each(|functional| hold(&mut held, functional));
         let coarsest = (rows, Cholesky::of(Cow::Owned(held))?);
-        let kernel = Kernel::default();
+        let kernel = NullSpace::default();
         let mut solver = Self { levels, coarsest, kernel, stiffest: 0.0, goes_on, tolerance };
         solver.stiffest = solver.rows(0).stiffest();
         solver.kernel = solver.modes(free, &on_coarsest)?;
@@ -105,7 +105,7 @@ impl<'a> Multilevel<'a> {
     }
 
     /// The modes of a singular matrix: those of the coarsest level, prolonged.
-    fn modes(&self, free: &[Vec<f64>], on_coarsest: &[Vec<f64>]) -> Result<Kernel, LinearError> {
+    fn modes(&self, free: &[Vec<f64>], on_coarsest: &[Vec<f64>]) -> Result<NullSpace, LinearError> {
         let mode = |functional: &Vec<f64>| {
             let mut z = functional.clone();
             self.coarsest.1.apply_inverse(&mut z);
@@ -119,7 +119,7 @@ impl<'a> Multilevel<'a> {
         };
         let rows = self.rows(0);
         let functionals = free.iter().map(|functional| rows.coloured(functional)).collect();
-        let kernel = Kernel::new(on_coarsest.iter().map(mode).collect(), functionals);
+        let kernel = NullSpace::new(on_coarsest.iter().map(mode).collect(), functionals);
         let force = kernel.force(rows, self.stiffest);
         if force <= RIGID { Ok(kernel) } else { Err(LinearError::NoModes { force }) }
     }
@@ -136,7 +136,7 @@ impl<'a> Multilevel<'a> {
         }
     }
 
-    fn rows(&self, level: usize) -> &Rows<'a> {
+    fn rows(&self, level: usize) -> &SymmetricRows<'a> {
         self.levels.get(level).map_or(&self.coarsest.0, |level| &level.smoother.rows)
     }
 
@@ -172,7 +172,7 @@ impl<'a> Multilevel<'a> {
 
     fn iteration<'i>(
         &'i self,
-        precondition: &'i dyn Fn(&[f64], &mut Course) -> Vec<f64>,
+        precondition: &'i dyn Fn(&[f64], &mut ConvergenceHistory) -> Vec<f64>,
         multiply: &'i dyn Fn(&[f64], &mut [f64]),
         tolerance: f64,
     ) -> Iteration<'i> {
@@ -181,28 +181,33 @@ impl<'a> Multilevel<'a> {
     }
 
     /// x with K x = f in the order of the rows, and how it was found.
-    fn iterate(&self, wanted: f64, f: &[f64]) -> Result<(Vec<f64>, Course), LinearError> {
+    fn iterate(
+        &self,
+        wanted: f64,
+        f: &[f64],
+    ) -> Result<(Vec<f64>, ConvergenceHistory), LinearError> {
         let rows = self.rows(0);
-        let precondition = |r: &[f64], course: &mut Course| {
+        let precondition = |r: &[f64], course: &mut ConvergenceHistory| {
             let mut norms = Vec::new();
             let z = self.precondition(r, &mut norms);
             course.levels.push(norms);
             z
         };
         let multiply = |x: &[f64], out: &mut [f64]| rows.multiply(x, out);
-        let (mut x, mut rest, mut all) = (vec![0.0; f.len()], f.to_vec(), Course::default());
+        let (mut x, mut rest, mut all) =
+            (vec![0.0; f.len()], f.to_vec(), ConvergenceHistory::default());
         let mut left = 1.0;
         for _ in 0..=RESTARTS {
             let tolerance = wanted / left;
             let (part, course, end) =
                 self.iteration(&precondition, &multiply, tolerance).run(&mut rest);
-            if end == End::Stopped {
+            if end == IterationEnd::Stopped {
                 return Err(LinearError::Stopped);
             }
             x.iter_mut().zip(&part).for_each(|(x, part)| *x += part);
             all.append(course, left);
             rest = self.remainder(f, &x);
-            if end == End::Reached && self.is_rounding(&rest, &x) {
+            if end == IterationEnd::Reached && self.is_rounding(&rest, &x) {
                 return Ok((x, all));
             }
             let z = self.precondition(&rest, &mut Vec::new());
@@ -290,7 +295,7 @@ impl Multilevel<'_> {
 /// Functionals on the finest level as ones on the coarsest, in the order of its matrix.
 fn restricted(
     levels: &[SmoothedLevel<'_>],
-    coarsest: &Rows<'_>,
+    coarsest: &SymmetricRows<'_>,
     free: &[Vec<f64>],
 ) -> Vec<Vec<f64>> {
     let of = |functional: &Vec<f64>| {
@@ -317,7 +322,7 @@ fn hold(matrix: &mut BlockMatrix, functional: &[f64]) {
     matrix.add_block(block, block, penalty.as_ref());
 }
 
-impl Course {
+impl ConvergenceHistory {
     /// Adds what came after a start from a residual of this size.
     fn append(&mut self, next: Self, size: f64) {
         let skip = usize::from(!self.residuals.is_empty());
@@ -360,7 +365,7 @@ mod tests {
 
     /// Two points take the value of one; a coarse cell is twice as long, so that differences have
     /// half the stiffness.
-    fn levels(n: usize, is_held: bool, factor: f64) -> Vec<Coarse> {
+    fn levels(n: usize, is_held: bool, factor: f64) -> Vec<CoarseLevel> {
         let halves = std::iter::successors(Some(n / 2), |n| Some(n / 2)).take_while(|n| *n > 10);
         let level = |(k, n): (usize, usize)| {
             let mut matrix = line(n, is_held);
@@ -371,14 +376,14 @@ mod tests {
             }
             let mut transfer = Transfer::from_blocks(n);
             (0..2 * n).for_each(|i| transfer.push(Some((i as u32 / 2, &Mat::full(1, 1, 1.0), 1))));
-            Coarse { matrix, transfer }
+            CoarseLevel { matrix, transfer }
         };
         halves.enumerate().map(level).collect()
     }
 
     fn solver<'a>(
         matrix: &'a BlockMatrix,
-        coarser: Vec<Coarse>,
+        coarser: Vec<CoarseLevel>,
         free: &[Vec<f64>],
     ) -> Multilevel<'a> {
         Multilevel::new(matrix, coarser, free, (1e-12, &|| true)).expect("levels that fit")

@@ -7,8 +7,8 @@ use faer::linalg::solvers::SolveLstsq;
 /// Part of a column and of what is left of the target by which their product is rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// What is left of a target, b − A x, where x ≥ 0 makes it least: the columns that x takes are
-/// orthogonal to it, and no other points in its direction (Lawson & Hanson 1974).
+/// Returns the residual of a target, b − A x, where x ≥ 0 makes it least: the columns that x takes
+/// are orthogonal to it, and no other points in its direction (Lawson & Hanson 1974).
 pub fn nonnegative_residual(columns: &Mat<f64>, target: &[f64]) -> Vec<f64> {
     let (rows, n) = (target.len(), columns.ncols());
     let column = |k: usize| columns.col_as_slice(k);
@@ -39,7 +39,7 @@ pub fn nonnegative_residual(columns: &Mat<f64>, target: &[f64]) -> Vec<f64> {
 }
 
 /// Goes to the best factors of some columns, or as far towards them as none is negative: then the
-/// largest factor that is zero but for rounding is what is returned.
+/// largest factor that is zero except for rounding is what is returned.
 fn improve(
     columns: &Mat<f64>,
     target: &[f64],

@@ -4,8 +4,8 @@
 //! Blocks get *colours* so that no two of a colour are coupled, greedily in their order: about four
 //! on a uniform cover. Vectors hold the unknowns of the first colour, then those of the second, and
 //! so on: a colour is one slice, and its blocks are parts of it that threads write to at the same
-//! time. What is computed for a block depends on its row alone, so that results have the same bits
-//! on any number of threads.
+//! time. Values of a block depend on its row alone, so that results have the same bits on any
+//! number of threads.
 
 use super::block_matrix::BlockMatrix;
 use super::neighbours::Neighbours;
@@ -18,18 +18,18 @@ const GRAIN: usize = 64;
 
 /// A symmetric matrix by rows.
 #[derive(Debug)]
-pub(crate) struct Rows<'a> {
+pub(crate) struct SymmetricRows<'a> {
     pub(crate) matrix: Cow<'a, BlockMatrix>,
     neighbours: Neighbours,
     /// Blocks by colours, ascending in each.
     order: Vec<u32>,
-    /// Of each block, its colour.
+    /// The colour of each block.
     colours: Vec<u32>,
     /// Where each colour begins in the order, and its end.
     colour_starts: Vec<usize>,
     /// Where the unknowns of the blocks of the order begin in vectors, and their end.
     offsets: Vec<usize>,
-    /// Of each block, where its unknowns begin in vectors.
+    /// The offset of the unknowns of each block in vectors.
     own: Vec<usize>,
 }
 
@@ -46,7 +46,7 @@ pub(super) enum BlockSubset {
     Others,
 }
 
-impl<'a> Rows<'a> {
+impl<'a> SymmetricRows<'a> {
     pub(crate) fn new(matrix: Cow<'a, BlockMatrix>) -> Self {
         let neighbours = Neighbours::new(matrix.pattern());
         let colours = colours(&neighbours);
@@ -100,7 +100,7 @@ impl<'a> Rows<'a> {
         all.flatten().copied().collect()
     }
 
-    /// The way back of [`Rows::coloured`].
+    /// The way back of [`SymmetricRows::coloured`].
     pub(crate) fn plain(&self, x: &[f64]) -> Vec<f64> {
         (0..self.n_blocks()).flat_map(|block| x[self.unknowns(block)].iter().copied()).collect()
     }
@@ -169,7 +169,7 @@ impl<'a> Rows<'a> {
         self.divide(0..self.n_blocks(), out, work);
     }
 
-    /// The same for the blocks of a colour, `out` being its slice.
+    /// Works on the blocks of a colour, `out` being its slice.
     pub(super) fn for_colour(
         &self,
         colour: usize,
@@ -282,7 +282,7 @@ mod tests {
     #[test]
     fn no_two_of_a_colour_are_coupled_and_products_agree() {
         let matrix = grid_matrix(13, 9, &mut Random(5));
-        let rows = Rows::new(Cow::Borrowed(&matrix));
+        let rows = SymmetricRows::new(Cow::Borrowed(&matrix));
         assert_eq!(rows.n_colours(), 4, "eight neighbours each");
         for (i, j, _) in matrix.stored_places() {
             assert!(i == j || rows.colours[i] != rows.colours[j]);

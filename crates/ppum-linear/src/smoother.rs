@@ -12,14 +12,14 @@
 use super::block_matrix::BlockMatrix;
 use super::inverse::inverse;
 use super::knots::{Knot, knots};
-use super::rows::{BlockSubset, Rows, Vectors, add_product};
+use super::rows::{BlockSubset, SymmetricRows, Vectors, add_product};
 use faer::MatRef;
 use rayon::prelude::*;
 
 /// A matrix with the inverses of its diagonal blocks.
 #[derive(Debug)]
 pub(super) struct Smoother<'a> {
-    pub(super) rows: Rows<'a>,
+    pub(super) rows: SymmetricRows<'a>,
     /// D⁻¹, block after block, row-major.
     inverses: Vec<f64>,
     /// Where the inverse of each block begins.
@@ -29,7 +29,7 @@ pub(super) struct Smoother<'a> {
 }
 
 impl<'a> Smoother<'a> {
-    pub(super) fn new(rows: Rows<'a>) -> Self {
+    pub(super) fn new(rows: SymmetricRows<'a>) -> Self {
         let matrix = &rows.matrix;
         let all: Vec<Vec<f64>> =
             (0..matrix.n_blocks()).into_par_iter().map(|i| inverse(diagonal(matrix, i))).collect();

@@ -1,6 +1,6 @@
 //! Linear systems that are ready for right-hand sides: the contract of all solvers.
 
-use super::conjugate::Course;
+use super::conjugate::ConvergenceHistory;
 
 /// A symmetric positive semi-definite system K u = f, prepared for any number of right-hand sides.
 pub trait LinearSolver {
@@ -13,7 +13,7 @@ pub trait LinearSolver {
     /// If `load` has not one entry for each unknown.
     fn solve(&self, load: &[f64]) -> Result<LinearSolution, LinearError>;
 
-    /// The same for several right-hand sides.
+    /// Solves for several right-hand sides.
     ///
     /// # Errors
     /// Those of [`LinearSolver::solve`].
@@ -56,7 +56,7 @@ pub struct LinearSolution {
     /// ‖f − K u‖ / ‖f‖ in the Euclidean norm; zero for f = 0.
     pub relative_residual: f64,
     /// How it was found, by iteration.
-    pub course: Option<Course>,
+    pub course: Option<ConvergenceHistory>,
 }
 
 /// A system that cannot be solved.

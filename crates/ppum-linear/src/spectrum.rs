@@ -21,8 +21,8 @@ const MOST_STEPS: usize = 120;
 /// start vector of such numbers has parts of all eigenvectors.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// The extreme eigenvalues of a stiffness matrix in the stable basis, restraints and
-/// gauge included.
+/// The extreme eigenvalues of a stiffness matrix in the stable basis, restraints and null-space
+/// constraint included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spectrum {
     /// The smallest eigenvalue.

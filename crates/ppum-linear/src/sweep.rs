@@ -1,7 +1,7 @@
 //! Solutions with a factor, of several right-hand sides at once: what takes time is to read
 //! the factor.
 
-use super::factor::Factor;
+use super::factor::CholeskyFactor;
 use super::front::{Front, divided};
 use faer::linalg::matmul::matmul;
 use faer::linalg::triangular_solve::{
@@ -28,7 +28,7 @@ impl PartialSolution {
     }
 }
 
-impl Factor {
+impl CholeskyFactor {
     /// x ← (L L^T)⁻¹ x of each column, in the order of elimination.
     pub(super) fn solve(&self, mut columns: MatMut<'_, f64>) {
         let tree = &self.elimination;

@@ -1,7 +1,7 @@
 //! Vectors between the levels: each block of a fine level takes its values from one block of the
 //! coarse level.
 
-use super::rows::{Rows, add_product, add_transposed};
+use super::rows::{SymmetricRows, add_product, add_transposed};
 use faer::Mat;
 
 /// The prolongation P from a coarse level, block-diagonal: x_i = (I ⊗ B_i) y_k with the parent k of
@@ -13,7 +13,7 @@ pub struct Transfer {
     /// B_i, block after block, row-major.
     values: Vec<f64>,
     starts: Vec<usize>,
-    /// Of each coarse block, its children.
+    /// The children of each coarse block.
     children: Vec<Vec<u32>>,
 }
 
@@ -46,8 +46,8 @@ impl Transfer {
     /// x ← x + P y
     pub(super) fn add_prolonged(
         &self,
-        (from, y): (&Rows<'_>, &[f64]),
-        to: &Rows<'_>,
+        (from, y): (&SymmetricRows<'_>, &[f64]),
+        to: &SymmetricRows<'_>,
         x: &mut [f64],
     ) {
         to.for_all(x, &|i, x| {
@@ -60,7 +60,11 @@ impl Transfer {
     }
 
     /// Pᵀ r
-    pub(super) fn restricted(&self, (from, r): (&Rows<'_>, &[f64]), to: &Rows<'_>) -> Vec<f64> {
+    pub(super) fn restricted(
+        &self,
+        (from, r): (&SymmetricRows<'_>, &[f64]),
+        to: &SymmetricRows<'_>,
+    ) -> Vec<f64> {
         let mut y = vec![0.0; to.n_unknowns()];
         to.for_all(&mut y, &|k, y| {
             for &child in &self.children[k] {

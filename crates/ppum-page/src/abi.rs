@@ -1,4 +1,4 @@
-//! What a worker of a page calls.
+//! Functions that a worker of a page calls.
 //!
 //! A worker writes into the memory of the evaluator and reads from it, at addresses that the
 //! functions here return; an address is good until the next call. A question is the bytes of
@@ -14,7 +14,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use crate::evaluator::Evaluator;
-use crate::evaluator::paint::Painted;
+use crate::evaluator::paint::PageImage;
 
 /// The evaluator of a worker, with what is handed over.
 struct Exchange {
@@ -103,7 +103,7 @@ extern "C" fn open() -> u32 {
     })
 }
 
-/// What is in the dataset, and in the step of a number.
+/// Describes the dataset, and the step of a number.
 #[unsafe(no_mangle)]
 extern "C" fn describe() -> u32 {
     answer(|exchange| {
@@ -128,7 +128,7 @@ extern "C" fn paint() -> u32 {
     answer(|exchange| {
         let values = std::mem::take(&mut exchange.values);
         let (evaluator, frame) = exchange.question()?;
-        let Painted { image, legend, values } = evaluator.paint(&frame, values)?;
+        let PageImage { image, legend, values } = evaluator.paint(&frame, values)?;
         (exchange.pixels, exchange.values) = (image.rgba, values);
         json(&legend)
     })
@@ -145,30 +145,31 @@ extern "C" fn probe() -> u32 {
 
 impl Exchange {
     /// The evaluator, and the question that it is asked.
-    fn question<Q: DeserializeOwned>(&mut self) -> Result<(&mut Evaluator<'static>, Q), Reason> {
-        let evaluator = self.evaluator.as_mut().ok_or_else(|| Reason("no dataset".to_owned()))?;
+    fn question<Q: DeserializeOwned>(&mut self) -> Result<(&mut Evaluator<'static>, Q), ErrorText> {
+        let evaluator =
+            self.evaluator.as_mut().ok_or_else(|| ErrorText("no dataset".to_owned()))?;
         Ok((evaluator, serde_json::from_slice(&self.input)?))
     }
 }
 
 /// The text of an error.
-struct Reason(String);
+struct ErrorText(String);
 
-impl<E: Display> From<E> for Reason {
+impl<E: Display> From<E> for ErrorText {
     fn from(error: E) -> Self {
         Self(error.to_string())
     }
 }
 
-fn json(answer: &impl Serialize) -> Result<String, Reason> {
+fn json(answer: &impl Serialize) -> Result<String, ErrorText> {
     Ok(serde_json::to_string(answer)?)
 }
 
-fn answer(work: impl FnOnce(&mut Exchange) -> Result<String, Reason>) -> u32 {
+fn answer(work: impl FnOnce(&mut Exchange) -> Result<String, ErrorText>) -> u32 {
     EXCHANGE.with_borrow_mut(|exchange| {
         let (is_answer, text) = match work(exchange) {
             Ok(text) => (1, text),
-            Err(Reason(text)) => (0, text),
+            Err(ErrorText(text)) => (0, text),
         };
         exchange.text = text;
         is_answer

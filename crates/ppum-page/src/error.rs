@@ -1,7 +1,7 @@
 //! The reasons why a page has no answer.
 
 use ppum::field::FieldError;
-use ppum_scene::shot::ShotError;
+use ppum_scene::shot::ImageError;
 
 /// The reason why there is no image, or no value.
 #[derive(Debug, thiserror::Error)]
@@ -10,9 +10,9 @@ pub enum PageError {
     /// The dataset has no such step, or no field there.
     #[error(transparent)]
     Field(#[from] FieldError),
-    /// What is shown, the view, the colours or the overlays.
+    /// The image, the view, the colours or the overlays.
     #[error(transparent)]
-    Shot(Box<ShotError>),
+    Shot(Box<ImageError>),
     /// Not one value for each pixel.
     #[error("{0} values for {1} pixels")]
     Values(usize, usize),
@@ -23,7 +23,7 @@ pub enum PageError {
 
 impl PageError {
     /// An error of an image.
-    pub(crate) fn shot(error: impl Into<ShotError>) -> Self {
+    pub(crate) fn shot(error: impl Into<ImageError>) -> Self {
         Self::Shot(Box::new(error.into()))
     }
 }

@@ -27,7 +27,8 @@ mod page;
 pub use error::PageError;
 pub use evaluator::Evaluator;
 pub use messages::{
-    Choice, Description, Frame, Legend, PointQuestion, Reading, Rows, Side, Tick, View,
+    Description, ImageRows, PageChoice, PageFrame, PageLegend, PageTick, PageView, PointQuestion,
+    PointReading, SideReading,
 };
 #[cfg(not(target_arch = "wasm32"))]
-pub use page::{LARGEST, SHAPE, Start, StartError, html};
+pub use page::{LARGEST, PageStart, SHAPE, StartError, html};

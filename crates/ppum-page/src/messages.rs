@@ -1,12 +1,12 @@
-//! What a page asks its evaluator, and what it is answered.
+//! Messages between a page and its evaluator.
 
 use ppum_render::view::{self, ViewError};
-use ppum_scene::scene::Scene;
+use ppum_scene::scene::SceneRequest;
 use serde::{Deserialize, Serialize};
 
 /// A part of the plane on a grid of pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct View {
+pub struct PageView {
     /// The middle, in world coordinates.
     pub center: [f64; 2],
     /// Width \[length\].
@@ -15,7 +15,7 @@ pub struct View {
     pub pixels: [u32; 2],
 }
 
-impl View {
+impl PageView {
     /// The view of the renderer.
     ///
     /// # Errors
@@ -25,7 +25,7 @@ impl View {
     }
 }
 
-impl From<view::View> for View {
+impl From<view::View> for PageView {
     fn from(view::View { center, width, pixels }: view::View) -> Self {
         Self { center: center.into(), width, pixels }
     }
@@ -33,11 +33,11 @@ impl From<view::View> for View {
 
 /// An image: what it shows, and where.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Frame {
-    /// What is shown.
-    pub scene: Scene,
+pub struct PageFrame {
+    /// The shown scene.
+    pub scene: SceneRequest,
     /// Where it is seen.
-    pub view: View,
+    pub view: PageView,
     /// The name of the dataset's file, for the command that draws the image.
     #[serde(default)]
     pub file: String,
@@ -48,9 +48,9 @@ pub struct Frame {
 
 /// Some rows of an image.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Rows {
+pub struct ImageRows {
     /// The image.
-    pub frame: Frame,
+    pub frame: PageFrame,
     /// The first row, a multiple of 32, and the row behind the last.
     pub rows: [u32; 2],
 }
@@ -59,14 +59,14 @@ pub struct Rows {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointQuestion {
     /// The image that the point is in.
-    pub frame: Frame,
+    pub frame: PageFrame,
     /// Its continuous pixel coordinates; the centre of pixel (i, j) is (i + 1/2, j + 1/2).
     pub pixel: [f64; 2],
     /// Distance in pixels within which a tip or a crack takes the point's place.
     pub reach: f64,
 }
 
-/// What is in a dataset, as a page offers it, with what depends on the step.
+/// The content of a dataset, as a page offers it, with the parts that depend on the step.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Description {
     /// The title; may be empty.
@@ -78,9 +78,9 @@ pub struct Description {
     /// The number of patches of the step.
     pub patches: usize,
     /// Quantities of points.
-    pub quantities: Vec<Choice>,
+    pub quantities: Vec<PageChoice>,
     /// Values of cells.
-    pub cells: Vec<Choice>,
+    pub cells: Vec<PageChoice>,
     /// The name of the quantity that is shown where none is asked for.
     pub quantity: String,
     /// Names of colour maps.
@@ -91,7 +91,7 @@ pub struct Description {
 
 /// Something that can be shown.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Choice {
+pub struct PageChoice {
     /// The text that asks for it.
     pub text: String,
     /// Its words, with subscripts as `_{…}`.
@@ -100,7 +100,7 @@ pub struct Choice {
 
 /// The colour bar of an image, and what is to be said beside it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Legend {
+pub struct PageLegend {
     /// Quantity, reference of the labels and unit: `σ_{yy} [×10³ MPa]`.
     pub label: String,
     /// The values at the ends of the bar.
@@ -108,7 +108,7 @@ pub struct Legend {
     /// Colours at even positions from the lower to the upper end, `#rrggbb`.
     pub colors: Vec<String>,
     /// Marks from the lower to the upper end.
-    pub ticks: Vec<Tick>,
+    pub ticks: Vec<PageTick>,
     /// The colour of values below the range, and above it, if there are some.
     pub beyond: [Option<String>; 2],
     /// The smallest value if it lies below the range, and the largest one if it lies above.
@@ -117,13 +117,13 @@ pub struct Legend {
     pub sentence: String,
     /// The command line that draws the image.
     pub command: String,
-    /// What should be known of the image.
+    /// Notices about the image.
     pub notices: Vec<String>,
 }
 
 /// A mark of a colour bar.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Tick {
+pub struct PageTick {
     /// Its place, from 0 to 1.
     pub at: f64,
     /// The label.
@@ -132,7 +132,7 @@ pub struct Tick {
 
 /// The values at a point.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Reading {
+pub struct PointReading {
     /// The point is `anchor + offset`.
     pub anchor: [f64; 2],
     /// The way from the anchor.
@@ -146,7 +146,7 @@ pub struct Reading {
     /// The number of the tip that it is, if it is one.
     pub tip: Option<usize>,
     /// One value, or those above and below a crack.
-    pub sides: Vec<Side>,
+    pub sides: Vec<SideReading>,
     /// The jump across the crack, if the point lies on one.
     pub jump: Option<String>,
     /// All that is known, with all digits, to be copied.
@@ -155,7 +155,7 @@ pub struct Reading {
 
 /// A value and its gradient, on one side of a crack.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Side {
+pub struct SideReading {
     /// `above` or `below` on a crack.
     pub name: Option<String>,
     /// The value for people: `2.718282`, `∞`, `not defined`.

@@ -5,12 +5,12 @@ use ppum_figure::canvas::base64::base64;
 use ppum_render::colormap::{Colormap, ColormapError};
 use ppum_render::view;
 use ppum_scene::overlays::Overlay;
-use ppum_scene::scene::{Scene, default_quantity};
-use ppum_scene::shot::{FieldSource, ShotError};
+use ppum_scene::scene::{SceneRequest, default_quantity};
+use ppum_scene::shot::{FieldSource, ImageError};
 use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 
-use crate::messages::View;
+use crate::messages::PageView;
 
 const PAGE: &str = include_str!("../web/page.html");
 const STYLE: &str = include_str!("../web/page.css");
@@ -26,18 +26,18 @@ pub const LARGEST: u64 = 256 << 20;
 /// The shape of the first view; a window of another shape shows more.
 pub const SHAPE: [u32; 2] = [1024, 768];
 
-/// What a page shows first.
+/// The initial state of a page.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Start {
-    /// What is shown.
-    pub scene: Scene,
+pub struct PageStart {
+    /// The shown scene.
+    pub scene: SceneRequest,
     /// Where it is seen; the whole domain if nothing is said. Pixels tell the shape alone.
-    pub view: Option<View>,
+    pub view: Option<PageView>,
     /// The name of the dataset's file.
     pub file: String,
 }
 
-/// What pages do not have.
+/// Features that pages do not have.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum StartError {
@@ -49,28 +49,29 @@ pub enum StartError {
     Stations,
     /// Lines of symmetry, or the deformed body.
     #[error(transparent)]
-    Body(Box<ShotError>),
+    Body(Box<ImageError>),
 }
 
-impl From<ShotError> for StartError {
-    fn from(error: ShotError) -> Self {
+impl From<ImageError> for StartError {
+    fn from(error: ImageError) -> Self {
         Self::Body(Box::new(error))
     }
 }
 
-impl Start {
-    /// What a page shows first of a scene of a field, with its lines of symmetry named: its cracks are drawn unless they are left
-    /// out, and a quantity that would be shown anyway is left out, so that other steps show it too.
+impl PageStart {
+    /// Returns the first view of a scene of a field, with its lines of symmetry named: its cracks
+    /// are drawn unless they are left out, and a quantity that would be shown anyway is left out,
+    /// so that other steps show it too.
     ///
     /// # Errors
-    /// What pages do not have.
+    /// Features that pages do not have.
     pub fn new(
-        scene: Scene,
+        scene: SceneRequest,
         source: FieldSource<'_>,
-        view: Option<View>,
+        view: Option<PageView>,
         file: String,
     ) -> Result<Self, StartError> {
-        let mut scene = source.settled(scene).map_err(ShotError::from)?;
+        let mut scene = source.settled(scene).map_err(ImageError::from)?;
         if let Some(name) = &scene.colors.colormap {
             Colormap::named(name).map_err(StartError::Colormap)?;
         }
@@ -85,7 +86,7 @@ impl Start {
         let view = match view {
             None if scene.deformed.is_some() || scene.mirror.is_some() => {
                 let bounds = source.seen_bounds(&scene)?;
-                Some(view::View::fit(bounds, SHAPE).map_err(ShotError::from)?.into())
+                Some(view::View::fit(bounds, SHAPE).map_err(ImageError::from)?.into())
             }
             view => view,
         };
@@ -103,7 +104,7 @@ impl Start {
 ///
 /// # Errors
 /// None that is known: a scene is always JSON.
-pub fn html(dataset: &[u8], title: &str, start: &Start) -> Result<String, serde_json::Error> {
+pub fn html(dataset: &[u8], title: &str, start: &PageStart) -> Result<String, serde_json::Error> {
     // in a script nothing but `<` could end it
     let start = serde_json::to_string(start)?.replace('<', "\\u003c");
     let part = |name: &str| match name {
@@ -161,8 +162,8 @@ mod tests {
     #[test]
     fn texts_stay_texts() {
         let hostile = "</script></title><img src=x onerror=\"alert(1)\">{{script}}&amp;";
-        let scene = Scene { quantity: Some(hostile.to_owned()), ..Scene::default() };
-        let start = Start { scene, view: None, file: hostile.to_owned() };
+        let scene = SceneRequest { quantity: Some(hostile.to_owned()), ..SceneRequest::default() };
+        let start = PageStart { scene, view: None, file: hostile.to_owned() };
         let page = html(b"not read here", hostile, &start).expect("a page");
         assert!(!page.contains("<img") && !page.contains("</script></title>"));
         for tag in ["<script", "</script>", "<title>", "</title>", "<style>", "</style>"] {
@@ -177,7 +178,7 @@ mod tests {
     /// A browser compares the hash of the script with its text between the tags.
     #[test]
     fn the_policy_is_that_of_the_script() {
-        let start = Start { scene: Scene::default(), view: None, file: String::new() };
+        let start = PageStart { scene: SceneRequest::default(), view: None, file: String::new() };
         let page = html(b"", "", &start).expect("a page");
         for (from, to) in [("<script>", "</script>"), ("<style>", "</style>")] {
             let text = page.split(from).nth(1).and_then(|rest| rest.split(to).next());

@@ -7,50 +7,50 @@ use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Vec2, vec2};
-use ppum_scene::colors::Colors;
-use ppum_scene::deformed::Factor;
+use ppum_scene::colors::ColorOptions;
+use ppum_scene::deformed::Magnification;
 use ppum_scene::engine::Engine;
-use ppum_scene::overlays::{Levels, Overlay, Overlays};
-use ppum_scene::scene::Scene;
+use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays};
+use ppum_scene::scene::SceneRequest;
 use ppum_scene::shot::{self, FieldSource};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Coefficients, Recipe};
 
-use ppum_page::{Evaluator, Frame, PointQuestion, Rows, View};
+use ppum_page::{Evaluator, ImageRows, PageFrame, PageView, PointQuestion};
 
 fn dataset(seed: u64) -> Dataset {
     let recipe = Recipe { components: 2, ..Recipe::random(seed) };
     Recipe { coefficients: Coefficients::Taylor, ..recipe }.dataset()
 }
 
-fn scene(random: &mut Random) -> Scene {
+fn scene(random: &mut Random) -> SceneRequest {
     let quantities = ["ux", "magnitude", "duy_dx + ux^2", "patch:level"];
     let shown = vec![Overlay::Cracks, random.pick(&[Overlay::Cells, Overlay::Patches])];
-    let isolines = (random.below(2) == 0).then_some(Levels::Auto);
-    Scene {
+    let isolines = (random.below(2) == 0).then_some(IsolineLevels::Auto);
+    SceneRequest {
         quantity: Some(random.pick(&quantities).to_owned()),
-        colors: Colors { colormap: Some("vik".to_owned()), ..Colors::default() },
+        colors: ColorOptions { colormap: Some("vik".to_owned()), ..ColorOptions::default() },
         overlays: Overlays { shown, isolines, ..Overlays::default() },
-        ..Scene::default()
+        ..SceneRequest::default()
     }
 }
 
-fn view(random: &mut Random, dataset: &Dataset) -> View {
+fn view(random: &mut Random, dataset: &Dataset) -> PageView {
     let (bounds, pixels) = (dataset.domain.bounds, [90, 70]);
     let part = vec2(random.between(0.2, 0.8), random.between(0.2, 0.8));
     let center = bounds.min + vec2(part.x * bounds.size().x, part.y * bounds.size().y);
-    View { center: center.into(), width: random.between(0.05, 1.5) * bounds.size().x, pixels }
+    PageView { center: center.into(), width: random.between(0.05, 1.5) * bounds.size().x, pixels }
 }
 
-fn frame(random: &mut Random, dataset: &Dataset) -> Frame {
+fn frame(random: &mut Random, dataset: &Dataset) -> PageFrame {
     let (scene, view) = (scene(random), view(random, dataset));
-    Frame { scene, view, file: "plate.h5".to_owned(), keeps_range: false }
+    PageFrame { scene, view, file: "plate.h5".to_owned(), keeps_range: false }
 }
 
 /// The values of an image, evaluated in two parts.
-fn values(evaluator: &mut Evaluator<'_>, frame: &Frame) -> Vec<f64> {
+fn values(evaluator: &mut Evaluator<'_>, frame: &PageFrame) -> Vec<f64> {
     let parts = [[0, 64], [64, frame.view.pixels[1]]].map(|rows| {
-        evaluator.rows(&Rows { frame: frame.clone(), rows }).expect("rows of the image")
+        evaluator.rows(&ImageRows { frame: frame.clone(), rows }).expect("rows of the image")
     });
     parts.concat()
 }
@@ -91,7 +91,7 @@ fn deformed_and_mirrored_bodies_are_those_of_the_program() {
             let mut frame = frame(&mut random, &dataset);
             frame.scene.overlays.shown = vec![Overlay::Cracks, Overlay::Cells];
             frame.scene.quantity = Some("ux".to_owned());
-            frame.scene.deformed = deformed.then_some(Factor::Given(0.04));
+            frame.scene.deformed = deformed.then_some(Magnification::Given(0.04));
             frame.scene.mirror = mirror.then(|| "left,bottom:antisymmetric".parse().unwrap());
             frame.view.center = bounds.min.into();
             frame.view.width = 2.3 * bounds.size().x;
@@ -104,7 +104,7 @@ fn deformed_and_mirrored_bodies_are_those_of_the_program() {
             let (page, shot) = shot::page(source, &request, &view, None, &engine).unwrap();
             assert!(page.image() == painted.image, "{frame:?}");
             let [columns, rows] = view.pixels;
-            let mut read = 0;
+            let (mut asked, mut read) = (0, 0);
             for _ in 0..60 {
                 let [i, j] = [random.below(columns as usize), random.below(rows as usize)];
                 let pixel = [i as f64 + 0.5, j as f64 + 0.5];
@@ -116,10 +116,12 @@ fn deformed_and_mirrored_bodies_are_those_of_the_program() {
                 }
                 let value: f64 = reading.sides[0].exact.parse().unwrap();
                 let size = shot.picture.normalization.max().abs();
+                asked += 1;
                 // of parts that lie over each other either may be read
                 read += usize::from((value - drawn).abs() <= 1e-3 * size.max(value.abs()));
             }
-            assert!(read > 15, "{deformed} {mirror}: {read}");
+            let enough = asked > 5 && 10 * read >= 8 * asked;
+            assert!(enough, "{deformed} {mirror}: {read} of {asked}");
         }
     }
 }
@@ -146,7 +148,7 @@ fn a_range_is_kept_while_the_view_moves() {
     let (mut random, mut evaluator) = (Random(6), Evaluator::new(&dataset));
     let mut frame = frame(&mut random, &dataset);
     frame.scene.quantity = Some("ux".to_owned());
-    let mut range = |frame: &Frame| {
+    let mut range = |frame: &PageFrame| {
         let values = values(&mut evaluator, frame);
         evaluator.paint(frame, values).unwrap().legend.range
     };
@@ -196,9 +198,9 @@ fn cracks_and_tips_take_the_place_of_points_beside_them() {
     let [a, b] = [crack.points[0], crack.points[1]];
     let mut evaluator = Evaluator::new(&dataset);
     let (middle, across) = ((a + b) * 0.5, vec2(a.y - b.y, b.x - a.x).unit());
-    let view = View { center: middle.into(), width: (b - a).length(), pixels: [200, 150] };
-    let scene = Scene { quantity: Some("ux".to_owned()), ..Scene::default() };
-    let frame = Frame { scene, view, file: String::new(), keeps_range: false };
+    let view = PageView { center: middle.into(), width: (b - a).length(), pixels: [200, 150] };
+    let scene = SceneRequest { quantity: Some("ux".to_owned()), ..SceneRequest::default() };
+    let frame = PageFrame { scene, view, file: String::new(), keeps_range: false };
     let checked = view.checked().unwrap();
     let at = checked.pixel(middle + across * (3.0 * checked.pixel_size()));
     let question = |reach| PointQuestion { frame: frame.clone(), pixel: at.into(), reach };
@@ -208,8 +210,8 @@ fn cracks_and_tips_take_the_place_of_points_beside_them() {
     let [above, below]: [f64; 2] = [0, 1].map(|k: usize| near.sides[k].exact.parse().unwrap());
     assert!(above != below && near.jump.is_some());
     assert_eq!(evaluator.probe(&question(2.0)).unwrap().sides.len(), 1);
-    let tip = View { center: a.into(), ..view };
-    let frame = Frame { view: tip, ..frame.clone() };
+    let tip = PageView { center: a.into(), ..view };
+    let frame = PageFrame { view: tip, ..frame.clone() };
     let question = PointQuestion { frame, pixel: [101.0, 76.0], reach: 3.0 };
     let reading = evaluator.probe(&question).unwrap();
     assert_eq!((reading.tip, reading.anchor, reading.offset), (Some(0), a.into(), [0.0; 2]));
@@ -220,18 +222,18 @@ fn what_is_not_there_is_an_error() {
     let dataset = dataset(2);
     let (mut random, mut evaluator) = (Random(1), Evaluator::new(&dataset));
     let good = frame(&mut random, &dataset);
-    let ask = |evaluator: &mut Evaluator<'_>, change: &dyn Fn(&mut Frame), rows| {
+    let ask = |evaluator: &mut Evaluator<'_>, change: &dyn Fn(&mut PageFrame), rows| {
         let mut frame = good.clone();
         change(&mut frame);
-        evaluator.rows(&Rows { frame, rows }).map(|_| ()).map_err(|error| error.to_string())
+        evaluator.rows(&ImageRows { frame, rows }).map(|_| ()).map_err(|error| error.to_string())
     };
     assert_eq!(ask(&mut evaluator, &|_| {}, [0, 32]), Ok(()));
     for rows in [[1, 32], [0, 71], [64, 32]] {
         assert!(ask(&mut evaluator, &|_| {}, rows).is_err(), "{rows:?}");
     }
-    let quantity: &dyn Fn(&mut Frame) = &|f| f.scene.quantity = Some("nothing".to_owned());
-    let step: &dyn Fn(&mut Frame) = &|f| f.scene.subject.step = Some(7);
-    let width: &dyn Fn(&mut Frame) = &|f| f.view.width = 0.0;
+    let quantity: &dyn Fn(&mut PageFrame) = &|f| f.scene.quantity = Some("nothing".to_owned());
+    let step: &dyn Fn(&mut PageFrame) = &|f| f.scene.subject.step = Some(7);
+    let width: &dyn Fn(&mut PageFrame) = &|f| f.view.width = 0.0;
     for change in [quantity, step, width] {
         assert!(ask(&mut evaluator, change, [0, 32]).is_err());
     }

@@ -18,13 +18,13 @@ pub struct Adaptivity {
     /// Estimated relative error of the stress intensity factors that is small enough, without tips
     /// of the energy: the goal, for which cells are improved instead of for the energy norm.
     pub accuracy: Option<f64>,
-    /// What is done to a cell.
+    /// The refinement of cells with large errors.
     pub kind: AdaptKind,
     /// The steps that the dataset keeps.
-    pub keep: Keep,
+    pub keep: StepsKept,
 }
 
-/// What is done to cells with large errors.
+/// The refinement of cells with large errors.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AdaptKind {
     /// They are divided.
@@ -40,7 +40,7 @@ word_table!(AdaptKind: H "h", P "p", Hp "hp");
 
 /// The steps of an adaptation that a dataset keeps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Keep {
+pub enum StepsKept {
     /// The last one.
     #[default]
     Last,
@@ -48,7 +48,7 @@ pub enum Keep {
     All,
 }
 
-word_table!(Keep: Last "last", All "all");
+word_table!(StepsKept: Last "last", All "all");
 
 /// Defaults: up to ten steps and 100,000 unknowns, which a direct solver on one machine makes in
 /// less than a minute; θ = 0.6; the cells are divided.
@@ -61,7 +61,7 @@ impl Default for Adaptivity {
             tolerance: None,
             accuracy: None,
             kind: AdaptKind::default(),
-            keep: Keep::default(),
+            keep: StepsKept::default(),
         }
     }
 }

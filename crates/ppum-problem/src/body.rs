@@ -7,29 +7,29 @@ use ppum::crack::Crack;
 use ppum::domain::Domain;
 use ppum::vec2::Vec2;
 
-use super::boundary::Piece;
+use super::boundary::BoundaryPiece;
 use super::cracks::{settled, with_ends};
 use super::discretization::Discretization;
 
-/// A body with cracks: the box minus holes Ω, and the pieces of its border that have names.
+/// A body with cracks: the box minus holes Ω, and the pieces of its boundary that have names.
 ///
-/// The ends of cracks, and the straight lines of the border that they lie on, always fit the
+/// The ends of cracks, and the straight lines of the boundary that they lie on, always fit the
 /// domain.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Body {
     domain: Domain,
-    pieces: Vec<Piece>,
+    pieces: Vec<BoundaryPiece>,
     cracks: Vec<Crack>,
-    /// Of each crack, Coulomb's coefficient μ ≥ 0 of friction if its faces may touch; faces of others
+    /// Coulomb's coefficient μ ≥ 0 of friction of each crack whose faces may touch; faces of others
     /// may overlap.
     contacts: Vec<Option<f64>>,
-    /// The straight line of the border that each crack lies on.
+    /// The straight line of the boundary that each crack lies on.
     lines: Vec<Option<BorderLine>>,
 }
 
 impl Body {
     /// A body without cracks.
-    pub(super) fn new(domain: Domain, pieces: Vec<Piece>) -> Self {
+    pub(super) fn new(domain: Domain, pieces: Vec<BoundaryPiece>) -> Self {
         let (cracks, contacts, lines) = (Vec::new(), Vec::new(), Vec::new());
         Self { domain, pieces, cracks, contacts, lines }
     }
@@ -55,7 +55,7 @@ impl Body {
         Self { cracks, ..self }
     }
 
-    /// The body whose cracks meet exactly where they are meant to, see [`cracks`](super::cracks).
+    /// The body whose cracks meet exactly where they are meant to, see [`cracks`](super::cracks()).
     pub(super) fn settled(mut self) -> Self {
         let cracks = settled(std::mem::take(&mut self.cracks), &self.domain);
         self.with_cracks(cracks)
@@ -75,7 +75,7 @@ impl Body {
     }
 
     /// The body as another problem names its pieces.
-    pub(super) fn with_pieces(self: &Arc<Self>, pieces: &[Piece]) -> Arc<Self> {
+    pub(super) fn with_pieces(self: &Arc<Self>, pieces: &[BoundaryPiece]) -> Arc<Self> {
         match self.pieces == pieces {
             true => Arc::clone(self),
             false => Arc::new(Self { pieces: pieces.to_vec(), ..(**self).clone() }),
@@ -90,7 +90,7 @@ impl Body {
 
     /// The pieces of rims that have names, which conditions may be on.
     #[must_use]
-    pub fn pieces(&self) -> &[Piece] {
+    pub fn pieces(&self) -> &[BoundaryPiece] {
         &self.pieces
     }
 
@@ -111,7 +111,7 @@ impl Body {
         self.contacts.iter().enumerate().filter_map(|(crack, friction)| Some((crack, (*friction)?)))
     }
 
-    /// The straight line of the border that a crack lies on.
+    /// The straight line of the boundary that a crack lies on.
     pub fn line_of(&self, crack: usize) -> Option<BorderLine> {
         self.lines[crack]
     }

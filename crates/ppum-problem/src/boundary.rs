@@ -1,4 +1,4 @@
-//! Conditions on the border: edges of the box, rims of holes, faces of cracks.
+//! Conditions on the boundary: edges of the box, rims of holes, faces of cracks.
 
 use std::fmt;
 
@@ -8,11 +8,11 @@ use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::words::{Words, word_table};
+use super::words::{Keyword, word_table};
 
 /// An edge of the box Ω.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Edge {
+pub enum DomainEdge {
     /// x = min.
     Left,
     /// x = max.
@@ -23,7 +23,7 @@ pub enum Edge {
     Top,
 }
 
-impl Edge {
+impl DomainEdge {
     /// All edges.
     pub const ALL: [Self; 4] = [Self::Left, Self::Right, Self::Bottom, Self::Top];
 
@@ -39,7 +39,7 @@ impl Edge {
         Self::ALL.into_iter().find(|edge| edge.name() == name)
     }
 
-    /// The edge that a line of the border is.
+    /// The edge that a line of the boundary is.
     pub fn of_line(line: &BorderLine) -> Option<Self> {
         Self::ALL.into_iter().find(|edge| line.hole.is_none() && edge.normal() == line.outward())
     }
@@ -85,19 +85,19 @@ impl Edge {
     }
 }
 
-word_table!(Edge: Left "left", Right "right", Bottom "bottom", Top "top");
+word_table!(DomainEdge: Left "left", Right "right", Bottom "bottom", Top "top");
 
 /// The word for the whole outline of the body.
 pub(super) const OUTLINE: &str = "outline";
 
-/// A part of the border of the plate.
+/// A part of the boundary of the body.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum BorderPart {
+pub enum BoundaryPart {
     /// A piece of an edge of the box; what lies in holes does not count.
     Edge {
         /// The edge.
-        edge: Edge,
-        /// Start of the piece in the edge's own coordinate, see [`Edge::range`].
+        edge: DomainEdge,
+        /// Start of the piece in the edge's own coordinate, see [`DomainEdge::range`].
         from: f64,
         /// End of the piece, larger than `from`.
         to: f64,
@@ -105,10 +105,10 @@ pub enum BorderPart {
     /// The rim of a hole, by its index; that of the hole around the outline is the outline.
     Hole(usize),
     /// Some sides of the rim of a hole.
-    Sides(SideRun),
+    Sides(BoundaryRange),
     /// A piece of rims that has a name, by its index in [`Problem::pieces`].
     ///
-    /// [`Problem::pieces`]: super::Problem::pieces
+    /// [`Problem::pieces`]: super::ProblemData::pieces
     Piece(usize),
     /// A face of a crack, or both.
     Crack {
@@ -119,10 +119,10 @@ pub enum BorderPart {
     },
 }
 
-impl BorderPart {
+impl BoundaryPart {
     /// A whole edge.
     #[must_use]
-    pub fn edge(edge: Edge, domain: &Rect) -> Self {
+    pub fn edge(edge: DomainEdge, domain: &Rect) -> Self {
         let [from, to] = edge.range(domain);
         Self::Edge { edge, from, to }
     }
@@ -152,18 +152,18 @@ impl BorderPart {
 
 /// Sides of rims with a name, on which conditions may be given.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Piece {
+pub struct BoundaryPiece {
     /// The name; different ones are different.
     pub name: String,
-    /// Where it is; no two runs have a side in common, but for parts of other pieces.
-    pub runs: Vec<SideRun>,
+    /// Where it is; no two runs have a side in common, except for parts of other pieces.
+    pub runs: Vec<BoundaryRange>,
 }
 
 /// Successive sides of the polygon around a hole, as [`Hole::sides`] counts them.
 ///
 /// [`Hole::sides`]: ppum::domain::Hole::sides
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SideRun {
+pub struct BoundaryRange {
     /// Index of the hole.
     pub hole: usize,
     /// Number of the first side.
@@ -172,7 +172,7 @@ pub struct SideRun {
     pub to: usize,
 }
 
-impl SideRun {
+impl BoundaryRange {
     /// Its sides, of its hole.
     pub(super) fn sides(self, hole: &Hole) -> impl Iterator<Item = [Vec2; 2]> + '_ {
         hole.sides().take(self.to).skip(self.from)
@@ -184,14 +184,14 @@ impl SideRun {
     }
 }
 
-impl fmt::Display for BorderPart {
+impl fmt::Display for BoundaryPart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Edge { edge, from, to } => {
                 write!(f, "the {} edge between {from} and {to}", edge.name())
             }
             Self::Hole(hole) => write!(f, "the rim of hole {hole}"),
-            Self::Sides(SideRun { hole, from, to }) => {
+            Self::Sides(BoundaryRange { hole, from, to }) => {
                 write!(f, "the sides {from} to {} of hole {hole}", to - 1)
             }
             Self::Piece(piece) => write!(f, "piece {piece}"),
@@ -203,16 +203,16 @@ impl fmt::Display for BorderPart {
     }
 }
 
-/// Conditions on a part of the border. Parts may overlap where they speak of different components;
-/// a component of which nothing is said anywhere is free of traction (of flux).
+/// Conditions on a part of the boundary. Parts may overlap where they speak of different
+/// components; a component of which nothing is said anywhere is free of traction (of flux).
 #[derive(Clone, Debug, PartialEq)]
 pub struct BoundaryCondition {
     /// The place.
-    pub on: BorderPart,
+    pub on: BoundaryPart,
     /// One condition per component of the unknown field.
     pub components: Vec<Condition>,
     /// The unit vector along which the first component is; the second is along that to its left.
-    /// It is that of x but for a symmetry to an oblique line.
+    /// It is that of x except for a symmetry to an oblique line.
     pub axis: Vec2,
     /// A pressure p: the traction −p n, n pointing out of the material. It says all components.
     pub pressure: Option<Expression>,
@@ -228,27 +228,27 @@ pub enum Condition {
     Free,
     /// The component itself: u_k = g.
     Dirichlet(Expression),
-    /// The traction (σ n)_k, or for Poisson the flux κ ∂u/∂n into the plate; n points outwards.
+    /// The traction (σ n)_k, or for Poisson the flux κ ∂u/∂n into the body; n points outwards.
     Neumann(Expression),
 }
 
 impl BoundaryCondition {
-    /// Conditions on a part of the border, one per component.
+    /// Conditions on a part of the boundary, one per component.
     #[must_use]
-    pub fn new(on: BorderPart, components: Vec<Condition>) -> Self {
+    pub fn new(on: BoundaryPart, components: Vec<Condition>) -> Self {
         Self { on, components, axis: vec2(1.0, 0.0), pressure: None, exchange: None }
     }
 
-    /// A pressure on a part of the border of an elastic plate.
+    /// A pressure on a part of the boundary of an elastic body.
     #[must_use]
-    pub fn pressure(on: BorderPart, pressure: Expression) -> Self {
+    pub fn pressure(on: BoundaryPart, pressure: Expression) -> Self {
         Self { pressure: Some(pressure), ..Self::new(on, vec![Condition::Free; 2]) }
     }
 
     /// Conditions on a whole edge.
     #[must_use]
-    pub fn on_edge(edge: Edge, domain: &Rect, components: Vec<Condition>) -> Self {
-        Self::new(BorderPart::edge(edge, domain), components)
+    pub fn on_edge(edge: DomainEdge, domain: &Rect, components: Vec<Condition>) -> Self {
+        Self::new(BoundaryPart::edge(edge, domain), components)
     }
 
     /// True if something is said of a component; along oblique axes it is of both.
@@ -271,17 +271,18 @@ impl BoundaryCondition {
         [self.axis, self.axis.left()]
     }
 
-    /// Of x and y, whether something is held along a direction that has a part along them.
+    /// Returns for x and y whether a direction with a component along that axis is held.
     pub fn coordinates_of(&self, held: [bool; 2]) -> [bool; 2] {
         if self.is_oblique() { [held.contains(&true); 2] } else { held }
     }
 
-    /// Of each component, whether the field has the value that is given: not with an exchange.
+    /// Returns for each component whether the field takes a given value exactly, which excludes an
+    /// exchange.
     pub fn fixed(&self) -> [bool; 2] {
         self.held().map(|is_held| is_held && self.exchange.is_none())
     }
 
-    /// Of each component, whether its value is given.
+    /// Returns for each component whether its value is given.
     pub fn held(&self) -> [bool; 2] {
         let is_held = |c: &Condition| matches!(c, Condition::Dirichlet(_));
         let mut held = [false; 2];

@@ -6,17 +6,17 @@ use ppum::crack::{Crack, CrackEnd};
 use ppum::segment::{self, Segment, gap};
 use ppum::vec2::Vec2;
 
-use super::key::{Key, MistakeAt};
+use super::key::{InvalidValue, Key};
 use super::nearby::{Nearby, TooDense};
 
 /// Most contacts that are told.
 const MOST_TOLD: usize = 100;
 
-/// Most pairs of segments that meet: what they cut the plate into is found for each.
+/// Most pairs of segments that meet: for each the pieces are found into which they cut the body.
 const MOST_MEETINGS: usize = 100_000;
 
 /// Ends that lie on other cracks, up to the distance `touch`, are no tips but junctions. Where
-/// cracks lie too close together to look at all of them, which is a mistake, they stay tips.
+/// cracks lie too close together to look at all of them, which is an error, they stay tips.
 pub(super) fn find_junctions(cracks: &mut [Crack], touch: f64) {
     let of_crack = |(k, crack): (usize, &Crack)| {
         crack.points.windows(2).map(|s| (k, [s[0], s[1]])).collect::<Vec<_>>()
@@ -43,7 +43,11 @@ pub(super) fn find_junctions(cracks: &mut [Crack], touch: f64) {
 
 /// No two of the cracks run along each other, and not too many meet. They may cross and end on
 /// each other.
-pub(super) fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -> Vec<MistakeAt> {
+pub(super) fn check_contacts(
+    cracks: &[Crack],
+    in_order: &[usize],
+    touch: f64,
+) -> Vec<InvalidValue> {
     let of_crack = |&crack: &usize| {
         let segments = cracks[crack].points.windows(2).enumerate();
         segments.map(move |(k, pair)| (crack, k, [pair[0], pair[1]]))
@@ -75,8 +79,8 @@ pub(super) fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -
     along.into_iter().take(MOST_TOLD).map(overlap).chain(too_many).collect()
 }
 
-/// The mistake of a crack that runs along another one at its segment `k`.
-fn overlap(((crack, other), k): ((usize, usize), usize)) -> MistakeAt {
+/// The error of a crack that runs along another one at its segment `k`.
+fn overlap(((crack, other), k): ((usize, usize), usize)) -> InvalidValue {
     let message = "the crack runs along another one; leave out the part that they have in common, or \
                    move them apart";
     Key::points(crack).index(k).mistake(message).with_other(Key::points(other))

@@ -9,35 +9,35 @@ use ppum::segment::{Segment, distance, gap};
 use ppum::text::{exact, trimmed};
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::boundary::Edge;
+use super::boundary::DomainEdge;
 use super::contacts::{check_contacts, find_junctions};
-use super::key::{Key, MistakeAt};
+use super::key::{InvalidValue, Key};
 use super::nearby::{TooDense, first_pair};
 use super::straight::straightened;
-use crate::geometry::{Placed, length_inside, wider};
+use crate::geometry::{BoxList, length_inside, wider};
 
-/// A crack along a polyline: ends on the border of the box, to which they are moved, and on the rim
-/// or inside of a hole (up to 10⁻⁹ of the domain's size) are mouths, all others tips. A crack that
-/// lies on a straight line of the border has tips where it ends between two corners, and the body
-/// on its left. Of cracks that meet, see [`cracks`].
+/// A crack along a polyline: ends on the boundary of the box, to which they are moved, and on the
+/// rim or inside of a hole (up to 10⁻⁹ of the domain's size) are mouths, all others tips. A crack
+/// that lies on a straight line of the boundary has tips where it ends between two corners, and the
+/// body on its left. For cracks that meet, see [`cracks`].
 #[must_use]
 pub fn crack(points: Vec<Vec2>, domain: &Domain) -> Crack {
     let lines = [points];
     cracks(lines, domain).pop().unwrap_or(Crack { points: Vec::new(), ends: [CrackEnd::Tip; 2] })
 }
 
-/// Cracks along polylines, with their ends as [`crack`] has them, but for ends on other cracks (up
-/// to the same distance), which are junctions.
+/// Cracks along polylines, with their ends as [`crack`] has them, except for ends on other cracks
+/// (up to the same distance), which are junctions.
 ///
-/// What is meant to meet or to be straight, up to that distance, does so and is: the points are
-/// those of the lines but for vertices that are not needed, and for junctions, which are moved onto
-/// each other and onto lines.
+/// Cracks that meet or are straight up to that distance are made to do so exactly: the points are
+/// those of the lines except for vertices that are not needed, and for junctions, which are moved
+/// onto each other and onto lines.
 #[must_use]
 pub fn cracks(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Domain) -> Vec<Crack> {
     settled(with_ends(lines, domain), domain)
 }
 
-/// The same of cracks whose ends are known.
+/// Straightens cracks whose ends are known.
 pub(super) fn settled(cracks: Vec<Crack>, domain: &Domain) -> Vec<Crack> {
     let lines = cracks.into_iter().map(|crack| crack.points);
     let is_mouth = |p| edges_at(p, &domain.bounds, 0.0).next().is_some();
@@ -45,7 +45,7 @@ pub(super) fn settled(cracks: Vec<Crack>, domain: &Domain) -> Vec<Crack> {
     with_ends(straight.into_iter().map(|points| with_body_on_left(points, domain)), domain)
 }
 
-/// Cracks along polylines as they are, but for ends on edges, and whole cracks, which they are
+/// Cracks along polylines as they are, except for ends on edges, and whole cracks, which they are
 /// moved to.
 pub(super) fn with_ends(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Domain) -> Vec<Crack> {
     let touch = touch(&domain.bounds);
@@ -56,7 +56,8 @@ pub(super) fn with_ends(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Dom
         let before = before.filter(|_| line.is_none());
         let onward = before.and_then(|before| beyond_rim(*p, (*p - before).unit(), domain));
         *p = *p + onward.unwrap_or(Vec2::ZERO);
-        // along a line of the border a crack ends at corners: there it goes on in the mirrored half
+        // along a line of the boundary a crack ends at corners: there it goes on in the mirrored
+        // half
         let is_on_edge = line.is_some_and(|line| line.hole.is_none());
         let is_at_corner = line.is_some_and(|line| line.ends.contains(&*p));
         let is_mouth = edges_at(*p, &domain.bounds, 0.0).count() > usize::from(is_on_edge);
@@ -84,7 +85,7 @@ pub(super) fn with_ends(lines: impl IntoIterator<Item = Vec<Vec2>>, domain: &Dom
     cracks
 }
 
-/// A point of a line of the border, moved by a few roundings where these have put it outside: so
+/// A point of a line of the boundary, moved by a few roundings where these have put it outside: so
 /// the field has values at tips on oblique sides.
 fn inside(p: Vec2, line: &BorderLine, domain: &Domain) -> Vec2 {
     let size = p.x.abs().max(p.y.abs()).max(line.length());
@@ -121,12 +122,12 @@ fn beyond_rim(p: Vec2, way: Vec2, domain: &Domain) -> Option<Vec2> {
 }
 
 /// Holes with their numbers.
-type Holes<'h> = Placed<(usize, &'h Hole)>;
+type Holes<'h> = BoxList<(usize, &'h Hole)>;
 
 fn holes_of(domain: &Domain, touch: f64) -> Holes<'_> {
     let holes = domain.holes.iter().enumerate();
     let place = |hole: &Hole| hole.bounds().intersection(&domain.bounds);
-    Placed::new(holes.map(|hole| (wider(&place(hole.1), 2.0 * touch), hole)))
+    BoxList::new(holes.map(|hole| (wider(&place(hole.1), 2.0 * touch), hole)))
 }
 
 /// The holes that may reach a point.
@@ -147,12 +148,12 @@ fn onto_edges(p: Vec2, bounds: &Rect, touch: f64) -> Vec2 {
 }
 
 /// The edges no farther from `p` than `tolerance`.
-fn edges_at(p: Vec2, domain: &Rect, tolerance: f64) -> impl Iterator<Item = Edge> {
-    let depths = Edge::ALL.map(|edge| (edge, edge.depth(domain, p)));
+fn edges_at(p: Vec2, domain: &Rect, tolerance: f64) -> impl Iterator<Item = DomainEdge> {
+    let depths = DomainEdge::ALL.map(|edge| (edge, edge.depth(domain, p)));
     depths.into_iter().filter(move |(_, depth)| depth.abs() <= tolerance).map(|(edge, _)| edge)
 }
 
-/// The line of a crack on the border in the direction that has the body on its left, so that the
+/// The line of a crack on the boundary in the direction that has the body on its left, so that the
 /// face in the body is the one above; other lines as they are.
 fn with_body_on_left(mut points: Vec<Vec2>, domain: &Domain) -> Vec<Vec2> {
     if let Some(line) = domain.line_along(&points)
@@ -164,7 +165,7 @@ fn with_body_on_left(mut points: Vec<Vec2>, domain: &Domain) -> Vec<Vec2> {
 }
 
 /// All rules broken by the cracks. Each crack must be in order before two are compared.
-pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<MistakeAt> {
+pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<InvalidValue> {
     let touch = touch(&domain.bounds);
     let (holes, lines) = (holes_of(domain, touch), domain.border_lines().collect::<Vec<_>>());
     let mut found = Vec::new();
@@ -179,7 +180,7 @@ pub(super) fn check_cracks(cracks: &[Crack], domain: &Domain) -> Vec<MistakeAt> 
 }
 
 /// Some of the crack lies in the material, and no tip too near to a rim to be meant.
-fn check_at_holes(crack: &Crack, holes: &Holes<'_>, touch: f64, key: &Key) -> Option<MistakeAt> {
+fn check_at_holes(crack: &Crack, holes: &Holes<'_>, touch: f64, key: &Key) -> Option<InvalidValue> {
     let lost = |hole: &Hole| crack.points.iter().all(|p| reaches(hole, *p, touch));
     let convex = |hole: &Hole| matches!(hole, Hole::Circle { .. });
     let first = *crack.points.first()?;
@@ -188,13 +189,13 @@ fn check_at_holes(crack: &Crack, holes: &Holes<'_>, touch: f64, key: &Key) -> Op
     Some(key.clone().mistake(message))
 }
 
-/// No segment of a crack that leaves the border runs along one of its lines.
+/// No segment of a crack that leaves the boundary runs along one of its lines.
 fn check_along_border(
     crack: &Crack,
     lines: &[BorderLine],
     touch: f64,
     key: &Key,
-) -> Option<MistakeAt> {
+) -> Option<InvalidValue> {
     let runs_along = |s: &[Vec2], line: &BorderLine| {
         let [from, to] = [s[0], s[1]].map(|p| line.coordinate(p));
         let common = from.max(to).min(line.length()) - from.min(to).max(0.0);
@@ -213,14 +214,14 @@ fn check_along_border(
 
 /// An edge, or a side of a polygon, in words.
 pub(super) fn line_words(line: &BorderLine) -> String {
-    match Edge::of_line(line) {
+    match DomainEdge::of_line(line) {
         Some(edge) => format!("{} edge", edge.name()),
         None => format!("straight side from {} to {}", shown(line.ends[0]), shown(line.ends[1])),
     }
 }
 
 /// Some of the crack lies in the outline of the body.
-fn check_in_outline(crack: &Crack, domain: &Domain, touch: f64, key: &Key) -> Option<MistakeAt> {
+fn check_in_outline(crack: &Crack, domain: &Domain, touch: f64, key: &Key) -> Option<InvalidValue> {
     let outline = std::slice::from_ref(&domain.holes[domain.outline()?]);
     // a crack may lie on an edge of the box
     let inside = length_inside(crack, &wider(&domain.bounds, domain.bounds.size().x), outline);
@@ -233,14 +234,14 @@ fn check_crack(
     (domain, holes, lines): (&Domain, &Holes<'_>, &[BorderLine]),
     touch: f64,
     key: &Key,
-) -> Vec<MistakeAt> {
+) -> Vec<InvalidValue> {
     let (points, bounds) = (&crack.points, &domain.bounds);
     if points.len() < 2 {
         let message = "a crack needs at least two points; add `[x, y]`";
         return vec![key.clone().mistake(message)];
     }
     let line = domain.line_along(points);
-    // what else is told of a crack that leaves the border follows from it
+    // what else is told of a crack that leaves the boundary follows from it
     if line.is_none()
         && points.iter().all(|p| bounds.contains(*p))
         && let Some(along) = check_along_border(crack, lines, touch, key)
@@ -248,7 +249,7 @@ fn check_crack(
         return vec![along];
     }
     let places = check_places(points, (bounds, line.is_some()), touch, key);
-    let mut found: Vec<MistakeAt> = places.into_iter().collect();
+    let mut found: Vec<InvalidValue> = places.into_iter().collect();
     found.extend(check_segments(points, touch, key));
     if found.is_empty() {
         found.extend(check_whole(points, touch, key));
@@ -260,14 +261,14 @@ fn check_crack(
     found
 }
 
-/// Each point inside the closed box; on its border only the ends, and then exactly, or all on one
+/// Each point inside the closed box; on its boundary only the ends, and then exactly, or all on one
 /// edge. The first that is not is told: a curve has many.
 fn check_places(
     points: &[Vec2],
     (domain, is_along): (&Rect, bool),
     touch: f64,
     key: &Key,
-) -> Option<MistakeAt> {
+) -> Option<InvalidValue> {
     let place = |(index, p): (usize, &Vec2)| {
         let is_end = index == 0 || index + 1 == points.len();
         let near = edges_at(*p, domain, touch).next();
@@ -279,9 +280,10 @@ fn check_places(
                 edge.depth(domain, *p).abs()
             ),
             _ if !domain.contains(*p) => {
-                let depths = Edge::ALL.map(|edge| (edge.depth(domain, *p), edge));
-                let farther = |a: (f64, Edge), b: (f64, Edge)| if b.0 < a.0 { b } else { a };
-                let (depth, edge) = depths.into_iter().fold((0.0, Edge::Left), farther);
+                let depths = DomainEdge::ALL.map(|edge| (edge.depth(domain, *p), edge));
+                let farther =
+                    |a: (f64, DomainEdge), b: (f64, DomainEdge)| if b.0 < a.0 { b } else { a };
+                let (depth, edge) = depths.into_iter().fold((0.0, DomainEdge::Left), farther);
                 format!(
                     "[{}, {}] lies outside the domain, {} beyond the {} edge; {}move it in, or enlarge the domain",
                     exact(p.x),
@@ -319,7 +321,7 @@ pub(super) fn shown(p: Vec2) -> String {
 }
 
 /// Each segment of positive length.
-fn check_segments(points: &[Vec2], touch: f64, key: &Key) -> Vec<MistakeAt> {
+fn check_segments(points: &[Vec2], touch: f64, key: &Key) -> Vec<InvalidValue> {
     let segments = points.windows(2).zip(1..).filter(|(s, _)| (s[1] - s[0]).length() <= touch);
     let mistake = |(s, at): (&[Vec2], usize)| {
         let message = format!(
@@ -332,7 +334,7 @@ fn check_segments(points: &[Vec2], touch: f64, key: &Key) -> Vec<MistakeAt> {
 }
 
 /// No crossing with itself.
-fn check_whole(points: &[Vec2], touch: f64, key: &Key) -> Option<MistakeAt> {
+fn check_whole(points: &[Vec2], touch: f64, key: &Key) -> Option<InvalidValue> {
     let Ok(touching) = self_touch(points, touch) else {
         return Some(key.clone().mistake(TooDense::message("parts of the crack")));
     };

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::error::{Location, Mistake};
+use super::error::{Diagnostic, ProblemLocation};
 
 /// A line that says something.
 pub(super) struct CsvLine<'t> {
@@ -51,26 +51,26 @@ fn words(content: &str) -> Vec<Word<'_>> {
 /// that a dataset holds in tables, take some ten MiB.
 const LONGEST: u64 = 64 << 20;
 
-/// Most mistakes of one file that are told: a file of another kind has one on every line.
+/// Most errors of one file that are reported: a file of another kind has one on every line.
 pub(super) const MOST_FINDINGS: usize = 100;
 
 /// The text of a file, or what to say of it: `what` cannot be read.
-pub(super) fn read(path: &Path, what: &str) -> Result<String, Mistake> {
+pub(super) fn read(path: &Path, what: &str) -> Result<String, Diagnostic> {
     ppum_file::text(path, LONGEST)
         .map_err(|error| of_file(path, format!("cannot read the {what}: {error}")))
 }
 
-/// True if no more mistakes need to be looked for.
-pub(super) fn is_enough(mistakes: &[Mistake]) -> bool {
+/// True if no more errors need to be looked for.
+pub(super) fn is_enough(mistakes: &[Diagnostic]) -> bool {
     mistakes.len() >= MOST_FINDINGS
 }
 
-/// A mistake about a file as a whole.
-pub(super) fn of_file(path: &Path, message: String) -> Mistake {
-    Mistake { location: Location::File(path.display().to_string()), message }
+/// An error about a file as a whole.
+pub(super) fn of_file(path: &Path, message: String) -> Diagnostic {
+    Diagnostic { location: ProblemLocation::File(path.display().to_string()), message }
 }
 
-/// A mistake at a position in a file.
-pub(super) fn mistake(file: &str, line: usize, column: usize, message: String) -> Mistake {
-    Mistake { location: Location::Text { file: file.to_owned(), line, column }, message }
+/// An error at a position in a file.
+pub(super) fn mistake(file: &str, line: usize, column: usize, message: String) -> Diagnostic {
+    Diagnostic { location: ProblemLocation::Text { file: file.to_owned(), line, column }, message }
 }

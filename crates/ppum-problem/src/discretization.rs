@@ -5,7 +5,7 @@ use ppum::expression::Expression;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
-use super::words::{Words, word_table};
+use super::words::{Keyword, word_table};
 
 /// Highest level of a uniform cover: 4^10 ≈ 10⁶ cells, beyond what a direct solver holds.
 pub(super) const MAX_LEVEL: u32 = 10;
@@ -14,12 +14,12 @@ pub(super) const MAX_LEVEL: u32 = 10;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Discretization {
     /// The base cover.
-    pub cells: Cells,
+    pub cells: BaseCells,
     /// Refine where cracks need it; false keeps the base cover.
     pub refine: bool,
-    /// Degree of the local polynomials. Problem files that give none get 2, and 4 where the plate
-    /// is nearly incompressible.
-    pub order: Order,
+    /// Degree of the local polynomials. Problem files that give none get 2, and 4 where the body is
+    /// nearly incompressible.
+    pub order: PolynomialOrder,
     /// α: a patch is its cell enlarged by this factor, in [`OVERLAP`](ppum::cover::OVERLAP).
     pub overlap: f64,
     /// The weight function.
@@ -29,7 +29,7 @@ pub struct Discretization {
     /// Resolve jumps of the material: kinks of the solution on patches that an interface cuts.
     pub interfaces: bool,
     /// Radius of the zone around each tip; `None` for
-    /// [the default](super::Problem::enrichment_radius).
+    /// [the default](super::ProblemData::enrichment_radius).
     pub enrichment_radius: Option<f64>,
     /// Degree of the polynomial that multiplies the tip functions on patches that contain a tip.
     pub tip_degree: usize,
@@ -43,7 +43,7 @@ pub const MOST_TERMS: usize = MAX_DEGREE + 1;
 
 /// The base cover's cells.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Cells {
+pub enum BaseCells {
     /// 4^level equal cells, as near to squares as halving allows.
     Level(u32),
     /// Equal cells, this many along x and y.
@@ -52,7 +52,7 @@ pub enum Cells {
     Points(Vec<Vec2>),
 }
 
-impl Cells {
+impl BaseCells {
     /// The cells of the base cover as a grid of roots, each halved so often along both sides;
     /// nothing for points.
     ///
@@ -81,10 +81,10 @@ impl Cells {
 
 /// Degree of the local polynomials, 0 to [`MAX_DEGREE`].
 #[derive(Clone, Debug, PartialEq)]
-pub enum Order {
-    /// The same on every patch.
+pub enum PolynomialOrder {
+    /// One order for all patches.
     Uniform(usize),
-    /// A formula of x and y, taken at the patch's centre and rounded; see [`Order::at`].
+    /// A formula of x and y, taken at the patch's centre and rounded; see [`PolynomialOrder::at`].
     Formula(Expression),
 }
 
@@ -118,11 +118,11 @@ impl Discretization {
     /// Defaults on the given cells: order 2, α = 1.3, linear weights, Williams' series in zones
     /// around tips, refined at tips.
     #[must_use]
-    pub fn new(cells: Cells) -> Self {
+    pub fn new(cells: BaseCells) -> Self {
         Self {
             cells,
             refine: true,
-            order: Order::Uniform(2),
+            order: PolynomialOrder::Uniform(2),
             overlap: 1.3,
             weight: WeightFunction::default(),
             enrichment: Enrichment::default(),
@@ -148,7 +148,7 @@ pub struct OrderError {
     pub point: Vec2,
 }
 
-impl Order {
+impl PolynomialOrder {
     /// The order of a patch with centre `point`: the formula's value, rounded to the nearest whole
     /// number, halves away from zero.
     ///

@@ -1,5 +1,5 @@
 //! A TOML text with places: typed access to its values, as the rows of keys say what they are, that
-//! reports every mistake and goes on.
+//! reports every error and goes on.
 
 use std::cell::{Cell, OnceCell, RefCell};
 use std::ops::Range;
@@ -15,21 +15,21 @@ use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
 
 use super::body::HeatedBody;
-use super::error::Mistake;
+use super::error::Diagnostic;
 use super::expression;
 use super::keys::{KeyTable, Kind};
-use super::report::{Report, quotes};
+use super::report::{DiagnosticList, quotes};
 use super::scopes;
-use super::words::{EquationKind, Words, words};
+use super::words::{EquationKind, Keyword, words};
 
 /// Longest problem file, in bytes: a hundred thousand cracks take some.
 pub const MAX_LENGTH: u64 = 16 << 20;
 
 /// A text that is read, and what was found in it that decides how the rest is read.
-pub(super) struct Document<'a> {
-    pub(super) report: Report<'a>,
+pub(super) struct ProblemDocument<'a> {
+    pub(super) report: DiagnosticList<'a>,
     pub(super) source: FileSource<'a>,
-    /// Of the problem of a temperature, the problem of the body that it is in.
+    /// The problem of the body, if this one is that of its temperature.
     pub(super) heated: Option<&'a HeatedBody<'a>>,
     /// None if the file does not say it as it should.
     pub(super) equation: Cell<Option<EquationKind>>,
@@ -51,10 +51,10 @@ pub(super) enum FileSource<'a> {
     Stored(&'a Dataset),
 }
 
-impl<'a> Document<'a> {
+impl<'a> ProblemDocument<'a> {
     pub(super) fn new(file: &'a str, text: &'a str, source: FileSource<'a>) -> Self {
         Self {
-            report: Report::new(file, text),
+            report: DiagnosticList::new(file, text),
             source,
             heated: None,
             equation: Cell::new(None),
@@ -78,7 +78,7 @@ impl<'a> Document<'a> {
 
 /// A table of the document.
 pub(super) struct Section<'a> {
-    pub(super) document: &'a Document<'a>,
+    pub(super) document: &'a ProblemDocument<'a>,
     keys: &'static KeyTable,
     table: &'a DeTable<'a>,
     /// Place at which something is said to be missing.
@@ -86,14 +86,14 @@ pub(super) struct Section<'a> {
     /// Keys that were meant by those of the other equation.
     meant: Vec<&'static str>,
     /// Keys that were meant by those that are not known, and what these say: it is read as if their
-    /// names were right, so that no other mistake seems to follow.
+    /// names were right, so that no other error seems to follow.
     misnamed: Vec<(&'static str, &'a Spanned<DeValue<'a>>)>,
 }
 
 impl<'a> Section<'a> {
     /// A table whose keys have not been looked at.
     pub(super) fn unchecked(
-        document: &'a Document<'a>,
+        document: &'a ProblemDocument<'a>,
         keys: &'static KeyTable,
         table: &'a DeTable<'a>,
         offset: usize,
@@ -130,7 +130,7 @@ impl<'a> Section<'a> {
         self
     }
 
-    /// What to say of a key that is not known, and the one that was meant.
+    /// Returns the end of the message about an unknown key, and the key that was probably meant.
     fn unknown(&self, name: &str) -> (String, Option<&'static str>) {
         let equation = self.document.equation.get();
         let rows = self.keys.keys.iter().filter(|row| row.fits(equation));
@@ -160,17 +160,17 @@ impl<'a> Section<'a> {
     }
 
     /// The keys of a list that are there, with their values.
-    pub(super) fn given(&self, keys: &[&'static str]) -> Vec<(&'static str, Value<'a>)> {
+    pub(super) fn given(&self, keys: &[&'static str]) -> Vec<(&'static str, DocumentValue<'a>)> {
         keys.iter().filter_map(|key| Some((*key, self.value(key)?))).collect()
     }
 
     /// The value of a key that may be absent.
-    pub(super) fn value(&self, key: &str) -> Option<Value<'a>> {
+    pub(super) fn value(&self, key: &str) -> Option<DocumentValue<'a>> {
         let item = self.table.get(key).or_else(|| self.misnamed(key).next())?;
         Some(self.named(key, item))
     }
 
-    /// What is said under keys by which this one is meant.
+    /// Returns the values of unknown keys that probably stand for this one.
     fn misnamed(&self, key: &str) -> impl Iterator<Item = &'a Spanned<DeValue<'a>>> {
         let meant = self.misnamed.iter().filter(move |(meant, _)| *meant == key);
         meant.map(|(_, item)| *item)
@@ -181,14 +181,14 @@ impl<'a> Section<'a> {
         self.misnamed.iter().map(|(key, _)| *key).collect()
     }
 
-    fn named(&self, key: &str, item: &'a Spanned<DeValue<'a>>) -> Value<'a> {
+    fn named(&self, key: &str, item: &'a Spanned<DeValue<'a>>) -> DocumentValue<'a> {
         let kind = self.keys.row(key).map_or(Kind::Constant, |row| row.kind);
         let name = format!("`{key}` in {}", self.keys.name);
-        Value { document: self.document, name, kind, item }
+        DocumentValue { document: self.document, name, kind, item }
     }
 
     /// All keys with their values.
-    pub(super) fn entries(&self) -> impl Iterator<Item = (&'a str, Value<'a>)> {
+    pub(super) fn entries(&self) -> impl Iterator<Item = (&'a str, DocumentValue<'a>)> {
         self.table.iter().map(|(key, item)| {
             let key = key.get_ref().as_ref();
             (key, self.named(key, item))
@@ -196,7 +196,7 @@ impl<'a> Section<'a> {
     }
 
     /// The value of a key that must be there.
-    pub(super) fn required(&self, key: &str) -> Option<Value<'a>> {
+    pub(super) fn required(&self, key: &str) -> Option<DocumentValue<'a>> {
         if !self.mentions(key) {
             let example = self.keys.row(key).map_or("", |row| row.example);
             let message =
@@ -206,27 +206,27 @@ impl<'a> Section<'a> {
         self.value(key)
     }
 
-    /// What the key says if that is there and right.
-    pub(super) fn get<T: Read>(&self, key: &str) -> Option<T> {
+    /// Reads the value of the key, if it is present and valid.
+    pub(super) fn get<T: FromValue>(&self, key: &str) -> Option<T> {
         T::read(&self.value(key)?)
     }
 
-    /// What the key says, which must be there.
-    pub(super) fn require<T: Read>(&self, key: &str) -> Option<T> {
+    /// Reads the value of the key, which must be present.
+    pub(super) fn require<T: FromValue>(&self, key: &str) -> Option<T> {
         T::read(&self.required(key)?)
     }
 
-    /// What the key says, or the default if it is absent.
-    pub(super) fn or<T: Read>(&self, key: &str, default: T) -> Option<T> {
+    /// Reads the value of the key, or the default if it is absent.
+    pub(super) fn or<T: FromValue>(&self, key: &str, default: T) -> Option<T> {
         self.value(key).map_or(Some(default), |value| T::read(&value))
     }
 
-    /// What the key says, if it is not absent.
-    pub(super) fn optional<T: Read>(&self, key: &str) -> Option<Option<T>> {
+    /// Reads the value of the key, or `Some(None)` if it is absent.
+    pub(super) fn optional<T: FromValue>(&self, key: &str) -> Option<Option<T>> {
         self.value(key).map_or(Some(None), |value| T::read(&value).map(Some))
     }
 
-    /// What the key says, in the range of the key.
+    /// Reads the value of the key, in the range of the key.
     pub(super) fn within(&self, key: &str) -> Option<f64> {
         self.required(key)?.within(key, self)
     }
@@ -257,7 +257,7 @@ impl<'a> Section<'a> {
         self.section(key)
     }
 
-    /// The tables `[[key]]`; none, and a mistake, if there are more than a dataset can hold.
+    /// The tables `[[key]]`; none, and an error, if there are more than a dataset can hold.
     pub(super) fn sections_at_most(&self, most: usize, key: &str) -> Vec<Section<'a>> {
         let sections = self.sections(key);
         let Some(first) = sections.get(most) else { return sections };
@@ -279,11 +279,11 @@ impl<'a> Section<'a> {
         if tables.is_none() {
             value.report(&format!("`{key}` must be a list of tables; write [[{key}]] for each"));
         }
-        tables.iter().flatten().filter_map(Value::as_section).collect()
+        tables.iter().flatten().filter_map(DocumentValue::as_section).collect()
     }
 
-    /// What all tables `[[key]]` say; none at all if one of them cannot be read, as the checks
-    /// count them.
+    /// Reads all tables `[[key]]`; none at all if one of them cannot be read, as the checks count
+    /// them.
     pub(super) fn each<T>(&self, key: &str, read: impl FnMut(Section<'a>) -> Option<T>) -> Vec<T> {
         all(self.sections(key).into_iter().map(read)).unwrap_or_default()
     }
@@ -306,21 +306,21 @@ fn misplaced(instead: &[&str]) -> String {
 
 /// A value of the document. The readers of its type report and return `None` where it has another.
 #[derive(Clone)]
-pub(super) struct Value<'a> {
-    pub(super) document: &'a Document<'a>,
+pub(super) struct DocumentValue<'a> {
+    pub(super) document: &'a ProblemDocument<'a>,
     /// As messages call it, e.g. `` `young` in [material] ``.
     name: String,
     kind: Kind,
     item: &'a Spanned<DeValue<'a>>,
 }
 
-/// What values can be read as.
-pub(super) trait Read: Sized {
+/// The types that values can be read as.
+pub(super) trait FromValue: Sized {
     /// Reads a value; reports and returns `None` if it is something else.
-    fn read(value: &Value<'_>) -> Option<Self>;
+    fn read(value: &DocumentValue<'_>) -> Option<Self>;
 }
 
-impl<'a> Value<'a> {
+impl<'a> DocumentValue<'a> {
     /// Reports that something is wrong with the value; its name opens the message.
     pub(super) fn error<T>(&self, message: &str) -> Option<T> {
         self.report(&format!("{} {message}", self.name));
@@ -332,8 +332,8 @@ impl<'a> Value<'a> {
         self.document.report.at(self.offset(), message);
     }
 
-    /// Reports mistakes in a file that the value names.
-    pub(super) fn add(&self, mistakes: Vec<Mistake>) {
+    /// Reports errors in a file that the value names.
+    pub(super) fn add(&self, mistakes: Vec<Diagnostic>) {
         mistakes.into_iter().for_each(|new| self.document.report.add(self.offset(), new));
     }
 
@@ -422,18 +422,18 @@ impl<'a> Value<'a> {
     }
 
     /// The values of an array; none, without a word, of anything else.
-    fn elements(&self) -> Vec<Value<'a>> {
+    fn elements(&self) -> Vec<DocumentValue<'a>> {
         let kind = match self.kind {
             Kind::Array(_, _, _, kind) | Kind::List(_, kind) => *kind,
             Kind::Components(..) => Kind::Value,
             other => other,
         };
-        let element = |item| Value { kind, item, ..self.clone() };
+        let element = |item| DocumentValue { kind, item, ..self.clone() };
         self.item.get_ref().as_array().into_iter().flatten().map(element).collect()
     }
 
     /// The values of an array of any length.
-    pub(super) fn list(&self) -> Option<Vec<Value<'a>>> {
+    pub(super) fn list(&self) -> Option<Vec<DocumentValue<'a>>> {
         if !self.item.get_ref().is_array() {
             return self.expected(&self.kind.words());
         }
@@ -441,18 +441,18 @@ impl<'a> Value<'a> {
     }
 
     /// The values of an array of so many.
-    pub(super) fn array<const N: usize>(&self) -> Option<[Value<'a>; N]> {
+    pub(super) fn array<const N: usize>(&self) -> Option<[DocumentValue<'a>; N]> {
         let kind = match self.kind {
             // what is no word is the other that it may be
             Kind::Either([kind, ..]) => *kind,
             kind => kind,
         };
-        let items = Value { kind, ..self.clone() }.elements();
-        <[Value<'a>; N]>::try_from(items).ok().or_else(|| self.expected(&kind.words()))
+        let items = DocumentValue { kind, ..self.clone() }.elements();
+        <[DocumentValue<'a>; N]>::try_from(items).ok().or_else(|| self.expected(&kind.words()))
     }
 
     /// One value per component: those of an array, or the value itself if there is but one.
-    pub(super) fn components(&self) -> Option<Vec<Value<'a>>> {
+    pub(super) fn components(&self) -> Option<Vec<DocumentValue<'a>>> {
         match self.document.equation.get() {
             Some(EquationKind::Poisson) => Some(vec![self.clone()]),
             _ => self.array::<2>().map(Vec::from),
@@ -460,7 +460,7 @@ impl<'a> Value<'a> {
     }
 
     /// One element of an array.
-    pub(super) fn element(&self, index: usize) -> Option<Value<'a>> {
+    pub(super) fn element(&self, index: usize) -> Option<DocumentValue<'a>> {
         self.elements().into_iter().nth(index)
     }
 
@@ -477,7 +477,7 @@ impl<'a> Value<'a> {
     }
 
     /// One of several words, each standing for something.
-    pub(super) fn choice<T: Words>(&self) -> Option<T> {
+    pub(super) fn choice<T: Keyword>(&self) -> Option<T> {
         let all = words::<T>();
         let alternatives = Kind::Word(words::<T>).words();
         let Some(text) = self.as_text() else { return self.expected(&alternatives) };
@@ -489,8 +489,8 @@ impl<'a> Value<'a> {
         })
     }
 
-    /// The result of parsing the value's text, or a report of a mistake at its place inside
-    /// the text.
+    /// The result of parsing the value's text, or a report of an error at its place inside the
+    /// text.
     pub(super) fn inside<T>(&self, text: &str, result: Result<T, FormulaError>) -> Option<T> {
         let report = |error: FormulaError| {
             let offset = self.offset_in_text(text, error.line, error.column);
@@ -517,14 +517,14 @@ impl<'a> Value<'a> {
     }
 }
 
-impl Read for f64 {
-    fn read(value: &Value<'_>) -> Option<Self> {
+impl FromValue for f64 {
+    fn read(value: &DocumentValue<'_>) -> Option<Self> {
         if matches!(value.kind, Kind::Number) { value.number() } else { value.constant() }
     }
 }
 
-impl Read for u32 {
-    fn read(value: &Value<'_>) -> Option<Self> {
+impl FromValue for u32 {
+    fn read(value: &DocumentValue<'_>) -> Option<Self> {
         let integer = value.item.get_ref().as_integer();
         let wrong = || match integer {
             Some(_) => value.error("is out of range; write a small whole number ≥ 0"),
@@ -534,51 +534,51 @@ impl Read for u32 {
     }
 }
 
-impl Read for usize {
-    fn read(value: &Value<'_>) -> Option<Self> {
+impl FromValue for usize {
+    fn read(value: &DocumentValue<'_>) -> Option<Self> {
         u32::read(value).map(|number| number as Self)
     }
 }
 
-impl Read for bool {
-    fn read(value: &Value<'_>) -> Option<Self> {
+impl FromValue for bool {
+    fn read(value: &DocumentValue<'_>) -> Option<Self> {
         value.item.get_ref().as_bool().or_else(|| value.expected(&Kind::Flag.words()))
     }
 }
 
-impl Read for String {
-    fn read(value: &Value<'_>) -> Option<Self> {
+impl FromValue for String {
+    fn read(value: &DocumentValue<'_>) -> Option<Self> {
         value.text().map(str::to_owned)
     }
 }
 
 /// A point `[x, y]`; each a number, or a formula of numbers in quotes.
-impl Read for Vec2 {
-    fn read(value: &Value<'_>) -> Option<Self> {
+impl FromValue for Vec2 {
+    fn read(value: &DocumentValue<'_>) -> Option<Self> {
         <[f64; 2]>::read(value).map(Self::from)
     }
 }
 
-impl Read for Expression {
-    fn read(value: &Value<'_>) -> Option<Self> {
+impl FromValue for Expression {
+    fn read(value: &DocumentValue<'_>) -> Option<Self> {
         value.expression(value.document.scope()?)
     }
 }
 
-impl<T: Words> Read for T {
-    fn read(value: &Value<'_>) -> Option<Self> {
+impl<T: Keyword> FromValue for T {
+    fn read(value: &DocumentValue<'_>) -> Option<Self> {
         value.choice()
     }
 }
 
-impl<T: Read, const N: usize> Read for [T; N] {
-    fn read(value: &Value<'_>) -> Option<Self> {
+impl<T: FromValue, const N: usize> FromValue for [T; N] {
+    fn read(value: &DocumentValue<'_>) -> Option<Self> {
         all(value.array::<N>()?.iter().map(T::read))?.try_into().ok()
     }
 }
 
-impl<T: Read> Read for Vec<T> {
-    fn read(value: &Value<'_>) -> Option<Self> {
+impl<T: FromValue> FromValue for Vec<T> {
+    fn read(value: &DocumentValue<'_>) -> Option<Self> {
         all(value.list()?.iter().map(T::read))
     }
 }

@@ -1,7 +1,7 @@
 //! Enrichments of one's own.
 
 use ppum::expression::Expression;
-use ppum::function::Declared;
+use ppum::function::NonsmoothPoints;
 use ppum::vec2::Vec2;
 
 use super::words::word_table;
@@ -15,10 +15,12 @@ use super::words::word_table;
 /// ```
 /// use ppum::dataset::Equation;
 /// use ppum::vec2::{Rect, vec2};
-/// use crate::{Cells, Discretization, LocalEnrichment, Problem, ProblemData, Site};
+/// use ppum_problem::{
+///     BaseCells, Discretization, LocalEnrichment, Problem, ProblemData, Site,
+/// };
 ///
 /// let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
-/// let mut problem = ProblemData::poisson(domain, 1.0, Discretization::new(Cells::Level(3)));
+/// let mut problem = ProblemData::poisson(domain, 1.0, Discretization::new(BaseCells::Level(3)));
 /// let interface = Site::Along([vec2(-1.0, 0.1), vec2(1.0, 0.3)]);
 /// problem.enrichments.push(LocalEnrichment::new(&["abs(y)"], interface));
 /// assert!(Problem::new(problem).is_ok());
@@ -34,14 +36,14 @@ pub struct LocalEnrichment {
     /// The frame in which x, y, r and theta are measured.
     pub site: Site,
     /// The patches that have the functions.
-    pub region: Region,
+    pub region: EnrichmentRegion,
     /// Degree of the polynomials that multiply the functions. `None` is 0, but at tips
     /// [`Discretization::tip_degree`](super::Discretization::tip_degree) on patches that hold the
     /// tip.
     pub degree: Option<usize>,
     /// Places at which the functions are not smooth, beside what their formulas show; in
     /// their frame.
-    pub declared: Declared,
+    pub declared: NonsmoothPoints,
 }
 
 /// The frame of an enrichment.
@@ -68,9 +70,9 @@ word_table!(Site: Tips "tips");
 
 /// The patches that have an enrichment.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Region {
+pub enum EnrichmentRegion {
     /// The region that suits the site. World: all patches; a point or a segment: as `Near(0.0)`;
-    /// tips: `Near` with the [enrichment radius](super::Problem::enrichment_radius).
+    /// tips: `Near` with the [enrichment radius](super::ProblemData::enrichment_radius).
     Default,
     /// Patches that hold the point or tip inside or are cut by the segment, and those whose support
     /// is nearer to it than this length.
@@ -89,14 +91,14 @@ impl LocalEnrichment {
             functions: functions.iter().map(|&text| text.to_owned()).collect(),
             parameters: Vec::new(),
             site,
-            region: Region::Default,
+            region: EnrichmentRegion::Default,
             degree: None,
-            declared: Declared::default(),
+            declared: NonsmoothPoints::default(),
         }
     }
 
     /// True if the zone around each tip has the problem's radius.
     pub(super) fn has_default_zone(&self) -> bool {
-        self.site == Site::Tips && self.region == Region::Default
+        self.site == Site::Tips && self.region == EnrichmentRegion::Default
     }
 }

@@ -1,29 +1,29 @@
-//! Mistakes of a problem and their locations.
+//! Diagnostics of a problem and their locations.
 
 use std::fmt;
 
 /// Everything found wrong with a problem, in the order of the file.
 ///
-/// Renders one mistake per line, the first hundred of them, e.g.
+/// Renders one error per line, the first hundred of them, e.g.
 /// ``plate.toml:12:1: unknown key `yong` in [material]; did you mean `young`?``
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{}", lines(.mistakes))]
 pub struct ProblemError {
-    mistakes: Vec<Mistake>,
+    mistakes: Vec<Diagnostic>,
 }
 
 /// One thing that is wrong, with its remedy.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Mistake {
+pub struct Diagnostic {
     /// Its location.
-    pub location: Location,
-    /// The mistake and its remedy, lower-case, without the location.
+    pub location: ProblemLocation,
+    /// The error and its remedy, lower-case, without the location.
     pub message: String,
 }
 
-/// The location of a [`Mistake`].
+/// The location of a [`Diagnostic`].
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Location {
+pub enum ProblemLocation {
     /// A file as a whole, e.g. one that cannot be read.
     File(String),
     /// A position in a file's text.
@@ -40,32 +40,32 @@ pub enum Location {
 }
 
 impl ProblemError {
-    /// An error of the given mistakes, of which there is at least one.
-    pub(super) fn new(mistakes: Vec<Mistake>) -> Self {
+    /// An error made of diagnostics, of which there is at least one.
+    pub(super) fn new(mistakes: Vec<Diagnostic>) -> Self {
         debug_assert!(!mistakes.is_empty(), "an error without a mistake");
         Self { mistakes }
     }
 
-    /// The mistakes, at least one.
+    /// The diagnostics, at least one.
     #[must_use]
-    pub fn mistakes(&self) -> &[Mistake] {
+    pub fn mistakes(&self) -> &[Diagnostic] {
         &self.mistakes
     }
 }
 
-impl From<Mistake> for ProblemError {
-    fn from(mistake: Mistake) -> Self {
+impl From<Diagnostic> for ProblemError {
+    fn from(mistake: Diagnostic) -> Self {
         Self::new(vec![mistake])
     }
 }
 
-impl fmt::Display for Mistake {
+impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.location, self.message)
     }
 }
 
-impl fmt::Display for Location {
+impl fmt::Display for ProblemLocation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::File(file) => write!(f, "{file}"),
@@ -78,8 +78,8 @@ impl fmt::Display for Location {
 /// Findings that are shown; nobody reads more of them at a time.
 const SHOWN: usize = 100;
 
-fn lines(mistakes: &[Mistake]) -> String {
-    let mut lines: Vec<_> = mistakes.iter().take(SHOWN).map(Mistake::to_string).collect();
+fn lines(mistakes: &[Diagnostic]) -> String {
+    let mut lines: Vec<_> = mistakes.iter().take(SHOWN).map(Diagnostic::to_string).collect();
     match mistakes.len().saturating_sub(SHOWN) {
         0 => {}
         1 => lines.push("… and one mistake more".to_owned()),

@@ -2,7 +2,7 @@
 
 use ppum::formula::FormulaError;
 
-/// The mistake of a formula, without the place.
+/// The error of a formula, without the place.
 pub(super) fn message(error: &FormulaError) -> String {
     let text = error.to_string();
     let first = text.lines().next().unwrap_or_default();

@@ -6,7 +6,7 @@ use ppum::line::Line;
 use ppum::segment;
 use ppum::vec2::Vec2;
 
-use super::boundary::{BorderPart, Edge};
+use super::boundary::{BoundaryPart, DomainEdge};
 use super::model::ProblemData;
 use super::support::Force;
 use ppum::border::touch;
@@ -16,7 +16,7 @@ use ppum::border::touch;
 pub enum ForcePlace {
     /// The body lies all around.
     Inside,
-    /// A straight border.
+    /// A straight boundary.
     Border {
         /// Its unit normal into the body.
         inward: Vec2,
@@ -114,8 +114,8 @@ impl ProblemData {
     }
 
     /// Distance from a force within which its field alone is not smooth: up to tips and kinks of
-    /// the crack that it acts on, to parts of the border where values are given, and to material
-    /// behind the border.
+    /// the crack that it acts on, to parts of the boundary where values are given, and to material
+    /// behind the boundary.
     pub fn room_of(&self, force: &Force, place: ForcePlace) -> f64 {
         let p = force.at;
         let held = self.boundary.iter().filter(|condition| condition.held().contains(&true));
@@ -130,12 +130,12 @@ impl ProblemData {
         room
     }
 
-    /// Distance from a force to the nearest border or crack that it does not act on: the rest of
+    /// Distance from a force to the nearest boundary or crack that it does not act on: the rest of
     /// the field varies as fast there.
     pub fn next_to(&self, force: &Force) -> f64 {
         let (p, domain) = (force.at, self.domain());
         let to = |[a, b]: [Vec2; 2]| segment::distance([a, b], p);
-        let edges = Edge::ALL.into_iter().map(|edge| edge.depth(&domain.bounds, p));
+        let edges = DomainEdge::ALL.into_iter().map(|edge| edge.depth(&domain.bounds, p));
         let sides = domain.holes.iter().flat_map(Hole::sides).map(to);
         let circles = domain.holes.iter().filter(|hole| hole.sides().next().is_none());
         let circles = circles.map(|hole| hole.rim_distance(p));
@@ -144,9 +144,9 @@ impl ProblemData {
         all.filter(|distance| *distance > touch(&domain.bounds)).fold(f64::INFINITY, f64::min)
     }
 
-    fn distance_to(&self, on: BorderPart, p: Vec2) -> f64 {
+    fn distance_to(&self, on: BoundaryPart, p: Vec2) -> f64 {
         let round = match on {
-            BorderPart::Hole(hole) => self.domain().holes[hole].rim_distance(p),
+            BoundaryPart::Hole(hole) => self.domain().holes[hole].rim_distance(p),
             _ => f64::INFINITY,
         };
         let sides = self.segments_of(on).map(|ends| segment::distance(ends, p));
@@ -169,8 +169,8 @@ fn is_on_curve(hole: &Hole, p: Vec2, touch: f64) -> bool {
     is_round || pairs.into_iter().any(|pair| is_at_bend(pair, p, touch))
 }
 
-/// The same of two segments that turn gently, as far as the shorter one reaches: straight sides
-/// may go on into curves.
+/// True if a point is at the bend of two segments that turn gently, as far as the shorter one
+/// reaches: straight sides may go on into curves.
 fn is_at_bend([[a, b], [_, c]]: [[Vec2; 2]; 2], p: Vec2, touch: f64) -> bool {
     let (first, second) = (b - a, c - b);
     let turn = first.cross(second).atan2(first.dot(second)).abs();

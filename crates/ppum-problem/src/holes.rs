@@ -3,9 +3,9 @@
 use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2};
 
-use super::boundary::Edge;
+use super::boundary::DomainEdge;
 use super::cracks::{crosses_itself, place, shown};
-use super::key::{Key, MistakeAt};
+use super::key::{InvalidValue, Key};
 use super::nearby::TooDense;
 use crate::geometry::{meets, solid_part};
 use ppum::border::touch;
@@ -14,7 +14,7 @@ use ppum::border::touch;
 const MAX_RIMS: usize = 1 << 14;
 
 /// All rules broken by the holes of a domain whose box is in order.
-pub(super) fn check_holes(domain: &Domain) -> Vec<MistakeAt> {
+pub(super) fn check_holes(domain: &Domain) -> Vec<InvalidValue> {
     let touch = touch(&domain.bounds);
     let rims = domain.holes.iter().map(|hole| hole.sides().count().max(1));
     if rims.sum::<usize>() > MAX_RIMS {
@@ -44,7 +44,7 @@ pub(super) fn check_holes(domain: &Domain) -> Vec<MistakeAt> {
 }
 
 /// Holes that lie outside of the outline.
-fn holes_outside(domain: &Domain) -> Vec<MistakeAt> {
+fn holes_outside(domain: &Domain) -> Vec<InvalidValue> {
     let Some(outline) = domain.outline().map(|index| &domain.holes[index]) else {
         return Vec::new();
     };
@@ -122,7 +122,9 @@ fn bad_polygon(points: &[Vec2], hole: &Hole, bounds: &Rect, touch: f64) -> Optio
 fn bad_outline(outline: &Hole, bounds: &Rect, touch: f64) -> Option<&'static str> {
     let met = outline.sides().any(|side| crosses_box(side, bounds));
     let along = |[a, b]: [Vec2; 2]| {
-        Edge::ALL.iter().any(|edge| [a, b].iter().all(|p| edge.depth(bounds, *p).abs() <= touch))
+        DomainEdge::ALL
+            .iter()
+            .any(|edge| [a, b].iter().all(|p| edge.depth(bounds, *p).abs() <= touch))
     };
     if !met && outline.contains(bounds.center()) {
         Some("the outline lies outside of the box; leave `min` and `max` out")

@@ -44,13 +44,13 @@ impl Key {
         self
     }
 
-    /// The mistake of the value, with a message.
-    pub(super) fn mistake(self, message: impl Into<String>) -> MistakeAt {
-        MistakeAt { key: self, message: message.into(), other: None }
+    /// The error of the value, with a message.
+    pub(super) fn mistake(self, message: impl Into<String>) -> InvalidValue {
+        InvalidValue { key: self, message: message.into(), other: None }
     }
 
-    /// The mistake of a number that is out of the range of its key.
-    pub(super) fn out_of_range(self, value: f64) -> Option<MistakeAt> {
+    /// The error of a number that is out of the range of its key.
+    pub(super) fn out_of_range(self, value: f64) -> Option<InvalidValue> {
         let row = self.row()?;
         let message = row.mistake(value)?;
         Some(self.mistake(format!("`{}` {message}", row.name)))
@@ -112,20 +112,20 @@ impl fmt::Display for Key {
 }
 
 /// A rule that is broken.
-pub(super) struct MistakeAt {
+pub(super) struct InvalidValue {
     pub(super) key: Key,
     pub(super) message: String,
     /// The other of two values that contradict each other.
     pub(super) other: Option<Key>,
 }
 
-impl MistakeAt {
+impl InvalidValue {
     pub(super) fn with_other(self, other: Key) -> Self {
         Self { other: Some(other), ..self }
     }
 }
 
-/// What to say of a hole or a crack that is not among so many.
+/// Returns the message about a hole or a crack that is not among so many.
 pub(super) fn no_such(what: &str, index: usize, count: usize) -> String {
     let those = match count {
         0 => format!("the problem has no [[{what}]]"),

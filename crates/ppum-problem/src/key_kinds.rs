@@ -1,4 +1,4 @@
-//! What is known of a key of a problem file: its values, their range, its meaning.
+//! A key of a problem file: its values, their range, its meaning.
 
 use ppum::text::exact as digits;
 
@@ -27,7 +27,7 @@ pub struct KeyRow {
     /// The values that it takes.
     pub kind: Kind,
     /// The range of its numbers.
-    pub range: Range,
+    pub range: NumberRange,
     /// The value where the key is left out, in TOML or in words; `None` if there is none.
     pub default: Option<fn() -> String>,
     /// True if the key may not be left out, with the equation that it belongs to.
@@ -36,7 +36,7 @@ pub struct KeyRow {
     pub example: &'static str,
     /// The equation that it belongs to, and the keys that do for the other one what it does.
     pub equation: Option<(EquationKind, &'static [&'static str])>,
-    /// What follows the range in messages, with the default in place of `{}`.
+    /// The end of messages about the range, with the default in place of `{}`.
     pub remedy: &'static str,
     /// Its meaning, for people.
     pub doc: &'static str,
@@ -75,18 +75,18 @@ pub enum Kind {
 
 /// A range of numbers, whose ends may be open.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Range {
+pub struct NumberRange {
     /// The ends.
     pub ends: [f64; 2],
     /// Whether each end is outside.
     pub open: [bool; 2],
 }
 
-pub(super) const fn within(from: f64, to: f64) -> Range {
-    Range { ends: [from, to], open: [false; 2] }
+pub(super) const fn within(from: f64, to: f64) -> NumberRange {
+    NumberRange { ends: [from, to], open: [false; 2] }
 }
 
-impl Range {
+impl NumberRange {
     pub(super) const fn with_open(self, open: [bool; 2]) -> Self {
         Self { open, ..self }
     }
@@ -117,9 +117,9 @@ impl Range {
     }
 }
 
-pub(super) const ALL: Range = within(f64::NEG_INFINITY, f64::INFINITY);
-pub(super) const NOT_NEGATIVE: Range = within(0.0, f64::INFINITY);
-pub(super) const POSITIVE: Range = NOT_NEGATIVE.with_open([true, false]);
+pub(super) const ALL: NumberRange = within(f64::NEG_INFINITY, f64::INFINITY);
+pub(super) const NOT_NEGATIVE: NumberRange = within(0.0, f64::INFINITY);
+pub(super) const POSITIVE: NumberRange = NOT_NEGATIVE.with_open([true, false]);
 
 pub(super) const fn key(name: &'static str, kind: Kind) -> KeyRow {
     KeyRow {
@@ -145,7 +145,7 @@ macro_rules! setters {
 }
 
 impl KeyRow {
-    setters!(range: Range, example: &'static str, doc: &'static str, remedy: &'static str);
+    setters!(range: NumberRange, example: &'static str, doc: &'static str, remedy: &'static str);
 
     pub(super) const fn default(self, default: fn() -> String) -> Self {
         Self { default: Some(default), ..self }
@@ -159,7 +159,7 @@ impl KeyRow {
         Self { equation: Some((equation, other)), ..self }
     }
 
-    /// The mistake of a number that is out of range.
+    /// The error of a number that is out of range.
     pub(super) fn mistake(&self, value: f64) -> Option<String> {
         let default = self.default.map_or(String::new(), |default| default());
         let remedy = self.remedy.replace("{}", &default);

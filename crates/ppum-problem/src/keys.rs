@@ -7,25 +7,25 @@ use ppum::cover::OVERLAP;
 use ppum::crack::Side;
 use ppum::dataset::{MAX_DEGREE, StressState};
 
-use super::adaptivity::{AdaptKind, Adaptivity, Keep};
-use super::boundary::{self, Edge};
-use super::discretization::{Cells, Discretization, Enrichment, MAX_LEVEL, MOST_TERMS};
+use super::adaptivity::{AdaptKind, Adaptivity, StepsKept};
+use super::boundary::{self, DomainEdge};
+use super::discretization::{BaseCells, Discretization, Enrichment, MAX_LEVEL, MOST_TERMS};
 use super::enrichment::Site;
 use super::growth::{Criterion, LoadControl, Paris};
-pub use super::key_kinds::{KeyRow, KeyTable, Kind, Range};
+pub use super::key_kinds::{KeyRow, KeyTable, Kind, NumberRange};
 use super::key_kinds::{NOT_NEGATIVE, POSITIVE, key, within};
-use super::solver::{Solver, SolverKind};
-use super::words::{EquationKind, Words as _, words};
+use super::solver::{SolverKind, SolverSettings};
+use super::words::{EquationKind, Keyword as _, words};
 use EquationKind::{Elasticity, Poisson};
 use Kind::{
     Array, Components, Constant, Either, Flag, List, Number, Table, Tables, Text, Value, Whole,
     Word,
 };
 
-const DEGREE: Range = within(0.0, MAX_DEGREE as f64);
+const DEGREE: NumberRange = within(0.0, MAX_DEGREE as f64);
 
 /// Segments of a curve; what asks for more has a cusp.
-const SEGMENTS: Range = within(4.0, MOST_SEGMENTS as f64);
+const SEGMENTS: NumberRange = within(4.0, MOST_SEGMENTS as f64);
 
 /// Most segments of one curve.
 pub(super) const MOST_SEGMENTS: usize = 4096;
@@ -36,7 +36,7 @@ const SEGMENT: Kind = Array(2, "points", "[[x0, y0], [x1, y1]]", &POINT);
 const POINTS: Kind = List("points [[x, y], …]", &POINT);
 const NUMBERS: Kind = List("numbers", &Number);
 
-/// What messages about numbers with a default end with.
+/// The end of messages about numbers with a default.
 const IS_DEFAULT: &str = "; {} is the default";
 
 /// A default as problem files have it.
@@ -46,21 +46,21 @@ fn toml(value: impl Debug) -> String {
 }
 
 fn discretization() -> Discretization {
-    Discretization::new(Cells::Level(0))
+    Discretization::new(BaseCells::Level(0))
 }
 
-/// The parts of the border that have names of their own.
+/// The parts of the boundary that have names of their own.
 fn places() -> Vec<&'static str> {
-    words::<Edge>().into_iter().chain([boundary::OUTLINE]).collect()
+    words::<DomainEdge>().into_iter().chain([boundary::OUTLINE]).collect()
 }
 
 fn exact() -> Vec<&'static str> {
     vec!["exact"]
 }
 
-/// What may stand at a byte of a problem file: headings after a bracket, words after the sign of
-/// equality, else keys of the table whose heading is the last before it; those of the text's
-/// equation alone. For editors.
+/// Lists the keys and values that fit at a byte of a problem file: headings after a bracket, words
+/// after the sign of equality, else keys of the table whose heading is the last before it; those of
+/// the text's equation alone. For editors.
 #[must_use]
 pub fn completions(text: &str, at: usize) -> Vec<String> {
     let before = text.get(..at).unwrap_or_default();
@@ -276,9 +276,9 @@ tables! {
         flux: Value, default(|| "free".into()), only(Poisson, &["traction"]) => "The flux κ ∂u/∂n into the plate, n outwards.";
     }
 
-    /// A part of the border.
+    /// A part of the boundary.
     static ON = "`on`", "" {
-        edge: Word(words::<Edge>), example("\"top\"") => "A piece of this edge.";
+        edge: Word(words::<DomainEdge>), example("\"top\"") => "A piece of this edge.";
         from: Number, default(|| "start".into()) =>
             "Start of the part: its y on the left and right, its x at the bottom and top; of a `piece` the length along it.";
         to: Number, default(|| "end".into()) => "End of the part, larger than `from`.";
@@ -437,7 +437,7 @@ tables! {
         tolerance: Number, range(within(0.0, 1.0).with_open([true; 2])), remedy("; it is a part of the solution") =>
             "Stop when the estimated error in the energy norm, relative to the norm of the solution, is at most this. "
             "If another bound ends the steps first, a warning says so.";
-        keep: Word(words::<Keep>), default(|| toml(Adaptivity::default().keep.word())) =>
+        keep: Word(words::<StepsKept>), default(|| toml(Adaptivity::default().keep.word())) =>
             "The steps that the dataset keeps. With `\"all\"`, `ppum render --steps` and `ppum plot --convergence` "
             "show all of them.";
     }
@@ -476,19 +476,19 @@ tables! {
     }
 
     static SOLVER = "[solver]", "" {
-        kind: Word(words::<SolverKind>), default(|| toml(Solver::default().kind.word())) =>
+        kind: Word(words::<SolverKind>), default(|| toml(SolverSettings::default().kind.word())) =>
             "`\"direct\"` is a sparse Cholesky factorisation; `\"multilevel\"` is conjugate gradients with a "
             "hierarchy of coarser covers, which takes a fifth of the memory, and time in proportion to the unknowns. "
             "`\"auto\"` uses the direct solver up to some hundred thousand unknowns, and the multilevel solver if it "
             "takes less time, or if the factor does not fit into memory or takes more than 4 GB. If the multilevel "
             "solver does not converge, as on pieces without supports, the direct solver replaces it, with a warning, "
             "if there is enough memory.";
-        tolerance: Number, range(within(1e-14, 1.0).with_open([false, true])), default(|| toml(Solver::default().tolerance)),
+        tolerance: Number, range(within(1e-14, 1.0).with_open([false, true])), default(|| toml(SolverSettings::default().tolerance)),
             remedy("; it is a part of the solution") =>
             "Relative error in the energy norm that the multilevel solver may leave, estimated by its residual; at "
             "least 1e-14. With the default, fields and K agree with those of the direct solver to 1e-9, unless "
             "materials differ by factors of 1e5 and more, where rounding limits the accuracy of both.";
-        kernels: Flag, default(|| toml(Solver::default().kernels)) =>
+        kernels: Flag, default(|| toml(SolverSettings::default().kernels)) =>
             "`false` evaluates the formulas of built-in functions instead of the kernels that replace them: slower, "
             "with the same results to rounding.";
     }

@@ -7,7 +7,7 @@
 //! ```
 //!
 //! with components of u (Dirichlet) or of the traction σ n, the flux κ ∂u/∂n (Neumann), given on
-//! parts of the border. `docs/problem-file.md` describes the file for users.
+//! parts of the boundary. `docs/problem-file.md` describes the file for users.
 //!
 //! [`ProblemData`] are plain data, a [`Problem`] such as break no rule. Reading reports everything
 //! that is wrong at once, with places; for data from code [`Problem::new`] applies the same rules:
@@ -15,15 +15,15 @@
 //! ```
 //! use ppum::dataset::{Material, StressState};
 //! use ppum::vec2::{Rect, vec2};
-//! use crate::{Cells, Condition, Discretization, Edge, Problem, ProblemData};
+//! use ppum_problem::{BaseCells, Condition, Discretization, DomainEdge, Problem, ProblemData};
 //!
 //! let steel = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 //! let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
 //! let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-//! let plate = ProblemData::elasticity(domain, steel, Discretization::new(Cells::Level(4)))
+//! let plate = ProblemData::elasticity(domain, steel, Discretization::new(BaseCells::Level(4)))
 //!     .with_crack(&[[-0.5, 0.0], [0.5, 0.0]])
-//!     .with_boundary(Edge::Bottom, pull(-1.0))
-//!     .with_boundary(Edge::Top, pull(1.0));
+//!     .with_boundary(DomainEdge::Bottom, pull(-1.0))
+//!     .with_boundary(DomainEdge::Top, pull(1.0));
 //! assert!(Problem::new(plate).is_ok());
 //! ```
 
@@ -56,6 +56,7 @@ mod refinement;
 mod report;
 mod restraint;
 mod scopes;
+mod series;
 mod solver;
 mod stations;
 mod stiffness;
@@ -68,26 +69,29 @@ mod temperature;
 mod tests;
 mod words;
 
-pub use adaptivity::{AdaptKind, Adaptivity, Keep};
+pub use adaptivity::{AdaptKind, Adaptivity, StepsKept};
 pub use body::Body;
 pub use boundary::{
-    BorderPart, BoundaryCondition, Condition, Edge, Piece, SideRun, held_directions, in_plane,
+    BoundaryCondition, BoundaryPart, BoundaryPiece, BoundaryRange, Condition, DomainEdge,
+    held_directions, in_plane,
 };
 pub use check::features::Feature;
 pub use cracks::{crack, cracks};
 pub use curve::arc_from;
-pub use discretization::{Cells, Discretization, Enrichment, MOST_TERMS, Order, OrderError};
+pub use discretization::{
+    BaseCells, Discretization, Enrichment, MOST_TERMS, OrderError, PolynomialOrder,
+};
 pub use document::MAX_LENGTH;
-pub use enrichment::{LocalEnrichment, Region, Site};
-pub use error::{Location, Mistake, ProblemError};
+pub use enrichment::{EnrichmentRegion, LocalEnrichment, Site};
+pub use error::{Diagnostic, ProblemError, ProblemLocation};
 pub use force::ForcePlace;
 pub use growth::{Criterion, GrowthRule, LoadControl, Paris};
 pub use model::{Problem, ProblemData, SolvedTemperature};
 pub use ppum::expression::Expression;
 pub use refinement::{DEEPEST, LocalRefinement, RefinementRegion, nine};
 pub use restraint::{restraint_center, restraint_words};
-pub use solver::{Solver, SolverKind};
-pub use stations::Station;
+pub use solver::{SolverKind, SolverSettings};
+pub use stations::BoundaryStation;
 pub use stiffness::{FREE_OF_LOCKING, STIFF, stiffness_ratio};
 pub use support::{Force, Support};
 pub use symmetry::Symmetry;

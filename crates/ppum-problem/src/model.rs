@@ -14,13 +14,13 @@ use ppum::vec2::Vec2;
 
 use super::adaptivity::Adaptivity;
 use super::body::Body;
-use super::boundary::{BorderPart, BoundaryCondition, Condition, Edge, Piece};
+use super::boundary::{BoundaryCondition, BoundaryPart, BoundaryPiece, Condition, DomainEdge};
 use super::discretization::{Discretization, Enrichment};
 use super::enrichment::LocalEnrichment;
 use super::error::ProblemError;
 use super::growth::GrowthRule;
 use super::refinement::LocalRefinement;
-use super::solver::{Solver, SolverKind};
+use super::solver::{SolverKind, SolverSettings};
 use super::support::{Force, Support};
 
 /// A problem with its discretisation that breaks no rule.
@@ -61,7 +61,7 @@ impl Problem {
         Self(data)
     }
 
-    /// The data, which can be changed and checked anew.
+    /// The data, which can be changed and checked again.
     #[must_use]
     pub fn into_data(self) -> ProblemData {
         self.0
@@ -98,7 +98,7 @@ pub struct ProblemData {
     pub equation: Equation,
     /// The temperature that strains the body, if another problem gives it.
     pub temperature: Option<SolvedTemperature>,
-    /// The conditions on the border.
+    /// The conditions on the boundary.
     pub boundary: Vec<BoundaryCondition>,
     /// Forces at points.
     pub forces: Vec<Force>,
@@ -123,7 +123,7 @@ pub struct ProblemData {
     /// Where cells are divided by hand.
     pub refinements: Vec<LocalRefinement>,
     /// The linear solver.
-    pub solver: Solver,
+    pub solver: SolverSettings,
     /// The problem file's text, if there was one.
     pub text: Option<String>,
     /// The files that the text names, which were read with it: tables and points.
@@ -133,8 +133,8 @@ pub struct ProblemData {
 /// A change of temperature T, the solution of Poisson's equation on the same body with the same
 /// cracks, which strains the body by α T in all directions.
 ///
-/// Of its problem conditions, sources, conductivity and functions count. It is solved on the cells
-/// of the elastic problem with the polynomials of that, anew for each of its steps.
+/// Only the conditions, sources, conductivity and functions of its problem count. It is solved on
+/// the cells of the elastic problem with the polynomials of that, again for each of its steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SolvedTemperature {
     /// The problem of the temperature.
@@ -190,13 +190,13 @@ impl ProblemData {
             adaptivity: None,
             growth: None,
             refinements: Vec::new(),
-            solver: Solver::default(),
+            solver: SolverSettings::default(),
             text: None,
             files: Vec::new(),
         }
     }
 
-    /// The problem with one more crack; its ends on the border, also on rims and in holes, become
+    /// The problem with one more crack; its ends on the boundary, also on rims and in holes, become
     /// mouths, those on other cracks junctions, and all others tips. Ends of the cracks before it
     /// that lie on it become junctions, too. Cost: that of looking at all cracks;
     /// [`with_lines`](Self::with_lines) makes many at once.
@@ -207,7 +207,7 @@ impl ProblemData {
         self.with_lines(lines)
     }
 
-    /// The problem with cracks along lines in place of its own, see [`cracks`](super::cracks).
+    /// The problem with cracks along lines in place of its own, see [`cracks`](super::cracks()).
     #[must_use]
     pub fn with_lines(self, lines: impl IntoIterator<Item = Vec<Vec2>>) -> Self {
         let body = (*self.body).clone().with_lines(lines).settled();
@@ -223,14 +223,14 @@ impl ProblemData {
 
     /// The problem with conditions on a whole edge, one per component.
     #[must_use]
-    pub fn with_boundary(mut self, edge: Edge, components: Vec<Condition>) -> Self {
+    pub fn with_boundary(mut self, edge: DomainEdge, components: Vec<Condition>) -> Self {
         self.boundary.push(BoundaryCondition::on_edge(edge, &self.domain().bounds, components));
         self
     }
 
-    /// The problem with a pressure on a part of the border.
+    /// The problem with a pressure on a part of the boundary.
     #[must_use]
-    pub fn with_pressure(mut self, on: BorderPart, pressure: f64) -> Self {
+    pub fn with_pressure(mut self, on: BoundaryPart, pressure: f64) -> Self {
         self.boundary.push(BoundaryCondition::pressure(on, pressure.into()));
         self
     }
@@ -245,7 +245,7 @@ impl ProblemData {
 
     /// The problem with exact values given on a whole edge.
     #[must_use]
-    pub fn with_exact_boundary(self, edge: Edge) -> Self {
+    pub fn with_exact_boundary(self, edge: DomainEdge) -> Self {
         let components = self.exact.iter().cloned().map(Condition::Dirichlet).collect();
         self.with_boundary(edge, components)
     }
@@ -288,13 +288,13 @@ impl ProblemData {
 
     /// The pieces of rims that have names, which conditions may be on.
     #[must_use]
-    pub fn pieces(&self) -> &[Piece] {
+    pub fn pieces(&self) -> &[BoundaryPiece] {
         self.body.pieces()
     }
 
     /// True if something acts on faces of cracks.
     pub fn loads_faces(&self) -> bool {
-        self.boundary.iter().any(|condition| matches!(condition.on, BorderPart::Crack { .. }))
+        self.boundary.iter().any(|condition| matches!(condition.on, BoundaryPart::Crack { .. }))
     }
 
     /// Number of components of the unknown field.
@@ -319,24 +319,26 @@ impl ProblemData {
         0.25 * distances.fold(length, f64::min)
     }
 
-    /// A part of the border in words.
-    pub fn words_of(&self, part: BorderPart) -> String {
+    /// A part of the boundary in words.
+    pub fn words_of(&self, part: BoundaryPart) -> String {
         match part {
-            BorderPart::Piece(piece) => format!("the piece `{}`", self.pieces()[piece].name),
-            BorderPart::Hole(hole) if self.domain().outline() == Some(hole) => "the outline".into(),
+            BoundaryPart::Piece(piece) => format!("the piece `{}`", self.pieces()[piece].name),
+            BoundaryPart::Hole(hole) if self.domain().outline() == Some(hole) => {
+                "the outline".into()
+            }
             other => other.to_string(),
         }
     }
 
-    /// True if a side of the rim of a hole belongs to a part of the border.
-    pub fn is_on(&self, part: BorderPart, hole: usize, side: usize) -> bool {
+    /// True if a side of the rim of a hole belongs to a part of the boundary.
+    pub fn is_on(&self, part: BoundaryPart, hole: usize, side: usize) -> bool {
         match part {
-            BorderPart::Hole(whole) => whole == hole,
-            BorderPart::Sides(run) => run.holds(hole, side),
-            BorderPart::Piece(piece) => {
+            BoundaryPart::Hole(whole) => whole == hole,
+            BoundaryPart::Sides(run) => run.holds(hole, side),
+            BoundaryPart::Piece(piece) => {
                 self.pieces()[piece].runs.iter().any(|run| run.holds(hole, side))
             }
-            BorderPart::Edge { .. } | BorderPart::Crack { .. } => false,
+            BoundaryPart::Edge { .. } | BoundaryPart::Crack { .. } => false,
         }
     }
 
@@ -357,7 +359,7 @@ impl ProblemData {
         let normal = if side == Side::Above { -left } else { left };
         let mut sum = [0.0; 2];
         for condition in &self.boundary {
-            let BorderPart::Crack { crack: other, face } = condition.on else { continue };
+            let BoundaryPart::Crack { crack: other, face } = condition.on else { continue };
             if other == crack && face.is_none_or(|face| face == side) {
                 let load = condition.values(x, normal);
                 sum.iter_mut().zip(load).for_each(|(sum, t)| *sum += t);

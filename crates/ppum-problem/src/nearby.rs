@@ -24,7 +24,7 @@ pub(super) struct Nearby {
 pub(super) struct TooDense;
 
 impl TooDense {
-    /// The mistakes of the things `what` whose segments these are.
+    /// The message about the objects `what` whose segments these are.
     pub(super) fn message(what: &str) -> String {
         format!(
             "{what} lie too close together: more than {MOST} pairs of their segments are near each other; \

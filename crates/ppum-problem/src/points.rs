@@ -5,13 +5,13 @@ use std::path::Path;
 use ppum::vec2::Vec2;
 
 use super::csv::{self, CsvLine, mistake};
-use super::error::Mistake;
+use super::error::Diagnostic;
 
 /// Reads a file of points: `x,y` a line, empty lines and what follows `#` left out.
 ///
 /// # Errors
-/// One mistake per line that is not a finite `x,y`, or equals an earlier one; or one for the file.
-pub(super) fn read(path: &Path) -> Result<Vec<Vec2>, Vec<Mistake>> {
+/// One error per line that is not a finite `x,y`, or equals an earlier one; or one for the file.
+pub(super) fn read(path: &Path) -> Result<Vec<Vec2>, Vec<Diagnostic>> {
     let text = csv::read(path, "points").map_err(|mistake| vec![mistake])?;
     let points = parse(&text, &path.display().to_string())?;
     if points.is_empty() {
@@ -21,7 +21,7 @@ pub(super) fn read(path: &Path) -> Result<Vec<Vec2>, Vec<Mistake>> {
     Ok(points)
 }
 
-fn parse(text: &str, file: &str) -> Result<Vec<Vec2>, Vec<Mistake>> {
+fn parse(text: &str, file: &str) -> Result<Vec<Vec2>, Vec<Diagnostic>> {
     let (mut points, mut mistakes) = (Vec::new(), Vec::new());
     for line in csv::lines(text) {
         match point(&line) {
@@ -54,7 +54,7 @@ fn point(line: &CsvLine<'_>) -> Result<Vec2, (usize, String)> {
 }
 
 /// Points that equal an earlier one: no cell can hold at most one of them.
-fn duplicates(points: &[(usize, Vec2)], file: &str) -> Vec<Mistake> {
+fn duplicates(points: &[(usize, Vec2)], file: &str) -> Vec<Diagnostic> {
     let mut sorted: Vec<_> = points.iter().collect();
     sorted.sort_by(|(m, a), (n, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(m.cmp(n)));
     let equal = sorted.windows(2).filter(|pair| pair[0].1 == pair[1].1);
@@ -73,7 +73,7 @@ mod tests {
 
     fn wrong(text: &str) -> Vec<String> {
         let mistakes = parse(text, "p.csv").expect_err("should be wrong");
-        mistakes.iter().map(Mistake::to_string).collect()
+        mistakes.iter().map(Diagnostic::to_string).collect()
     }
 
     #[test]

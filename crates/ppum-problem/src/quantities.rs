@@ -7,7 +7,7 @@ use ppum::formula::Table;
 use ppum::quantity::{QuantityFormula, QuantityFormulaError, Vocabulary, names};
 
 use super::expression;
-use super::key::{Key, MistakeAt};
+use super::key::{InvalidValue, Key};
 use super::model::ProblemData;
 
 /// Name of the field of an equation, and names of its components.
@@ -36,7 +36,7 @@ pub(super) fn parse(
 }
 
 /// All rules broken by the quantities.
-pub(super) fn check_quantities(problem: &ProblemData) -> Vec<MistakeAt> {
+pub(super) fn check_quantities(problem: &ProblemData) -> Vec<InvalidValue> {
     let rule = |index| {
         let key = Key::new("quantity").index(index);
         let (name, message) = broken(problem, index)?;

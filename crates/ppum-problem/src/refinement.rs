@@ -10,11 +10,11 @@ use crate::geometry;
 /// Divisions of a base cell after which a problem counts as unresolvable.
 pub const DEEPEST: usize = 16;
 
-/// Cells of a part of the plate that are divided until they have a size: `[[refine]]` in problem
+/// Cells of a part of the body that are divided until they have a size: `[[refine]]` in problem
 /// files.
 ///
 /// A cell that meets the place, or is nearer to it than `distance`, has no side longer than `size`.
-/// Of a formula that is its smallest value at nine places of what the cell has in common with the
+/// A formula counts with its smallest value at nine points of the intersection of the cell with the
 /// box around the place: corners, centre and middles of the sides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocalRefinement {
@@ -62,7 +62,7 @@ impl LocalRefinement {
         if size > 0.0 && size.is_finite() { Ok(size) } else { Err(size) }
     }
 
-    /// The box around all that is divided; that of the plate if it is everywhere.
+    /// The box around all cells that are divided; that of the body if these are everywhere.
     pub fn bounds(&self, domain: &Domain, cracks: &[Crack]) -> Rect {
         let around = match self.place {
             RefinementRegion::Plate => return domain.bounds,

@@ -1,23 +1,23 @@
-//! What is wrong in a text, with the places.
+//! The errors in a text, with their places.
 
 use std::cell::RefCell;
 use std::iter;
 
-use super::error::{Location, Mistake};
+use super::error::{Diagnostic, ProblemLocation};
 
-/// Collects mistakes; shared by all sections and values of a document.
-pub(super) struct Report<'a> {
+/// Collects errors; shared by all sections and values of a document.
+pub(super) struct DiagnosticList<'a> {
     pub(super) file: &'a str,
     pub(super) text: &'a str,
-    /// Bytes at which the lines of the text begin: files may have as many mistakes as lines.
+    /// Bytes at which the lines of the text begin: files may have as many errors as lines.
     lines: Vec<usize>,
     /// Line and column of the file at which the text begins, from 1.
     start: (usize, usize),
     /// With the offset in the text, by which they are sorted in the end.
-    mistakes: RefCell<Vec<(usize, Mistake)>>,
+    mistakes: RefCell<Vec<(usize, Diagnostic)>>,
 }
 
-impl<'a> Report<'a> {
+impl<'a> DiagnosticList<'a> {
     pub(super) fn new(file: &'a str, text: &'a str) -> Self {
         let starts = text.match_indices('\n').map(|(newline, _)| newline + 1);
         let lines = iter::once(0).chain(starts).collect();
@@ -29,15 +29,15 @@ impl<'a> Report<'a> {
         self.start = (line, column);
     }
 
-    /// Reports a mistake at a byte of the text.
+    /// Reports an error at a byte of the text.
     pub(super) fn at(&self, offset: usize, message: impl Into<String>) {
         let (line, column) = self.position(offset);
-        let location = Location::Text { file: self.file.to_owned(), line, column };
-        self.add(offset, Mistake { location, message: message.into() });
+        let location = ProblemLocation::Text { file: self.file.to_owned(), line, column };
+        self.add(offset, Diagnostic { location, message: message.into() });
     }
 
-    /// Reports a mistake in another file, named at a byte of this text.
-    pub(super) fn add(&self, offset: usize, mistake: Mistake) {
+    /// Reports an error in another file, named at a byte of this text.
+    pub(super) fn add(&self, offset: usize, mistake: Diagnostic) {
         self.mistakes.borrow_mut().push((offset, mistake));
     }
 
@@ -50,8 +50,8 @@ impl<'a> Report<'a> {
         (first + line - 1, if line == 1 { indent + column - 1 } else { column })
     }
 
-    /// The mistakes in the order of the text.
-    pub(super) fn into_findings(self) -> Vec<Mistake> {
+    /// The errors in the order of the text.
+    pub(super) fn into_findings(self) -> Vec<Diagnostic> {
         let mut mistakes = self.mistakes.into_inner();
         mistakes.sort_by_key(|(offset, _)| *offset);
         // of a curve each vertex has the place of all
@@ -76,7 +76,7 @@ mod tests {
     #[test]
     fn positions_count_characters_and_lines_from_one() {
         let text = "ä = 1\r\nβγ = 2\n";
-        let report = Report::new("plate.toml", text);
+        let report = DiagnosticList::new("plate.toml", text);
         assert_eq!(report.position(0), (1, 1));
         assert_eq!(report.position(text.find('=').expect("there")), (1, 3));
         assert_eq!(report.position(text.find('2').expect("there")), (2, 6));

@@ -1,7 +1,7 @@
-//! Restraints: parts of the border where values are given, in the words that reactions are
+//! Restraints: parts of the boundary where values are given, in the words that reactions are
 //! stored with.
 
-use super::boundary::{BorderPart, Edge, OUTLINE, Piece};
+use super::boundary::{BoundaryPart, BoundaryPiece, DomainEdge, OUTLINE};
 use ppum::domain::Domain;
 use ppum::vec2::Vec2;
 
@@ -9,7 +9,7 @@ use ppum::vec2::Vec2;
 /// of the box around a polygon, the centroid of the sides of a piece. None for words of other
 /// programs.
 #[must_use]
-pub fn restraint_center(on: &str, domain: &Domain, pieces: &[Piece]) -> Option<Vec2> {
+pub fn restraint_center(on: &str, domain: &Domain, pieces: &[BoundaryPiece]) -> Option<Vec2> {
     let bounds = &domain.bounds;
     if let Some(name) = on.strip_prefix("piece ") {
         let piece = pieces.iter().find(|piece| piece.name == name)?;
@@ -18,7 +18,7 @@ pub fn restraint_center(on: &str, domain: &Domain, pieces: &[Piece]) -> Option<V
         ));
     }
     let on_edge = |name: &str, range: Option<[f64; 2]>| {
-        let edge = Edge::from_name(name)?;
+        let edge = DomainEdge::from_name(name)?;
         let [from, to] = range.unwrap_or(edge.range(bounds));
         Some(edge.point(bounds, 0.5 * from + 0.5 * to))
     };
@@ -45,25 +45,25 @@ fn centroid(sides: impl Iterator<Item = [Vec2; 2]>) -> Vec2 {
     moment / length
 }
 
-/// A part of the border as problem files name it.
-pub fn restraint_words(on: BorderPart, domain: &Domain, pieces: &[Piece]) -> String {
+/// A part of the boundary as problem files name it.
+pub fn restraint_words(on: BoundaryPart, domain: &Domain, pieces: &[BoundaryPiece]) -> String {
     match on {
-        BorderPart::Edge { edge, .. } if on == BorderPart::edge(edge, &domain.bounds) => {
+        BoundaryPart::Edge { edge, .. } if on == BoundaryPart::edge(edge, &domain.bounds) => {
             edge.name().into()
         }
-        BorderPart::Edge { edge, from, to } => format!("{} from {from} to {to}", edge.name()),
-        BorderPart::Hole(hole) if domain.outline() == Some(hole) => OUTLINE.into(),
-        BorderPart::Hole(hole) => format!("hole {hole}"),
-        BorderPart::Piece(piece) => format!("piece {}", pieces[piece].name),
-        BorderPart::Sides(_) => on.to_string(),
-        BorderPart::Crack { .. } => on.to_string(),
+        BoundaryPart::Edge { edge, from, to } => format!("{} from {from} to {to}", edge.name()),
+        BoundaryPart::Hole(hole) if domain.outline() == Some(hole) => OUTLINE.into(),
+        BoundaryPart::Hole(hole) => format!("hole {hole}"),
+        BoundaryPart::Piece(piece) => format!("piece {}", pieces[piece].name),
+        BoundaryPart::Sides(_) => on.to_string(),
+        BoundaryPart::Crack { .. } => on.to_string(),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::SideRun;
+    use crate::BoundaryRange;
     use ppum::domain::Hole;
     use ppum::vec2::{Rect, vec2};
 
@@ -76,14 +76,14 @@ mod tests {
         let bounds = Rect::new(vec2(0.0, -1.0), vec2(4.0, 2.0));
         let outside = [[-1.0, -1.0], [5.0, -1.0], [2.0, 3.0]].map(Vec2::from).to_vec();
         let domain = Domain { bounds, holes: vec![circle, polygon, Hole::outside(outside)] };
-        let piece = BorderPart::Edge { edge: Edge::Left, from: -0.1 - 0.2, to: 1e-7 };
+        let piece = BoundaryPart::Edge { edge: DomainEdge::Left, from: -0.1 - 0.2, to: 1e-7 };
         for (part, center) in [
-            (BorderPart::edge(Edge::Top, &bounds), vec2(2.0, 2.0)),
-            (BorderPart::edge(Edge::Left, &bounds), vec2(0.0, 0.5)),
+            (BoundaryPart::edge(DomainEdge::Top, &bounds), vec2(2.0, 2.0)),
+            (BoundaryPart::edge(DomainEdge::Left, &bounds), vec2(0.0, 0.5)),
             (piece, vec2(0.0, 0.5 * (-0.1 - 0.2) + 0.5e-7)),
-            (BorderPart::Hole(0), vec2(0.5, 0.25)),
-            (BorderPart::Hole(1), vec2(2.5, 0.5)),
-            (BorderPart::Hole(2), vec2(2.0, 1.0)),
+            (BoundaryPart::Hole(0), vec2(0.5, 0.25)),
+            (BoundaryPart::Hole(1), vec2(2.5, 0.5)),
+            (BoundaryPart::Hole(2), vec2(2.0, 1.0)),
         ] {
             assert_eq!(
                 restraint_center(&restraint_words(part, &domain, &[]), &domain, &[]),
@@ -91,13 +91,13 @@ mod tests {
                 "{part}"
             );
         }
-        let run = |from, to| SideRun { hole: 1, from, to };
+        let run = |from, to| BoundaryRange { hole: 1, from, to };
         let pieces = [("a", vec![run(0, 1)]), ("b from 0 to 1", vec![run(1, 2), run(2, 3)])];
-        let pieces = pieces.map(|(name, runs)| Piece { name: name.into(), runs });
+        let pieces = pieces.map(|(name, runs)| BoundaryPiece { name: name.into(), runs });
         // of the second, sides as long as 1 and √2
         let middle = vec2(3.0, 0.5) + vec2(-0.5, 0.0) * (2f64.sqrt() / (1.0 + 2f64.sqrt()));
         for (k, center) in [vec2(2.5, 0.0), middle].into_iter().enumerate() {
-            let words = restraint_words(BorderPart::Piece(k), &domain, &pieces);
+            let words = restraint_words(BoundaryPart::Piece(k), &domain, &pieces);
             let found = restraint_center(&words, &domain, &pieces).expect("a centre");
             assert!((found - center).length() < 1e-15, "{words}: {found:?}");
         }

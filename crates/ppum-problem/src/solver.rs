@@ -4,7 +4,7 @@ use super::words::word_table;
 
 /// Settings of the solver.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Solver {
+pub struct SolverSettings {
     /// The linear solver.
     pub kind: SolverKind,
     /// Part of the error in the energy norm that iteration may leave, estimated by its residual.
@@ -14,7 +14,7 @@ pub struct Solver {
     pub kernels: bool,
 }
 
-impl Default for Solver {
+impl Default for SolverSettings {
     fn default() -> Self {
         Self { kind: SolverKind::default(), tolerance: TOLERANCE, kernels: true }
     }

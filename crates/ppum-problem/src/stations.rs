@@ -1,4 +1,5 @@
-//! Points along the border with what the conditions say there, for drawings of supports and loads.
+//! Points along the boundary with what the conditions say there, for drawings of supports and
+//! loads.
 
 use std::f64::consts::TAU;
 
@@ -7,38 +8,38 @@ use ppum::domain::Hole;
 use ppum::segment;
 use ppum::vec2::{Vec2, vec2};
 
-use super::boundary::{BorderPart, BoundaryCondition};
+use super::boundary::{BoundaryCondition, BoundaryPart};
 use super::force::ForcePlace;
 use super::model::ProblemData;
 use ppum::border::touch;
 
-/// A point of the border with what a condition says there.
+/// A point of the boundary with what a condition says there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Station {
+pub struct BoundaryStation {
     /// The point.
     pub at: Vec2,
     /// Unit normal out of the material.
     pub outward: Vec2,
-    /// Of each component, x and y, whether its value is given, or that along `axis`.
+    /// Whether the value of each component, x and y, is given, or only that along `axis`.
     pub held: [bool; 2],
     /// The direction that alone is held, where it is neither that of x nor of y.
     pub axis: Option<Vec2>,
     /// True for a potential that yields to the value of its surroundings, an exchange.
     pub exchanges: bool,
-    /// Traction on the plate, zero in components that are held: force per area.
+    /// Traction on the body, zero in components that are held: force per area.
     pub traction: Vec2,
 }
 
 impl ProblemData {
-    /// Points along the parts of the border that have conditions, about `spacing` apart, each in
-    /// the middle of its piece of the border, those in holes left out, then the points of forces
+    /// Points along the parts of the boundary that have conditions, about `spacing` apart, each in
+    /// the middle of its piece of the boundary, those in holes left out, then the points of forces
     /// and supports; of a potential the parts with an exchange alone. The largest force counts as
     /// the largest traction.
     #[must_use]
-    pub fn stations(&self, spacing: f64) -> Vec<Station> {
+    pub fn stations(&self, spacing: f64) -> Vec<BoundaryStation> {
         let of = |condition: &BoundaryCondition| {
             let points = self.points_of(condition.on, spacing).into_iter();
-            let station = |(at, outward)| Station {
+            let station = |(at, outward)| BoundaryStation {
                 at,
                 outward,
                 held: condition.coordinates_of(condition.fixed()),
@@ -53,7 +54,7 @@ impl ProblemData {
         let mut all: Vec<_> = shown.flat_map(of).collect();
         let largest = all.iter().map(|station| station.traction.length()).fold(0.0, f64::max);
         all.extend(self.stations_of_forces(largest));
-        all.extend(self.supports.iter().map(|support| Station {
+        all.extend(self.supports.iter().map(|support| BoundaryStation {
             at: support.at,
             outward: vec2(0.0, -1.0),
             held: support.displacement.map(|value| value.is_some()),
@@ -64,12 +65,12 @@ impl ProblemData {
         all
     }
 
-    /// The points of forces, with arrows that end there but for those that pull at a border; the
-    /// largest is as large as a traction.
-    fn stations_of_forces(&self, traction: f64) -> impl Iterator<Item = Station> {
+    /// The points of forces, with arrows that end there except for those that pull at a boundary;
+    /// the largest is as large as a traction.
+    fn stations_of_forces(&self, traction: f64) -> impl Iterator<Item = BoundaryStation> {
         let largest = self.forces.iter().map(|force| force.value.length()).fold(0.0, f64::max);
         let unit = if traction > 0.0 { traction / largest } else { 1.0 };
-        self.forces.iter().map(move |force| Station {
+        self.forces.iter().map(move |force| BoundaryStation {
             at: force.at,
             outward: match self.place_of(force) {
                 Ok(ForcePlace::Border { inward, .. }) => -inward,
@@ -82,8 +83,8 @@ impl ProblemData {
         })
     }
 
-    /// Points of a part of the border with their normals out of the material.
-    fn points_of(&self, part: BorderPart, spacing: f64) -> Vec<(Vec2, Vec2)> {
+    /// Points of a part of the boundary with their normals out of the material.
+    fn points_of(&self, part: BoundaryPart, spacing: f64) -> Vec<(Vec2, Vec2)> {
         let bounds = &self.domain().bounds;
         let faces: Vec<_> = self.border_cracks().map(|(k, _)| &self.cracks()[k].points).collect();
         let is_on_face = |p: Vec2| {
@@ -91,19 +92,19 @@ impl ProblemData {
             near.any(|distance| distance <= touch(bounds))
         };
         match part {
-            BorderPart::Edge { edge, from, to } => {
+            BoundaryPart::Edge { edge, from, to } => {
                 let ends = [from, to].map(|s| edge.point(bounds, s));
                 let points = along(ends, spacing).map(|p| (p, edge.normal()));
                 points.filter(|&(p, _)| self.domain().contains(p) && !is_on_face(p)).collect()
             }
-            BorderPart::Hole(_) | BorderPart::Sides(_) | BorderPart::Piece(_) => {
+            BoundaryPart::Hole(_) | BoundaryPart::Sides(_) | BoundaryPart::Piece(_) => {
                 let holes = self.domain().holes.iter().enumerate();
                 let rims = holes.flat_map(|(index, hole)| {
                     around(hole, |side| self.is_on(part, index, side), spacing)
                 });
                 rims.filter(|&(p, _)| bounds.contains(p) && !is_on_face(p)).collect()
             }
-            BorderPart::Crack { crack, face } => {
+            BoundaryPart::Crack { crack, face } => {
                 let crack = &self.cracks()[crack];
                 let segments = crack.points.windows(2).map(|s| [s[0], s[1]]);
                 let sides = [Side::Above, Side::Below].into_iter();
@@ -181,7 +182,7 @@ mod tests {
     use super::*;
     use crate::Problem;
 
-    fn stations(border: &str, spacing: f64) -> Vec<Station> {
+    fn stations(border: &str, spacing: f64) -> Vec<BoundaryStation> {
         let text = format!(
             "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n[material]\nyoung = 1.0\npoisson = 0.3\n\
              state = \"plane-strain\"\n[[hole]]\ncenter = [0.5, 0.5]\nradius = 0.2\n[[hole]]\n\
@@ -206,7 +207,7 @@ mod tests {
         assert_eq!(held[0].traction, Vec2::ZERO);
     }
 
-    /// Of a potential the parts that exchange are shown, and neither given values nor fluxes.
+    /// For a potential, the parts that exchange are shown, and neither given values nor fluxes.
     #[test]
     fn exchanges_of_a_potential_are_shown() {
         let text = "[equation]\nkind = \"poisson\"\n[domain]\nmin = [0.0, 0.0]\nmax = [2.0, 1.0]\n[discretization]\n\

@@ -1,10 +1,10 @@
-//! Plates that hardly change their volume, and the order of polynomials that they need.
+//! Bodies that hardly change their volume, and the order of polynomials that they need.
 
 use ppum::dataset::Equation;
 use ppum::domain::Domain;
 use ppum::vec2::vec2;
 
-/// λ/μ from which on a plate counts as nearly incompressible: ν = 0.476 in plane strain. In plane
+/// λ/μ from which on a body counts as nearly incompressible: ν = 0.476 in plane strain. In plane
 /// stress λ/μ stays below 2.
 pub const STIFF: f64 = 20.0;
 
@@ -14,7 +14,7 @@ pub const FREE_OF_LOCKING: usize = 4;
 /// Places along each axis at which the material is looked at.
 const LOOKS: u32 = 64;
 
-/// The largest λ/μ of the plate; zero for a potential.
+/// The largest λ/μ of the body; zero for a potential.
 #[must_use]
 pub fn stiffness_ratio(equation: &Equation, domain: &Domain) -> f64 {
     if equation.elastic().is_none() {
@@ -33,7 +33,7 @@ pub fn stiffness_ratio(equation: &Equation, domain: &Domain) -> f64 {
     all.fold(0.0, f64::max)
 }
 
-/// The order of local polynomials where none is given: two, and four where the plate is nearly
+/// The order of local polynomials where none is given: two, and four where the body is nearly
 /// incompressible.
 #[must_use]
 pub(super) fn default_order(equation: &Equation, domain: &Domain) -> usize {

@@ -50,10 +50,10 @@ pub(super) fn straightened(
 }
 
 /// The vertices of a line that keep it within `touch` of its course. Vertices that are no farther
-/// apart all stay: they are mistakes.
+/// apart all stay: they are reported as errors.
 pub(super) fn needed(points: &[Vec2], touch: f64) -> Vec<Vec2> {
     let mut kept: Vec<Vec2> = points.first().copied().into_iter().collect();
-    let mut range: Option<Range> = None;
+    let mut range: Option<DirectionRange> = None;
     for pair in points.windows(2) {
         let from = kept[kept.len() - 1];
         let is_apart = (pair[1] - pair[0]).length() > touch;
@@ -61,7 +61,7 @@ pub(super) fn needed(points: &[Vec2], touch: f64) -> Vec<Vec2> {
             Some(range) => Some(range.narrowed(pair[1] - from, touch)),
             None => {
                 kept.extend((pair[0] != from).then_some(pair[0]));
-                is_apart.then(|| Range::new(pair[1] - pair[0], touch))
+                is_apart.then(|| DirectionRange::new(pair[1] - pair[0], touch))
             }
         };
     }
@@ -72,14 +72,14 @@ pub(super) fn needed(points: &[Vec2], touch: f64) -> Vec<Vec2> {
 /// The directions, as angles from a first one, of the lines from a vertex that pass what
 /// follows it.
 #[derive(Clone, Copy)]
-struct Range {
+struct DirectionRange {
     first: Vec2,
     angles: [f64; 2],
     /// Distance of what it has come to.
     reach: f64,
 }
 
-impl Range {
+impl DirectionRange {
     fn new(way: Vec2, touch: f64) -> Self {
         let whole = Self { first: way, angles: [f64::NEG_INFINITY, f64::INFINITY], reach: 0.0 };
         whole.narrowed(way, touch)

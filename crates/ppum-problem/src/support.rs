@@ -6,7 +6,8 @@ use ppum::vec2::Vec2;
 /// A force at a point of an elastic body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Force {
-    /// The point: inside, on a straight part of the border, or on a crack, but at no corner or tip.
+    /// The point: inside, on a straight part of the boundary, or on a crack, but at no corner or
+    /// tip.
     pub at: Vec2,
     /// The force on the body \[S L, per unit thickness\].
     pub value: Vec2,
@@ -19,9 +20,9 @@ pub struct Force {
 /// It chooses among solutions that differ by rigid-body modes: strains do not depend on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Support {
-    /// The point, in the body or on its border, but on no crack.
+    /// The point, in the body or on its boundary, but on no crack.
     pub at: Vec2,
-    /// Of each component, the displacement there \[L\]; none where it is free.
+    /// The displacement of each component there \[L\]; none where it is free.
     pub displacement: [Option<f64>; 2],
 }
 

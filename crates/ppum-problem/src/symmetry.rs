@@ -1,14 +1,14 @@
-//! Half models: a crack on a straight line of the border, about which the whole body is mirrored.
+//! Half models: a crack on a straight line of the boundary, about which the whole body is mirrored.
 //!
-//! Of a symmetric field u, mirrored about the line y = 0, the upper half is all there is to know:
+//! A symmetric field u, mirrored about the line y = 0, is determined by its upper half:
 //!
 //! ```text
 //! symmetric       u_x(x, −y) = u_x(x, y)     u_y(x, −y) = −u_y(x, y)     on the line u_y = 0, t_x = 0
 //! antisymmetric   u_x(x, −y) = −u_x(x, y)    u_y(x, −y) = u_y(x, y)      on the line u_x = 0, t_y = 0
 //! ```
 //!
-//! On a crack that lies on the line neither holds: there the border is a face of the crack. The end
-//! of the crack between two corners of the body is a tip, the one at a corner a mouth.
+//! On a crack that lies on the line neither holds: there the boundary is a face of the crack. The
+//! end of the crack between two corners of the body is a tip, the one at a corner a mouth.
 
 use std::f64::consts::{PI, TAU};
 
@@ -17,7 +17,7 @@ use ppum::crack::TipId;
 use ppum::segment::{self, Segment};
 use ppum::vec2::Vec2;
 
-use super::boundary::{BorderPart, BoundaryCondition, Condition, Edge};
+use super::boundary::{BoundaryCondition, BoundaryPart, Condition, DomainEdge};
 use super::model::ProblemData;
 use crate::geometry::without;
 use ppum::border::touch;
@@ -35,9 +35,9 @@ pub enum Symmetry {
 }
 
 impl BoundaryCondition {
-    /// A symmetry, or an antisymmetry, to a straight part of the border with this normal.
+    /// A symmetry, or an antisymmetry, to a straight part of the boundary with this normal.
     #[must_use]
-    pub fn symmetry_on(on: BorderPart, normal: Vec2, symmetry: Symmetry) -> Self {
+    pub fn symmetry_on(on: BoundaryPart, normal: Vec2, symmetry: Symmetry) -> Self {
         let is_oblique = normal.x != 0.0 && normal.y != 0.0;
         let is_across = is_oblique || normal.x != 0.0;
         let condition = |across: bool| match across == (symmetry == Symmetry::Symmetric) {
@@ -71,19 +71,19 @@ impl BoundaryCondition {
 }
 
 impl ProblemData {
-    /// The cracks that lie on straight lines of the border.
+    /// The cracks that lie on straight lines of the boundary.
     pub(crate) fn border_cracks(&self) -> impl Iterator<Item = (usize, BorderLine)> {
         (0..self.cracks().len()).filter_map(|crack| Some((crack, self.body.line_of(crack)?)))
     }
 
-    /// The segments of the border that a part of it consists of; none of circles and cracks.
-    pub fn segments_of(&self, part: BorderPart) -> impl Iterator<Item = Segment> {
+    /// The segments of the boundary that a part of it consists of; none of circles and cracks.
+    pub fn segments_of(&self, part: BoundaryPart) -> impl Iterator<Item = Segment> {
         self.sides_of(part).into_iter().map(|(ends, _)| ends)
     }
 
-    /// The same with the holes of their rims.
-    pub(super) fn sides_of(&self, part: BorderPart) -> Vec<(Segment, Option<usize>)> {
-        if let BorderPart::Edge { edge, from, to } = part {
+    /// These segments, with the holes of their rims.
+    pub(super) fn sides_of(&self, part: BoundaryPart) -> Vec<(Segment, Option<usize>)> {
+        if let BoundaryPart::Edge { edge, from, to } = part {
             return vec![([from, to].map(|s| edge.point(&self.domain().bounds, s)), None)];
         }
         let holes = self.domain().holes.iter().enumerate();
@@ -94,14 +94,14 @@ impl ProblemData {
         own.collect()
     }
 
-    /// True if some of a part of the border lies on a line of it.
-    pub(super) fn meets_line(&self, part: BorderPart, line: &BorderLine) -> bool {
+    /// True if some of a part of the boundary lies on a line of it.
+    pub(super) fn meets_line(&self, part: BoundaryPart, line: &BorderLine) -> bool {
         let touch = touch(&self.domain().bounds);
         let is_on = |ends: &Segment| ends.iter().all(|p| line.holds(*p, touch));
         self.segments_of(part).any(|ends| is_on(&ends))
     }
 
-    /// The symmetry to a line of the border that a condition on it says.
+    /// The symmetry to a line of the boundary that a condition on it says.
     pub(super) fn symmetry_on(
         &self,
         condition: &BoundaryCondition,
@@ -114,7 +114,7 @@ impl ProblemData {
         condition.symmetry_to(line.outward()).filter(|_| is_on)
     }
 
-    /// The symmetry of the field at a tip on the border: that of the line ahead of it.
+    /// The symmetry of the field at a tip on the boundary: that of the line ahead of it.
     pub fn symmetry_at(&self, tip: TipId) -> Option<Symmetry> {
         let (crack, touch) = (tip.crack as usize, touch(&self.domain().bounds));
         let line = self.body.line_of(crack)?;
@@ -135,7 +135,7 @@ impl ProblemData {
         tips.find_map(|tip| self.symmetry_at(tip))
     }
 
-    /// True if the faces of cracks and symmetries of some kinds fill a line of the border.
+    /// True if the faces of cracks and symmetries of some kinds fill a line of the boundary.
     fn is_along(&self, line: &BorderLine, is_of_kind: impl Fn(Symmetry) -> bool) -> bool {
         let is_held =
             |one: &&BoundaryCondition| self.symmetry_on(one, line).is_some_and(&is_of_kind);
@@ -154,14 +154,14 @@ impl ProblemData {
         parts.into_iter().fold(0.0, filled) >= line.length() - touch
     }
 
-    /// The faces of cracks on a line of the border.
+    /// The faces of cracks on a line of the boundary.
     pub(crate) fn faces_along(&self, line: &BorderLine) -> impl Iterator<Item = Segment> {
         let own = self.border_cracks().filter(move |(_, own)| own == line);
         own.flat_map(|(crack, _)| self.cracks()[crack].points.windows(2)).map(|s| [s[0], s[1]])
     }
 
-    /// The parts of a part of the border on a line that are no faces of cracks.
-    pub fn parts_beside_faces(&self, part: BorderPart, line: &BorderLine) -> Vec<Segment> {
+    /// The parts of a part of the boundary on a line that are no faces of cracks.
+    pub fn parts_beside_faces(&self, part: BoundaryPart, line: &BorderLine) -> Vec<Segment> {
         let ranges = |ends: Segment| ends.map(|p| line.coordinate(p));
         let faces: Vec<[f64; 2]> = self.faces_along(line).map(ranges).collect();
         let [direction, start] = [line.direction(), line.ends[0]];
@@ -173,8 +173,8 @@ impl ProblemData {
         self.segments_of(part).flat_map(beside).collect()
     }
 
-    /// The lines of the body's border on an edge of the box around it.
-    fn lines_on(&self, edge: Edge) -> Vec<BorderLine> {
+    /// The lines of the body's boundary on an edge of the box around it.
+    fn lines_on(&self, edge: DomainEdge) -> Vec<BorderLine> {
         let (touch, normal) = (touch(&self.domain().bounds), edge.normal());
         let at = edge.point(&self.domain().body_bounds(), 0.0);
         let is_on = |line: &BorderLine| {
@@ -186,11 +186,11 @@ impl ProblemData {
     }
 
     /// The edges of the box around the body beyond which it may be mirrored: those that have one
-    /// symmetry from corner to corner, but for the faces of cracks. Of two opposite edges the left
-    /// or the lower one.
+    /// symmetry from corner to corner, except for the faces of cracks. Two opposite edges count as
+    /// one, the left or the lower.
     #[must_use]
-    pub fn mirrors(&self) -> Vec<(Edge, Symmetry)> {
-        let symmetry = |edge: Edge| {
+    pub fn mirrors(&self) -> Vec<(DomainEdge, Symmetry)> {
+        let symmetry = |edge: DomainEdge| {
             let lines = self.lines_on(edge);
             let is_of = |kind: &Symmetry| {
                 let is_along = |line| self.is_along(line, |own| own == *kind);
@@ -200,7 +200,7 @@ impl ProblemData {
             let kind = [Symmetry::Symmetric, Symmetry::Antisymmetric].into_iter().find(is_of)?;
             Some((edge, kind))
         };
-        let pairs = [[Edge::Left, Edge::Right], [Edge::Bottom, Edge::Top]];
+        let pairs = [[DomainEdge::Left, DomainEdge::Right], [DomainEdge::Bottom, DomainEdge::Top]];
         pairs.into_iter().filter_map(|pair| pair.into_iter().find_map(symmetry)).collect()
     }
 

@@ -9,7 +9,7 @@ use std::path::Path;
 use ppum::formula::{Table, TableError};
 
 use super::csv::{self, CsvLine, mistake};
-use super::error::{Mistake, ProblemError};
+use super::error::{Diagnostic, ProblemError};
 
 /// Knots and values; `y` is empty in a curve. The values of a surface stand in rows of constant y.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,9 +22,9 @@ pub(super) struct TableData {
 /// Reads a file.
 ///
 /// # Errors
-/// One mistake per line that has the wrong number of entries, an entry that is not a finite number,
+/// One error per line that has the wrong number of entries, an entry that is not a finite number,
 /// or a knot that does not exceed the one before; or one for the file.
-pub(super) fn read(path: &Path) -> Result<TableData, Vec<Mistake>> {
+pub(super) fn read(path: &Path) -> Result<TableData, Vec<Diagnostic>> {
     let text = csv::read(path, "table").map_err(|mistake| vec![mistake])?;
     let data = parse(&text, &path.display().to_string())?;
     if data.values.is_empty() {
@@ -56,9 +56,9 @@ impl TableData {
     }
 }
 
-fn parse(text: &str, file: &str) -> Result<TableData, Vec<Mistake>> {
+fn parse(text: &str, file: &str) -> Result<TableData, Vec<Diagnostic>> {
     let mut lines = csv::lines(text).peekable();
-    let mut reader = Reader { file, mistakes: Vec::new() };
+    let mut reader = TableReader { file, mistakes: Vec::new() };
     let first = lines.next_if(|first| first.words[0].text.is_empty());
     let x = first.as_ref().map(|first| reader.knots(first));
     let (knots, values) = reader.rows(lines, first.map_or(2, |first| first.words.len()));
@@ -69,12 +69,12 @@ fn parse(text: &str, file: &str) -> Result<TableData, Vec<Mistake>> {
     Ok(TableData { x, y, values })
 }
 
-struct Reader<'f> {
+struct TableReader<'f> {
     file: &'f str,
-    mistakes: Vec<Mistake>,
+    mistakes: Vec<Diagnostic>,
 }
 
-impl Reader<'_> {
+impl TableReader<'_> {
     /// The knots after the empty place of a line.
     fn knots(&mut self, line: &CsvLine<'_>) -> Vec<f64> {
         let mut knots = Vec::new();
@@ -147,7 +147,7 @@ mod tests {
 
     fn wrong(text: &str) -> Vec<String> {
         let mistakes = parse(text, "t.csv").expect_err("should be wrong");
-        mistakes.iter().map(Mistake::to_string).collect()
+        mistakes.iter().map(Diagnostic::to_string).collect()
     }
 
     #[test]

@@ -4,7 +4,7 @@ use ppum::crack::Side;
 use ppum::dataset::{Equation, Material, StressState};
 
 /// Values that are written as one of some words.
-pub(super) trait Words: Copy + PartialEq + 'static {
+pub(super) trait Keyword: Copy + PartialEq + 'static {
     /// All of them, with their words.
     const WORDS: &'static [(&'static str, Self)];
 
@@ -17,7 +17,7 @@ pub(super) trait Words: Copy + PartialEq + 'static {
 /// Values of a type that are written as words.
 macro_rules! word_table {
     ($type:ty: $($value:ident $word:literal),*) => {
-        impl super::words::Words for $type {
+        impl super::words::Keyword for $type {
             const WORDS: &'static [(&'static str, Self)] = &[$(($word, Self::$value)),*];
         }
     };
@@ -25,7 +25,7 @@ macro_rules! word_table {
 pub(super) use word_table;
 
 /// The words of all values.
-pub(super) fn words<T: Words>() -> Vec<&'static str> {
+pub(super) fn words<T: Keyword>() -> Vec<&'static str> {
     T::WORDS.iter().map(|(word, _)| *word).collect()
 }
 

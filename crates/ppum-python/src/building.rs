@@ -8,13 +8,13 @@ use ppum_format::{ArrayValues, Arrays, ReadError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::dataset::Dataset;
+use crate::dataset::PyDataset;
 use crate::errors::unbuilt;
 use crate::watch::long;
 
 /// The values of an array, row-major, or texts.
 #[derive(FromPyObject)]
-pub(crate) enum Given<'py> {
+pub(crate) enum ArrayInput<'py> {
     F64(PyReadonlyArray1<'py, f64>),
     U8(PyReadonlyArray1<'py, u8>),
     U32(PyReadonlyArray1<'py, u32>),
@@ -23,7 +23,7 @@ pub(crate) enum Given<'py> {
     Text(Vec<String>),
 }
 
-impl Given<'_> {
+impl ArrayInput<'_> {
     fn values(self) -> ArrayValues {
         match self {
             Self::F64(array) => ArrayValues::F64(list(&array)),
@@ -44,19 +44,20 @@ fn list<T: Element + Copy>(array: &PyReadonlyArray1<'_, T>) -> Vec<T> {
 #[pyfunction]
 pub(crate) fn build(
     py: Python<'_>,
-    given: Vec<(String, Vec<u64>, Given<'_>)>,
-) -> PyResult<Dataset> {
+    given: Vec<(String, Vec<u64>, ArrayInput<'_>)>,
+) -> PyResult<PyDataset> {
     let mut arrays = Arrays::default();
     for (path, shape, values) in given {
         arrays.insert(&path, shape, values.values());
     }
     let built = long(py, None, None, |_| arrays.dataset())?;
-    built.map(Dataset::new).map_err(|errors: Vec<ReadError>| unbuilt(&errors))
+    built.map(PyDataset::new).map_err(|errors: Vec<ReadError>| unbuilt(&errors))
 }
 
 /// Cells, their levels, and the point of each, -1 for none, of the quadtrees that scattered
 /// points make.
-type Cells<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<i64>>);
+type QuadtreeCells<'py> =
+    (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<u8>>, Bound<'py, PyArray1<i64>>);
 
 /// The cells that are halved until each holds at most one point, beginning with a grid.
 #[pyfunction]
@@ -65,7 +66,7 @@ pub(crate) fn scattered<'py>(
     domain: [f64; 4],
     cells: [u32; 2],
     points: Vec<[f64; 2]>,
-) -> PyResult<Cells<'py>> {
+) -> PyResult<QuadtreeCells<'py>> {
     let [x0, y0, x1, y1] = domain;
     let points: Vec<Vec2> = points.into_iter().map(Vec2::from).collect();
     let bounds = Rect::new(vec2(x0, y0), vec2(x1, y1));

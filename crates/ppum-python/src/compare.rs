@@ -3,25 +3,25 @@
 use numpy::{PyArray1, PyArray2, PyArrayMethods as _};
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
-use ppum_render::RenderError as Undrawn;
+use ppum_render::RasterError as Undrawn;
 use ppum_render::raster::Raster;
-use ppum_render::resample::need::{Convergence, ResamplingSetup, converge};
-use ppum_render::resample::norms::{Norms, difference};
-use ppum_render::resample::{Grid, Interpolation, representation_bytes};
+use ppum_render::resample::need::{GridConvergence, ResamplingSetup, converge};
+use ppum_render::resample::norms::{DifferenceNorms, difference};
+use ppum_render::resample::{Interpolation, SampleGrid, representation_bytes};
 use ppum_render::scatter::render;
 use ppum_render::view::View;
-use ppum_scene::compare::{NeededGrid, Resampled};
-use ppum_scene::drawing::{RasterValues, Shown};
-use ppum_scene::minus::{Minus, Side};
+use ppum_scene::compare::{NeededGrid, ResampledImage};
+use ppum_scene::difference::{DifferenceSide, FieldDifference};
+use ppum_scene::drawing::{DisplayedQuantity, RasterValues};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::errors::{RenderError, rendering};
-use crate::field::Field;
-use crate::picture::{Spot, view};
+use crate::field::PyField;
+use crate::picture::{CenterAndWidth, view};
 use crate::watch::long;
 
-/// How far one picture is from another.
+/// How far one image is from another.
 #[derive(IntoPyObject)]
 pub(crate) struct NormsFacts {
     absolute: [f64; 3],
@@ -33,8 +33,8 @@ pub(crate) struct NormsFacts {
 }
 
 impl NormsFacts {
-    fn new(norms: &Norms) -> Self {
-        let Norms { absolute, compared, infinite, lost, invented, .. } = *norms;
+    fn new(norms: &DifferenceNorms) -> Self {
+        let DifferenceNorms { absolute, compared, infinite, lost, invented, .. } = *norms;
         Self { absolute, relative: norms.relative(), compared, infinite, lost, invented }
     }
 }
@@ -51,18 +51,19 @@ fn rows<'py>(py: Python<'py>, raster: Raster) -> PyResult<PyRows<'py>> {
 /// it less than it seems.
 #[pyfunction]
 pub(crate) fn compare<'py>(
-    this: &Field,
+    this: &PyField,
     py: Python<'py>,
-    other: &Field,
+    other: &PyField,
     name: &str,
-    spot: Spot,
+    spot: CenterAndWidth,
     size: [u32; 2],
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<(PyRows<'py>, NormsFacts, Vec<String>)> {
     let both = |_: &dyn Watcher| PyResult::Ok((this.shown(name)?, other.shown(name)?));
     let ((own, its), view) = (long(py, None, None, both)??, view(spot, size)?);
-    let right = Side { field: this.owned.field(), shown: &own };
-    let minus = Minus { right, left: Side { field: other.owned.field(), shown: &its } };
+    let right = DifferenceSide { field: this.owned.field(), shown: &own };
+    let minus =
+        FieldDifference { right, left: DifferenceSide { field: other.owned.field(), shown: &its } };
     let drawn = |watcher: &dyn Watcher| minus.draw(&view, watcher);
     let drawn = long(py, None, progress.as_ref(), drawn)?.map_err(rendering)?;
     let norms = NormsFacts::new(&drawn.norms.unwrap_or_default());
@@ -74,12 +75,12 @@ pub(crate) fn compare<'py>(
 
 /// A way of resampling, as Python's layer says it.
 #[derive(FromPyObject)]
-pub(crate) struct Way {
+pub(crate) struct ResamplingChoice {
     #[pyo3(item)]
     method: String,
     #[pyo3(item)]
     grid: [u32; 2],
-    /// True if the grid lies over the view, false if over the plate.
+    /// True if the grid lies over the view, false if over the body.
     #[pyo3(item)]
     over_view: bool,
     /// The relative error that a grid is looked for with.
@@ -87,9 +88,9 @@ pub(crate) struct Way {
     error: Option<f64>,
 }
 
-impl Way {
+impl ResamplingChoice {
     /// The grid, and what is done between its points; none for the cells of the cover.
-    fn of(&self, field: &Field, view: &View) -> PyResult<Option<(Grid, Interpolation)>> {
+    fn of(&self, field: &PyField, view: &View) -> PyResult<Option<(SampleGrid, Interpolation)>> {
         if self.method == "cells" {
             return Ok(None);
         }
@@ -101,22 +102,22 @@ impl Way {
             )));
         };
         let grid = match self.over_view {
-            true => Grid::over_view(view, self.grid),
-            false => Grid::over_domain(field.owned.field(), self.grid),
+            true => SampleGrid::over_view(view, self.grid),
+            false => SampleGrid::over_domain(field.owned.field(), self.grid),
         };
         let grid = grid.map_err(|error| RenderError::new_err(error.to_string()))?;
         Ok(Some((grid, interpolation)))
     }
 }
 
-/// A resampled picture beside the direct one, and how errors fall with finer grids.
+/// A resampled image beside the direct one, and how errors fall with finer grids.
 struct ResampledPicture {
     direct: Raster,
-    resampled: Resampled,
-    convergence: Option<Convergence>,
+    resampled: ResampledImage,
+    convergence: Option<GridConvergence>,
 }
 
-/// What is told of the grid for an error, in one norm.
+/// The facts about the grid for an error, in one norm.
 #[derive(IntoPyObject)]
 struct NeededFacts {
     kind: &'static str,
@@ -124,7 +125,7 @@ struct NeededFacts {
     reason: Option<&'static str>,
 }
 
-/// What is told of a resampled picture.
+/// The facts about a resampled image.
 #[derive(IntoPyObject)]
 pub(crate) struct ResampledFacts {
     /// Memory of the values that it is made of, and of all that the field is made of.
@@ -134,8 +135,8 @@ pub(crate) struct ResampledFacts {
 }
 
 impl ResampledFacts {
-    fn new(field: &Field, way: &Way, found: &ResampledPicture) -> Self {
-        let one = |found: &Convergence, error: f64| {
+    fn new(field: &PyField, way: &ResamplingChoice, found: &ResampledPicture) -> Self {
+        let one = |found: &GridConvergence, error: f64| {
             let needed = (0..3).map(|norm| NeededGrid::new(found.needed(norm, error)));
             needed
                 .map(|NeededGrid { kind, size, reason }| NeededFacts { kind, grid: size, reason })
@@ -148,43 +149,43 @@ impl ResampledFacts {
     }
 }
 
-impl Field {
+impl PyField {
     fn resampled(
         &self,
         quantity: &Quantity,
         view: &View,
-        grid: Option<(Grid, Interpolation)>,
+        grid: Option<(SampleGrid, Interpolation)>,
         error: Option<f64>,
         watcher: &dyn Watcher,
     ) -> Result<ResampledPicture, Undrawn> {
         let field = self.owned.field();
         let direct = render::<f64>(field, view, quantity, watcher)?;
         let Some((grid, interpolation)) = grid else {
-            let resampled = Resampled::on_cells(field, quantity, view, &direct, watcher)?;
+            let resampled = ResampledImage::on_cells(field, quantity, view, &direct, watcher)?;
             return Ok(ResampledPicture { direct, resampled, convergence: None });
         };
         let samples = grid.sample(field, quantity, watcher)?;
-        let resampled = Resampled::on_grid(&samples, interpolation, view, &direct);
+        let resampled = ResampledImage::on_grid(&samples, interpolation, view, &direct);
         let subject = ResamplingSetup { field, view, quantity, grid, interpolation };
         let convergence = error.map(|error| converge(&subject, error, watcher)).transpose()?;
         Ok(ResampledPicture { direct, resampled, convergence })
     }
 }
 
-/// What resampling makes of a quantity at the pixels of a view: its values, minus the exact ones
-/// too, norms of these.
+/// Resamples a quantity at the pixels of a view: its values, minus the exact ones too, norms of
+/// these.
 #[pyfunction]
 pub(crate) fn resample<'py>(
-    this: &Field,
+    this: &PyField,
     py: Python<'py>,
     name: &str,
-    way: Way,
-    spot: Spot,
+    way: ResamplingChoice,
+    spot: CenterAndWidth,
     size: [u32; 2],
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<(PyRows<'py>, PyRows<'py>, NormsFacts, ResampledFacts)> {
     let (what, view) = (long(py, None, None, |_| this.shown(name))??, view(spot, size)?);
-    let Shown::Quantity(quantity) = what else {
+    let DisplayedQuantity::Quantity(quantity) = what else {
         return Err(RenderError::new_err(format!(
             "`{name}` is constant in each cell: nothing is lost by resampling"
         )));

@@ -15,11 +15,11 @@ use crate::facts;
 use crate::watch::{guard, long};
 
 /// A dataset, which never changes.
-#[pyclass(frozen, module = "ppum._core")]
-pub(crate) struct Dataset(Steps);
+#[pyclass(name = "Dataset", frozen, module = "ppum._core")]
+pub(crate) struct PyDataset(StepStorage);
 
 /// The steps of a dataset.
-enum Steps {
+enum StepStorage {
     /// In memory.
     Whole(Arc<Data>),
     /// In a file, read when they are asked for.
@@ -28,25 +28,27 @@ enum Steps {
 
 /// Opens a file; one of several steps stays open.
 #[pyfunction]
-pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<Dataset> {
+pub(crate) fn read(py: Python<'_>, path: PathBuf) -> PyResult<PyDataset> {
     let name = path.display().to_string();
     let opened = long(py, None, None, |_| match Series::open(&path)? {
         series if series.can_grow() && series.len() > 1 => Ok(Err(series)),
         series => series.into_dataset(0).map(Ok),
     })?;
     match opened.map_err(|error| unreadable(&name, error))? {
-        Ok(data) => Ok(Dataset::new(data)),
-        Err(series) => {
-            Ok(Dataset(Steps::Stored { series: Box::new(series), name, newest: Mutex::default() }))
-        }
+        Ok(data) => Ok(PyDataset::new(data)),
+        Err(series) => Ok(PyDataset(StepStorage::Stored {
+            series: Box::new(series),
+            name,
+            newest: Mutex::default(),
+        })),
     }
 }
 
 /// Reads the bytes of a file.
 #[pyfunction]
-pub(crate) fn from_bytes(py: Python<'_>, bytes: Vec<u8>) -> PyResult<Dataset> {
+pub(crate) fn from_bytes(py: Python<'_>, bytes: Vec<u8>) -> PyResult<PyDataset> {
     let read = long(py, None, None, |_| decode(bytes))?;
-    read.map(Dataset::new).map_err(|error| unreadable("the bytes of a dataset", error))
+    read.map(PyDataset::new).map_err(|error| unreadable("the bytes of a dataset", error))
 }
 
 /// A copy without what differs from run to run: the seconds of phases and cells.
@@ -68,16 +70,16 @@ fn are_equal_untimed(one: &Data, other: &Data) -> bool {
         && untimed(one) == untimed(other)
 }
 
-impl Dataset {
+impl PyDataset {
     pub(crate) fn new(dataset: Data) -> Self {
-        Self(Steps::Whole(Arc::new(dataset)))
+        Self(StepStorage::Whole(Arc::new(dataset)))
     }
 
-    /// What all steps have in common.
+    /// Returns the data that all steps have in common.
     fn head(&self) -> &Data {
         match &self.0 {
-            Steps::Whole(data) => data,
-            Steps::Stored { series, .. } => series.head(),
+            StepStorage::Whole(data) => data,
+            StepStorage::Stored { series, .. } => series.head(),
         }
     }
 
@@ -93,8 +95,8 @@ impl Dataset {
             )));
         }
         match &self.0 {
-            Steps::Whole(data) => Ok(Arc::clone(data)),
-            Steps::Stored { series, name, newest } => {
+            StepStorage::Whole(data) => Ok(Arc::clone(data)),
+            StepStorage::Stored { series, name, newest } => {
                 let known = || newest.lock().unwrap_or_else(PoisonError::into_inner);
                 if let Some((_, data)) = known().as_ref().filter(|(of, _)| *of == number) {
                     return Ok(Arc::clone(data));
@@ -110,8 +112,8 @@ impl Dataset {
     /// The dataset with all steps, or with what the solver tells of them alone.
     fn filled(&self, is_whole: bool) -> PyResult<Arc<Data>> {
         let (series, name) = match &self.0 {
-            Steps::Whole(data) => return Ok(Arc::clone(data)),
-            Steps::Stored { series, name, .. } => (series, name),
+            StepStorage::Whole(data) => return Ok(Arc::clone(data)),
+            StepStorage::Stored { series, name, .. } => (series, name),
         };
         let step = |number| match is_whole {
             true => series.dataset(number).map(|mut data| data.steps.remove(0)),
@@ -141,7 +143,7 @@ impl Dataset {
 }
 
 #[pymethods]
-impl Dataset {
+impl PyDataset {
     /// Writes a file, in one step: what was there before stays until the new one is complete.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         long(py, None, None, |_| write(&*self.whole()?, &path).map_err(unwritable))?
@@ -154,17 +156,17 @@ impl Dataset {
 
     fn __len__(&self) -> usize {
         match &self.0 {
-            Steps::Whole(data) => data.steps.len(),
-            Steps::Stored { series, .. } => series.len(),
+            StepStorage::Whole(data) => data.steps.len(),
+            StepStorage::Stored { series, .. } => series.len(),
         }
     }
 
     /// True if steps are read when they are asked for.
     fn is_stored(&self) -> bool {
-        matches!(self.0, Steps::Stored { .. })
+        matches!(self.0, StepStorage::Stored { .. })
     }
 
-    /// Whether all numbers and texts are equal, but for the times that solving took.
+    /// Whether all numbers and texts are equal, except for the times that solving took.
     fn __eq__(&self, py: Python<'_>, other: &Self) -> PyResult<bool> {
         if self.__len__() != other.__len__() {
             return Ok(false);
@@ -175,12 +177,12 @@ impl Dataset {
         })?
     }
 
-    /// What all steps have in common, as JSON.
+    /// Returns the data that all steps have in common, as JSON.
     fn about(&self) -> PyResult<String> {
         guard(|| Ok(facts::about(self.head())))
     }
 
-    /// What is in a step but for its fields, as JSON.
+    /// Returns the content of a step except for its fields, as JSON.
     fn step(&self, py: Python<'_>, number: usize) -> PyResult<String> {
         long(py, None, None, |_| Ok(facts::step_json(&*self.at(number)?, number)))?
     }

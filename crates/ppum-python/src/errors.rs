@@ -10,12 +10,12 @@ use ppum::quantity::QuantityError as BadQuantity;
 use ppum_format::{ReadError, WriteError};
 use ppum_fracture::growth::GrowthError;
 use ppum_fracture::solve::SolveError as Unsolved;
-use ppum_problem::{Location, Mistake, ProblemError as Mistakes};
+use ppum_problem::{Diagnostic, ProblemError as Mistakes, ProblemLocation};
 use ppum_scene::layers::LayersError;
 use ppum_scene::place::PlaceError;
 use ppum_scene::profile::ProfileError;
-use ppum_scene::scene::{ShownError, SubjectError};
-use ppum_scene::shot::ShotError;
+use ppum_scene::scene::{DisplayError, SubjectError};
+use ppum_scene::shot::ImageError;
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt, PyOSError};
 use pyo3::import_exception;
 use pyo3::prelude::*;
@@ -49,7 +49,7 @@ pub(crate) fn unreadable(of: &str, error: ReadError) -> PyErr {
     }
 }
 
-/// Arrays that make no dataset: one line for each mistake.
+/// Arrays that make no dataset: one line for each error.
 pub(crate) fn unbuilt(errors: &[ReadError]) -> PyErr {
     let line = |error: &ReadError| match error {
         ReadError::Invalid(error) => error.to_string(),
@@ -68,21 +68,23 @@ pub(crate) fn unwritable(error: WriteError) -> PyErr {
     }
 }
 
-/// One mistake of a problem: file or key, line and column where they are known, what is wrong.
+/// One error of a problem: file or key, line and column where they are known, what is wrong.
 #[derive(IntoPyObject)]
-pub(crate) struct Finding {
+pub(crate) struct ProblemFinding {
     place: String,
     line: Option<usize>,
     column: Option<usize>,
     message: String,
 }
 
-impl Finding {
-    fn new(mistake: &Mistake) -> Self {
+impl ProblemFinding {
+    fn new(mistake: &Diagnostic) -> Self {
         let (place, line, column) = match &mistake.location {
-            Location::File(file) => (file.clone(), None, None),
-            Location::Text { file, line, column } => (file.clone(), Some(*line), Some(*column)),
-            Location::Key(key) => (key.clone(), None, None),
+            ProblemLocation::File(file) => (file.clone(), None, None),
+            ProblemLocation::Text { file, line, column } => {
+                (file.clone(), Some(*line), Some(*column))
+            }
+            ProblemLocation::Key(key) => (key.clone(), None, None),
         };
         Self { place, line, column, message: mistake.message.clone() }
     }
@@ -94,7 +96,7 @@ impl Finding {
 
 /// A problem that cannot be read, with its findings.
 pub(crate) fn problem(mistakes: &Mistakes) -> PyErr {
-    ProblemError::new_err((mistakes.to_string(), Finding::all(mistakes)))
+    ProblemError::new_err((mistakes.to_string(), ProblemFinding::all(mistakes)))
 }
 
 /// Work that was stopped: by nobody but Python, which raises its own exception then.
@@ -127,7 +129,8 @@ pub(crate) fn no_field(error: FieldError) -> PyErr {
     }
 }
 
-/// What is no quantity of a field, nor a change that can be made in it.
+/// Converts the error of a text that is no quantity of a field, or no change that can be made in
+/// it.
 pub(crate) fn quantity(error: &BadQuantity) -> PyErr {
     QuantityError::new_err(error.to_string())
 }
@@ -136,30 +139,30 @@ pub(crate) fn subject(error: &SubjectError) -> PyErr {
     QuantityError::new_err(error.to_string())
 }
 
-/// A picture that cannot be drawn.
-pub(crate) fn picture(error: ShotError) -> PyErr {
+/// An image that cannot be drawn.
+pub(crate) fn picture(error: ImageError) -> PyErr {
     match error {
-        ShotError::Render(error) => rendering(error),
-        ShotError::Layers(layers) => match *layers {
+        ImageError::Render(error) => rendering(error),
+        ImageError::Layers(layers) => match *layers {
             LayersError::Render(error) => rendering(*error),
             error => RenderError::new_err(error.to_string()),
         },
-        ShotError::Shown(error) => not_shown(&error),
-        ShotError::Place(error @ PlaceError::Tip { .. }) => {
+        ImageError::Shown(error) => not_shown(&error),
+        ImageError::Place(error @ PlaceError::Tip { .. }) => {
             PyIndexError::new_err(error.to_string())
         }
         error => RenderError::new_err(error.to_string()),
     }
 }
 
-pub(crate) fn not_shown(error: &ShownError) -> PyErr {
+pub(crate) fn not_shown(error: &DisplayError) -> PyErr {
     QuantityError::new_err(error.to_string())
 }
 
-pub(crate) fn rendering(error: ppum_render::RenderError) -> PyErr {
+pub(crate) fn rendering(error: ppum_render::RasterError) -> PyErr {
     match error {
-        ppum_render::RenderError::Cancelled(error) => cancelled(error),
-        ppum_render::RenderError::Quantity(error) => quantity(&error),
+        ppum_render::RasterError::Cancelled(error) => cancelled(error),
+        ppum_render::RasterError::Quantity(error) => quantity(&error),
         error => RenderError::new_err(error.to_string()),
     }
 }

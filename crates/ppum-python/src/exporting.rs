@@ -3,19 +3,19 @@
 use numpy::{PyArray1, PyArray2, PyArrayMethods as _};
 use ppum::vec2::Vec2;
 use ppum_format::to_bytes;
-use ppum_page::{LARGEST, Start, View, html};
+use ppum_page::{LARGEST, PageStart, PageView, html};
 use ppum_scene::export::vtkhdf::{ExportedStep, MOST_BYTES, file};
-use ppum_scene::export::vtu::{About, write};
-use ppum_scene::export::{Accuracy, Array, ExportError, resolve};
+use ppum_scene::export::vtu::{FileNotes, write};
+use ppum_scene::export::{Accuracy, ExportError, PointArray, resolve};
 use ppum_scene::request::Request;
 use ppum_scene::scene::Subject;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::dataset::Dataset;
+use crate::dataset::PyDataset;
 use crate::errors::{RenderError, cancelled, quantity, unwritable};
-use crate::field::Field;
-use crate::picture::Spot;
+use crate::field::PyField;
+use crate::picture::CenterAndWidth;
 use crate::watch::long;
 
 /// Columns and rows that give the first view of a page its shape.
@@ -117,7 +117,7 @@ pub(crate) fn vtkhdf(py: Python<'_>, steps: Vec<Py<Triangles>>) -> PyResult<Boun
 #[expect(clippy::too_many_arguments, reason = "Python's layer names them")]
 pub(crate) fn triangles(
     py: Python<'_>,
-    this: &Field,
+    this: &PyField,
     names: Option<Vec<String>>,
     tolerance: f64,
     radius: Option<f64>,
@@ -130,7 +130,7 @@ pub(crate) fn triangles(
     let (field, arrays) = (this.owned.field(), this.arrays(names)?);
     let accuracy = Accuracy { tolerance, radius, cells: most, order, average };
     let mesh = long(py, None, progress, |watcher| resolve(field, &arrays, &accuracy, watcher))?;
-    let about = About::of(this.owned.dataset(), field, hash);
+    let about = FileNotes::of(this.owned.dataset(), field, hash);
     let mesh = mesh.map_err(unexported)?;
     Ok(Triangles { step: ExportedStep { load: field.step.load, mesh, about } })
 }
@@ -139,10 +139,10 @@ pub(crate) fn triangles(
 #[pyfunction]
 pub(crate) fn page(
     py: Python<'_>,
-    this: &Field,
-    dataset: &Dataset,
+    this: &PyField,
+    dataset: &PyDataset,
     request: &str,
-    at: Option<Spot>,
+    at: Option<CenterAndWidth>,
     file: String,
 ) -> PyResult<String> {
     let Request { mut scene, .. } = this.request(request)?;
@@ -151,8 +151,8 @@ pub(crate) fn page(
     let whole = if changed.steps.len() > 1 { Some(dataset.whole()?) } else { None };
     let dataset = whole.as_deref().unwrap_or(changed);
     scene.subject = Subject { step: Some(step), ..Subject::default() };
-    let view = at.map(|((x, y), width)| View { center: [x, y], width, pixels: SHAPE });
-    let start = Start::new(scene, this.source(), view, file);
+    let view = at.map(|((x, y), width)| PageView { center: [x, y], width, pixels: SHAPE });
+    let start = PageStart::new(scene, this.source(), view, file);
     let start = start.map_err(|error| RenderError::new_err(error.to_string()))?;
     let bytes = long(py, None, None, |_| to_bytes(dataset))?.map_err(unwritable)?;
     if bytes.len() as u64 > LARGEST {
@@ -163,14 +163,15 @@ pub(crate) fn page(
     page.map_err(|error| RenderError::new_err(error.to_string()))
 }
 
-impl Field {
+impl PyField {
     /// The arrays of these names: of those that suit, else scalars.
-    fn arrays(&self, names: Option<Vec<String>>) -> PyResult<Vec<Array>> {
-        let suitable = Array::defaults(self.owned.field()).map_err(|error| quantity(&error))?;
+    fn arrays(&self, names: Option<Vec<String>>) -> PyResult<Vec<PointArray>> {
+        let suitable =
+            PointArray::defaults(self.owned.field()).map_err(|error| quantity(&error))?;
         let Some(names) = names else { return Ok(suitable) };
         let array = |name: String| match suitable.iter().find(|array| array.name == name) {
             Some(known) => Ok(known.clone()),
-            None => Ok(Array::scalar(&name, self.quantity(&name)?)),
+            None => Ok(PointArray::scalar(&name, self.quantity(&name)?)),
         };
         names.into_iter().map(array).collect()
     }

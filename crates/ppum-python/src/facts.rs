@@ -4,15 +4,15 @@ use ppum::crack::tips;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::quantity::{Quantity, available};
-use ppum_scene::facts::{About, Crack, Number, Results, Tip};
+use ppum_scene::facts::{CommonFacts, CrackFacts, JsonNumber, ResultFacts, Tip};
 use pyo3::prelude::*;
 use serde::Serialize;
 
-/// What all steps have in common.
+/// The data that all steps have in common.
 #[derive(Serialize)]
 struct DatasetFacts<'d> {
     #[serde(flatten)]
-    about: About,
+    about: CommonFacts,
     problem: Option<&'d str>,
 }
 
@@ -21,40 +21,40 @@ struct DatasetFacts<'d> {
 struct StepFacts<'d> {
     load: f64,
     patches: usize,
-    cracks: Vec<Crack>,
+    cracks: Vec<CrackFacts>,
     functions: Vec<&'d str>,
     /// Names of the components of the first field.
     components: &'d [String],
     #[serde(flatten)]
-    results: &'d Results,
+    results: &'d ResultFacts,
     tips: &'d [Tip],
     /// The ends of their cracks that the tips are.
     ends: Vec<&'static str>,
     /// Curvature and path of what each tip does next.
-    arcs: Vec<(Number, Vec<[f64; 2]>)>,
+    arcs: Vec<(JsonNumber, Vec<[f64; 2]>)>,
 }
 
-/// What all steps of a dataset have in common, as JSON.
+/// Returns the data that all steps of a dataset have in common, as JSON.
 pub(crate) fn about(dataset: &Dataset) -> String {
-    json(&DatasetFacts { about: About::new(dataset), problem: dataset.problem.as_deref() })
+    json(&DatasetFacts { about: CommonFacts::new(dataset), problem: dataset.problem.as_deref() })
 }
 
-/// What is in a step that there is, as JSON.
+/// Returns the content of an existing step, as JSON.
 pub(crate) fn step_json(dataset: &Dataset, number: usize) -> String {
     let step = &dataset.steps[number];
-    let results = Results::new(dataset, number);
+    let results = ResultFacts::new(dataset, number);
     let arcs = step.growth.iter().flat_map(|growth| &growth.tips);
-    let path = |tip: &ppum::dataset::Advance| tip.path.iter().map(|&p| p.into()).collect();
+    let path = |tip: &ppum::dataset::TipIncrement| tip.path.iter().map(|&p| p.into()).collect();
     json(&StepFacts {
         load: step.load,
         patches: step.partition.len(),
-        cracks: step.cracks.iter().map(Crack::new).collect(),
+        cracks: step.cracks.iter().map(CrackFacts::new).collect(),
         functions: step.functions.iter().map(|f| f.name.as_str()).collect(),
         components: step.fields.first().map_or(&[], |field| &field.components),
         tips: &results.tips,
         results: &results,
         ends: tips(&step.cracks).map(|tip| tip.end.name()).collect(),
-        arcs: arcs.map(|tip| (Number(tip.curvature), path(tip))).collect(),
+        arcs: arcs.map(|tip| (JsonNumber(tip.curvature), path(tip))).collect(),
     })
 }
 

@@ -1,4 +1,4 @@
-//! Fields: values at points, along curves, and pictures of them.
+//! Fields: values at points, along curves, and images of them.
 
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -7,20 +7,20 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods as _, PyReadonlyArray1, PyReadwri
 use ppum::crack::Side;
 use ppum::dataset::Dataset as Data;
 use ppum::quantity::{Quantity, QuantityGradient};
-use ppum::sample::Wanted;
+use ppum::sample::SampledQuantity;
 use ppum::vec2::Vec2;
 use ppum_scene::drawing::single_precision_warning;
-use ppum_scene::profile::Along;
+use ppum_scene::profile::ProfileCurve;
 use ppum_scene::scene::{Subject, default_quantity};
 use ppum_scene::shot::of_step;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::dataset::Dataset;
+use crate::dataset::PyDataset;
 use crate::errors::{no_field, no_profile, quantity, subject};
 use crate::facts::QuantityFacts;
-use crate::owned::Owned;
-use crate::values::Points;
+use crate::owned::PyOwnedField;
+use crate::values::PointArrays;
 use crate::watch::{guard, long};
 
 /// Points that are evaluated on the calling thread, which takes less time than to wake others.
@@ -30,15 +30,15 @@ const FEW: usize = 256;
 const KEPT: usize = 256;
 
 /// A field of one step, ready to be evaluated.
-#[pyclass(frozen, module = "ppum._core")]
-pub(crate) struct Field {
-    pub(crate) owned: Owned,
-    /// What titles tell of it: its step, where the dataset has several, and the part.
+#[pyclass(name = "Field", frozen, module = "ppum._core")]
+pub(crate) struct PyField {
+    pub(crate) owned: PyOwnedField,
+    /// The subject that titles name: its step, where the dataset has several, and the part.
     pub(crate) told: Subject,
     quantities: Mutex<HashMap<String, Quantity>>,
 }
 
-impl Field {
+impl PyField {
     /// The quantity of a name, with `_` or `-`, or of a formula.
     pub(crate) fn quantity(&self, name: &str) -> PyResult<Quantity> {
         let mut known = self.quantities.lock().unwrap_or_else(PoisonError::into_inner);
@@ -83,8 +83,8 @@ impl Field {
     fn fill(
         &self,
         py: Python<'_>,
-        points: Points<'_>,
-        wanted: Wanted<'_>,
+        points: PointArrays<'_>,
+        wanted: SampledQuantity<'_>,
         rows: &mut [f64],
     ) -> PyResult<()> {
         let seen = self.owned.seen();
@@ -109,10 +109,10 @@ fn slice<'a>(array: &'a PyReadonlyArray1<'_, f64>) -> PyResult<&'a [f64]> {
 }
 
 #[pymethods]
-impl Field {
+impl PyField {
     /// The first field of a step, of a dataset that is changed as `subject` says.
     #[new]
-    fn new(py: Python<'_>, dataset: &Dataset, step: usize, subject: &str) -> PyResult<Self> {
+    fn new(py: Python<'_>, dataset: &PyDataset, step: usize, subject: &str) -> PyResult<Self> {
         let subject = written::<Subject>(subject)?;
         let owned = long(py, None, None, |_| changed(dataset.at(step)?, step, &subject))??;
         // what is changed is a copy of one step
@@ -124,8 +124,8 @@ impl Field {
     /// A quantity at one point.
     fn value(&self, name: &str, x: f64, y: f64, is_below: bool) -> PyResult<f64> {
         let quantity = self.quantity(name)?;
-        let points = Points { x: &[x], y: &[y], anchor: None, side: side(is_below) };
-        guard(|| Ok(points.few(self.owned.seen(), Wanted::Values(&[quantity]))[0]))
+        let points = PointArrays { x: &[x], y: &[y], anchor: None, side: side(is_below) };
+        guard(|| Ok(points.few(self.owned.seen(), SampledQuantity::Values(&[quantity]))[0]))
     }
 
     /// Quantities at points, or with their gradients, in rows; `out` takes them if it is given.
@@ -147,10 +147,14 @@ impl Field {
             return Err(PyValueError::new_err("x and y have different lengths"));
         }
         let anchor = anchor.map(|(x, y)| Vec2 { x, y });
-        let points = Points { x, y, anchor, side: side(is_below) };
+        let points = PointArrays { x, y, anchor, side: side(is_below) };
         let quantities = self.quantities(&names)?;
         let slopes = if gradient { self.slopes(&quantities)? } else { Vec::new() };
-        let wanted = if gradient { Wanted::Slopes(&slopes) } else { Wanted::Values(&quantities) };
+        let wanted = if gradient {
+            SampledQuantity::Slopes(&slopes)
+        } else {
+            SampledQuantity::Values(&quantities)
+        };
         if let Some(mut out) = out {
             let rows = out.as_slice_mut()?;
             if rows.len() != x.len() * wanted.width() {
@@ -186,7 +190,7 @@ impl Field {
         default_quantity(self.owned.field()).to_owned()
     }
 
-    /// The warning about pictures in single precision, if they are wrong.
+    /// The warning about images in single precision, if they are wrong.
     fn single_precision_warning(&self) -> Option<String> {
         single_precision_warning(self.owned.field().step)
     }
@@ -204,7 +208,7 @@ impl Field {
         count: usize,
         names: Vec<String>,
     ) -> PyResult<(Vec<(String, String)>, Bound<'py, PyArray2<f64>>)> {
-        let along = written::<Along>(along)?;
+        let along = written::<ProfileCurve>(along)?;
         let named: Vec<_> = names.iter().cloned().zip(self.quantities(&names)?).collect();
         let field = self.owned.field();
         let profile = long(py, None, None, |watcher| along.table(field, &named, count, watcher))?
@@ -217,8 +221,8 @@ impl Field {
     }
 }
 
-/// What Python's layer has written as JSON. Errors do not tell the place in that text, which nobody
-/// has seen.
+/// Parses JSON that the Python layer has written. Errors do not tell the place in that text, which
+/// nobody has seen.
 pub(crate) fn written<V: serde::de::DeserializeOwned>(text: &str) -> PyResult<V> {
     serde_json::from_str(text).map_err(|error| {
         let message = error.to_string();
@@ -228,9 +232,9 @@ pub(crate) fn written<V: serde::de::DeserializeOwned>(text: &str) -> PyResult<V>
 }
 
 /// The field of a step, of a copy of it if something is changed.
-fn changed(data: Arc<Data>, step: usize, what: &Subject) -> PyResult<Owned> {
+fn changed(data: Arc<Data>, step: usize, what: &Subject) -> PyResult<PyOwnedField> {
     if what.is_whole() {
-        return Owned::new(data, step).map_err(no_field);
+        return PyOwnedField::new(data, step).map_err(no_field);
     }
     let mut copy = Data::new(data.domain.clone(), data.equation.clone());
     copy.title = of_step(&data, step);
@@ -239,5 +243,5 @@ fn changed(data: Arc<Data>, step: usize, what: &Subject) -> PyResult<Owned> {
     copy.tables.clone_from(&data.tables);
     copy.steps.push(data.steps[step].clone());
     what.apply(&mut copy).map_err(|error| subject(&error))?;
-    Owned::new(Arc::new(copy), 0).map_err(no_field)
+    PyOwnedField::new(Arc::new(copy), 0).map_err(no_field)
 }

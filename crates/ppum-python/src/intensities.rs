@@ -4,14 +4,14 @@ use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::Watcher;
 use ppum_fracture::diagnostics::{RecomputeError, recompute};
-use ppum_fracture::intensity::{CircleError, TipOutcome, on_circle};
+use ppum_fracture::intensity::{CircleError, TipResult, on_circle};
 use ppum_problem::Problem;
 use ppum_scene::facts::Tip;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 
 use crate::errors::{SolveError, cancelled, no_field};
-use crate::field::Field;
+use crate::field::PyField;
 use crate::watch::long;
 
 /// The tips as JSON with the names of their ends, and the messages of the diagnostics.
@@ -21,7 +21,7 @@ type TipResults = (String, Vec<&'static str>, Vec<String>);
 /// discs that the solver chooses.
 #[pyfunction]
 pub(crate) fn intensities(
-    this: &Field,
+    this: &PyField,
     py: Python<'_>,
     on: Option<(usize, f64)>,
     progress: Option<Bound<'_, PyAny>>,
@@ -60,7 +60,7 @@ fn all(
         RecomputeError::Field(error) => no_field(error),
         error => SolveError::new_err(error.to_string()),
     })?;
-    let tip = |outcome: &TipOutcome| {
+    let tip = |outcome: &TipResult| {
         let unknown = || TipIntensity::new(outcome.tip, f64::NAN, f64::NAN);
         Tip::new(dataset, step, &outcome.factors.clone().unwrap_or_else(unknown))
     };

@@ -1,4 +1,4 @@
-//! The compiled part of the Python package `ppum`: datasets, fields, problems and pictures as
+//! The compiled part of the Python package `ppum`: datasets, fields, problems and images as
 //! Python's objects.
 //!
 //! People import `ppum`, whose Python is beside this crate in `python/ppum`: names, defaults,
@@ -34,11 +34,11 @@ mod _core {
     #[pymodule_export]
     use crate::compare::{compare, resample};
     #[pymodule_export]
-    use crate::dataset::{Dataset, from_bytes, read};
+    use crate::dataset::{PyDataset, from_bytes, read};
     #[pymodule_export]
     use crate::exporting::{Triangles, page, triangles, vtkhdf};
     #[pymodule_export]
-    use crate::field::Field;
+    use crate::field::PyField;
     #[pymodule_export]
     use crate::intensities::intensities;
     #[pymodule_export]

@@ -1,74 +1,76 @@
-//! Moving pictures of the steps of a series.
+//! Animations of the steps of a series.
 
 use ppum::progress::Watcher;
 use ppum_scene::engine::Engine;
-use ppum_scene::moving::{AnimationFormat, Film, Frames, MovingError, Work, with_subject};
+use ppum_scene::image_job::ImageSettings;
+use ppum_scene::moving::{
+    AnimationFormat, FrameSource, MovingError, SeriesAnimation, Work, with_subject,
+};
 use ppum_scene::request::Request;
 use ppum_scene::scene::Subject;
-use ppum_scene::still::Common;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::dataset::Dataset;
+use crate::dataset::PyDataset;
 use crate::errors::{RenderError, no_field, picture, subject};
-use crate::field::{Field, written};
+use crate::field::{PyField, written};
 use crate::picture::made;
 use crate::watch::long;
 
 /// Some steps of a dataset, of which one at a time is read.
-struct Reel<'a> {
-    dataset: &'a Dataset,
+struct SelectedSteps<'a> {
+    dataset: &'a PyDataset,
     request: Request,
     steps: Vec<usize>,
 }
 
 /// The reason why there is no animation: a step that cannot be read, or drawn.
-enum Unmoved {
+enum StepError {
     Read(PyErr),
     Drawn(MovingError),
 }
 
-impl<E: Into<MovingError>> From<E> for Unmoved {
+impl<E: Into<MovingError>> From<E> for StepError {
     fn from(error: E) -> Self {
         Self::Drawn(error.into())
     }
 }
 
-impl From<Unmoved> for PyErr {
-    fn from(error: Unmoved) -> Self {
+impl From<StepError> for PyErr {
+    fn from(error: StepError) -> Self {
         match error {
-            Unmoved::Read(error) => error,
-            Unmoved::Drawn(MovingError::Field(error)) => no_field(error),
-            Unmoved::Drawn(MovingError::Subject(error)) => subject(&error),
-            Unmoved::Drawn(MovingError::Shot(error)) => picture(*error),
-            Unmoved::Drawn(error) => RenderError::new_err(error.to_string()),
+            StepError::Read(error) => error,
+            StepError::Drawn(MovingError::Field(error)) => no_field(error),
+            StepError::Drawn(MovingError::Subject(error)) => subject(&error),
+            StepError::Drawn(MovingError::Shot(error)) => picture(*error),
+            StepError::Drawn(error) => RenderError::new_err(error.to_string()),
         }
     }
 }
 
-impl Frames for Reel<'_> {
-    type Error = Unmoved;
+impl FrameSource for SelectedSteps<'_> {
+    type Error = StepError;
 
     fn count(&self) -> usize {
         self.steps.len()
     }
 
-    fn with(&self, number: usize, work: &mut Work<'_, Unmoved>) -> Result<(), Unmoved> {
+    fn with(&self, number: usize, work: &mut Work<'_, StepError>) -> Result<(), StepError> {
         let step = self.steps[number];
-        let data = self.dataset.at(step).map_err(Unmoved::Read)?;
+        let data = self.dataset.at(step).map_err(StepError::Read)?;
         with_subject(&data, &self.request.at_step(step), work)
     }
 }
 
-/// The bytes of a moving picture of some steps, `gif` or `apng`, each shown for some milliseconds.
+/// The bytes of an animation of some steps, `gif` or `apng`, each shown for some milliseconds.
 /// `this` is the field of one of them, changed as the others are by `changes`.
 #[pyfunction]
 #[expect(clippy::too_many_arguments, reason = "Python's layer names them")]
 pub(crate) fn animation<'py>(
-    this: &Field,
+    this: &PyField,
     py: Python<'py>,
-    dataset: &Dataset,
+    dataset: &PyDataset,
     changes: &str,
     request: &str,
     steps: Vec<usize>,
@@ -89,11 +91,11 @@ pub(crate) fn animation<'py>(
     request.scene.subject = written::<Subject>(changes)?;
     let title = this.owned.dataset().title.clone();
     #[expect(clippy::result_large_err, reason = "one for a whole film")]
-    let drawn = |engine: &Engine<'_>| -> Result<Vec<u8>, Unmoved> {
-        let mut frames = Reel { dataset, request: request.clone(), steps };
+    let drawn = |engine: &Engine<'_>| -> Result<Vec<u8>, StepError> {
+        let mut frames = SelectedSteps { dataset, request: request.clone(), steps };
         frames.request = frames.settled(&request)?;
-        let Common { placing, design } = Common::new(&frames, &request)?;
-        let film = Film::new(&frames, &placing, design.as_ref(), engine)?;
+        let ImageSettings { placing, design } = ImageSettings::new(&frames, &request)?;
+        let film = SeriesAnimation::new(&frames, &placing, design.as_ref(), engine)?;
         let title = |_: &_| vec![("Title".into(), title.clone())];
         let mut bytes = Vec::new();
         film.write(form, milliseconds, &title, &mut bytes)?;

@@ -4,24 +4,24 @@ use std::sync::Arc;
 
 use ppum::dataset::Dataset;
 use ppum::field::{Field, FieldError};
-use ppum::sample::Seats;
+use ppum::sample::AnchorMap;
 use self_cell::self_cell;
 
 /// A compiled field, and where its points are seen from.
 pub(crate) struct AnchoredField<'d> {
     pub(crate) field: Field<'d>,
-    pub(crate) seats: Seats<'d>,
+    pub(crate) seats: AnchorMap<'d>,
 }
 
 impl<'d> AnchoredField<'d> {
     fn new(dataset: &'d Dataset, step: usize) -> Result<Self, FieldError> {
         let field = Field::new(dataset, step)?;
-        Ok(Self { seats: Seats::new(&field), field })
+        Ok(Self { seats: AnchorMap::new(&field), field })
     }
 }
 
 self_cell!(
-    struct Both {
+    struct FieldInDataset {
         owner: Arc<Dataset>,
         #[covariant]
         dependent: AnchoredField,
@@ -29,16 +29,16 @@ self_cell!(
 );
 
 /// The first field of a step, with its dataset.
-pub(crate) struct Owned {
-    both: Both,
+pub(crate) struct PyOwnedField {
+    both: FieldInDataset,
     step: usize,
 }
 
-impl Owned {
+impl PyOwnedField {
     /// # Errors
     /// No such step; functions that cannot be compiled.
     pub(crate) fn new(dataset: Arc<Dataset>, step: usize) -> Result<Self, FieldError> {
-        let both = Both::try_new(dataset, |dataset| AnchoredField::new(dataset, step))?;
+        let both = FieldInDataset::try_new(dataset, |dataset| AnchoredField::new(dataset, step))?;
         Ok(Self { both, step })
     }
 

@@ -1,4 +1,4 @@
-//! Pictures: values at pixels, colours, figures, extreme values.
+//! Images: values at pixels, colours, figures, extreme values.
 
 use std::collections::BTreeMap;
 
@@ -11,29 +11,29 @@ use ppum_figure::figure::{Labels, bare};
 use ppum_figure::form::PageFormat;
 use ppum_figure::ticks;
 use ppum_render::colormap::{Colormap, NAMES};
-use ppum_render::extrema::{BodyRegion, Extremum, On, extrema};
-use ppum_render::png::{Text, encode_quickly};
-use ppum_render::raster::{Raster, Sample};
+use ppum_render::extrema::{BodyRegion, Extremum, ExtremumSite, extrema};
+use ppum_render::png::{TextChunk, encode_quickly};
+use ppum_render::raster::{Raster, RasterValue};
 use ppum_render::view::View;
-use ppum_scene::drawing::{Drawn, RasterValues, Shown};
+use ppum_scene::drawing::{DisplayedQuantity, PixelValues, RasterValues};
 use ppum_scene::engine::Engine;
 use ppum_scene::help::TEXTS;
+use ppum_scene::image_job::ImageJob;
 use ppum_scene::notice::Notice;
-use ppum_scene::panels::{DrawnPanels, datasets, draw};
+use ppum_scene::panels::{PanelImages, datasets, draw};
 use ppum_scene::request::Request;
 use ppum_scene::scene::{Subject, shown};
-use ppum_scene::shot::{FieldSource, Shot, shot};
-use ppum_scene::still::Still;
+use ppum_scene::shot::{FieldSource, RenderedImage, shot};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::errors::{RenderError, no_field, not_shown, picture, rendering, subject};
-use crate::field::{Field, written};
+use crate::field::{PyField, written};
 use crate::watch::{guard, long};
 
 /// Centre and width of a view.
-pub(crate) type Spot = ((f64, f64), f64);
+pub(crate) type CenterAndWidth = ((f64, f64), f64);
 
 /// Names of the built-in colour maps.
 #[pyfunction]
@@ -48,7 +48,7 @@ pub(crate) fn colormap(name: &str) -> PyResult<Vec<(u8, u8, u8)>> {
     Ok(map.palette(BAR).into_iter().map(|[r, g, b, _]| (r, g, b)).collect())
 }
 
-/// What options of pictures do, by their names in the program.
+/// The effects of the options of images, by their names in the program.
 #[pyfunction]
 pub(crate) fn option_texts() -> BTreeMap<&'static str, &'static str> {
     TEXTS.iter().map(|(name, text)| (&**name, &**text)).collect()
@@ -63,7 +63,7 @@ pub(crate) fn default_request() -> PyResult<String> {
 
 /// Raises what `figure` and `rgba` would raise of a request before they draw.
 #[pyfunction]
-pub(crate) fn check_request(this: &Field, request: &str) -> PyResult<()> {
+pub(crate) fn check_request(this: &PyField, request: &str) -> PyResult<()> {
     let Request { scene, panels, .. } = this.request(request)?;
     for name in scene.quantity.iter().chain(&panels.quantities) {
         guard(|| this.shown(name).map(drop))?;
@@ -73,7 +73,7 @@ pub(crate) fn check_request(this: &Field, request: &str) -> PyResult<()> {
     map.map(drop).map_err(|error| RenderError::new_err(error.to_string()))
 }
 
-pub(crate) fn view(((x, y), width): Spot, size: [u32; 2]) -> PyResult<View> {
+pub(crate) fn view(((x, y), width): CenterAndWidth, size: [u32; 2]) -> PyResult<View> {
     View::new(Vec2 { x, y }, width, size).map_err(|error| RenderError::new_err(error.to_string()))
 }
 
@@ -91,8 +91,8 @@ impl ExtremumFacts {
     fn new(found: Extremum, center: Vec2) -> Self {
         let (at, offset) = (center + found.offset, found.offset);
         let side = match found.on {
-            On::Face(_, Side::Above) => Some("above"),
-            On::Face(_, Side::Below) => Some("below"),
+            ExtremumSite::Face(_, Side::Above) => Some("above"),
+            ExtremumSite::Face(_, Side::Below) => Some("below"),
             _ => None,
         };
         let on = found.on.name();
@@ -100,8 +100,8 @@ impl ExtremumFacts {
     }
 }
 
-impl Field {
-    pub(crate) fn shown(&self, name: &str) -> PyResult<Shown> {
+impl PyField {
+    pub(crate) fn shown(&self, name: &str) -> PyResult<DisplayedQuantity> {
         shown(&self.spelled(name), self.owned.field()).map_err(|error| not_shown(&error))
     }
 
@@ -119,10 +119,10 @@ impl Field {
         FieldSource::of(self.owned.dataset(), self.owned.field())
     }
 
-    fn raster<T: Sample>(
+    fn raster<T: RasterValue>(
         &self,
         py: Python<'_>,
-        what: &Shown,
+        what: &DisplayedQuantity,
         view: &View,
         progress: Option<&Bound<'_, PyAny>>,
     ) -> PyResult<RasterValues>
@@ -131,10 +131,10 @@ impl Field {
     {
         let field = self.owned.field();
         match what {
-            Shown::Cells(_, values) => {
-                long(py, None, progress, |_| Drawn::of_cells(values, field, view).values)
+            DisplayedQuantity::Cells(_, values) => {
+                long(py, None, progress, |_| PixelValues::of_cells(values, field, view).values)
             }
-            Shown::Quantity(quantity) => {
+            DisplayedQuantity::Quantity(quantity) => {
                 let drawn = |watcher: &dyn Watcher| T::render(field, view, quantity, watcher);
                 Ok(long(py, None, progress, drawn)?.map_err(rendering)?.into())
             }
@@ -142,20 +142,20 @@ impl Field {
     }
 
     /// The page of a figure, and the texts of its file.
-    fn page(&self, request: &Request, engine: &Engine<'_>) -> PyResult<(Canvas, Vec<Text>)> {
+    fn page(&self, request: &Request, engine: &Engine<'_>) -> PyResult<(Canvas, Vec<TextChunk>)> {
         let title = &self.owned.dataset().title;
         if request.panels.are_given() {
             let drawn = self.panels(request, engine)?;
             let texts = [drawn.texts(title), drawn.shots[0].notes()].concat();
             return Ok((drawn.page, texts));
         }
-        let still = Still::new(self.source(), request.clone()).map_err(picture)?;
+        let still = ImageJob::new(self.source(), request.clone()).map_err(picture)?;
         let (page, shot) = still.page(engine).map_err(picture)?;
         Ok((page, [shot.texts(title), shot.notes()].concat()))
     }
 
     /// The panels of a request, of the field or of its parts.
-    fn panels(&self, request: &Request, engine: &Engine<'_>) -> PyResult<DrawnPanels> {
+    fn panels(&self, request: &Request, engine: &Engine<'_>) -> PyResult<PanelImages> {
         if request.panels.parts.is_empty() {
             return draw(&[self.source()], request, engine).map_err(picture);
         }
@@ -169,7 +169,7 @@ impl Field {
     }
 }
 
-/// What is made of a request by its engine, and what is to be said of it, in words.
+/// Draws a request with its engine, and returns the notices in words.
 pub(crate) fn made<T>(
     request: &Request,
     watcher: &dyn Watcher,
@@ -184,10 +184,10 @@ pub(crate) fn made<T>(
 /// Values at the centres of pixels, rows from the top.
 #[pyfunction]
 pub(crate) fn render<'py>(
-    this: &Field,
+    this: &PyField,
     py: Python<'py>,
     name: &str,
-    spot: Spot,
+    spot: CenterAndWidth,
     size: [u32; 2],
     single: bool,
     progress: Option<Bound<'py, PyAny>>,
@@ -208,10 +208,10 @@ pub(crate) fn render<'py>(
 /// and what is to be said of them.
 #[pyfunction]
 pub(crate) fn rgba<'py>(
-    this: &Field,
+    this: &PyField,
     py: Python<'py>,
     request: &str,
-    spot: Spot,
+    spot: CenterAndWidth,
     size: [u32; 2],
 ) -> PyResult<(Bound<'py, PyArray3<u8>>, Vec<String>)> {
     let (request, view) = (this.request(request)?, view(spot, size)?);
@@ -225,7 +225,7 @@ pub(crate) fn rgba<'py>(
     Ok((PyArray1::from_vec(py, image.rgba).reshape(shape)?, told))
 }
 
-/// What a colour bar says.
+/// The texts of a colour bar.
 #[derive(IntoPyObject)]
 pub(crate) struct BarFacts {
     /// The range of the colours.
@@ -249,7 +249,7 @@ const BAR: usize = 256;
 const LABELS: usize = 7;
 
 impl BarFacts {
-    fn new(shot: &Shot, field: &Field) -> Self {
+    fn new(shot: &RenderedImage, field: &PyField) -> Self {
         let (picture, field) = (&shot.picture, field.owned.field());
         let norm = &picture.normalization;
         let place = |k: usize| (k as f64 + 0.5) / BAR as f64;
@@ -272,13 +272,13 @@ impl BarFacts {
     }
 }
 
-/// The picture of [`rgba`] as a PNG that is made quickly, with its colour bar.
+/// The image of [`rgba`] as a PNG that is made quickly, with its colour bar.
 #[pyfunction]
 pub(crate) fn frame<'py>(
-    this: &Field,
+    this: &PyField,
     py: Python<'py>,
     request: &str,
-    spot: Spot,
+    spot: CenterAndWidth,
     size: [u32; 2],
 ) -> PyResult<(Bound<'py, PyBytes>, BarFacts)> {
     let (request, view) = (this.request(request)?, view(spot, size)?);
@@ -310,7 +310,7 @@ pub(crate) fn form(name: &str) -> PyResult<PageFormat> {
 /// what is to be said of it.
 #[pyfunction]
 pub(crate) fn figure<'py>(
-    this: &Field,
+    this: &PyField,
     py: Python<'py>,
     request: &str,
     form: &str,
@@ -331,14 +331,14 @@ pub(crate) fn figure<'py>(
 #[pyfunction]
 #[pyo3(name = "extrema")]
 pub(crate) fn extrema_in(
-    this: &Field,
+    this: &PyField,
     py: Python<'_>,
     name: &str,
-    spot: Spot,
+    spot: CenterAndWidth,
     size: [u32; 2],
 ) -> PyResult<Option<(ExtremumFacts, ExtremumFacts)>> {
     let (what, view) = (long(py, None, None, |_| this.shown(name))??, view(spot, size)?);
-    let Shown::Quantity(quantity) = what else {
+    let DisplayedQuantity::Quantity(quantity) = what else {
         return Err(RenderError::new_err(format!("`{name}` is a value of cells: look at them")));
     };
     let field = this.owned.field();

@@ -5,15 +5,17 @@ use std::sync::Arc;
 use ppum::dataset::Dataset as Data;
 use ppum::progress::Watcher;
 use ppum_figure::plot::{LEAST, Plot, plot};
-use ppum_scene::plots::{self, Named, Number, PlotError, Profiles, SeriesAxis, SolverWork};
-use ppum_scene::profile::Along;
+use ppum_scene::plots::{
+    self, NamedDataset, PlotError, Profiles, SeriesAxis, SeriesNumber, SolverWork,
+};
+use ppum_scene::profile::ProfileCurve;
 use pyo3::exceptions::{PyIndexError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::dataset::Dataset;
+use crate::dataset::PyDataset;
 use crate::errors::{RenderError, no_profile};
-use crate::field::{Field, written};
+use crate::field::{PyField, written};
 use crate::picture::form;
 use crate::watch::long;
 
@@ -26,7 +28,7 @@ pub(crate) struct Curves {
 }
 
 /// The label of a curve and its points.
-type Points = (String, Vec<[f64; 2]>);
+type LabeledCurve = (String, Vec<[f64; 2]>);
 
 #[pymethods]
 impl Curves {
@@ -51,12 +53,12 @@ impl Curves {
     }
 
     /// The labels of the curves as they are told, and their points.
-    fn curves(&self) -> Vec<Points> {
+    fn curves(&self) -> Vec<LabeledCurve> {
         let curves = self.plot.curves.iter();
         curves.map(|curve| (plots::plain(&curve.label), curve.points.clone())).collect()
     }
 
-    /// What curves do not show.
+    /// Returns features that curves do not show.
     fn warnings(&self) -> Vec<String> {
         self.warnings.clone()
     }
@@ -91,14 +93,14 @@ fn unplotted(error: PlotError) -> PyErr {
 #[pyfunction]
 pub(crate) fn profiles(
     py: Python<'_>,
-    named: Vec<(String, Py<Field>)>,
+    named: Vec<(String, Py<PyField>)>,
     along: &str,
     count: usize,
     quantities: Option<Vec<String>>,
     log: &str,
 ) -> PyResult<Curves> {
-    let along = written::<Along>(along)?;
-    let jumps = quantities.is_none() && matches!(along, Along::Crack { .. });
+    let along = written::<ProfileCurve>(along)?;
+    let jumps = quantities.is_none() && matches!(along, ProfileCurve::Crack { .. });
     let mut all = Profiles::new(along.variable(), jumps, named.len() > 1);
     for (name, field) in &named {
         let (this, field) = (field.get(), field.get().owned.field());
@@ -112,13 +114,13 @@ pub(crate) fn profiles(
         let drawn = |watcher: &dyn Watcher| along.drawn(field, &wanted, count, watcher);
         let profile = long(py, None, None, drawn)?.map_err(no_profile)?;
         let dataset = this.owned.dataset();
-        all.add(Named { name, dataset }, field, &wanted, &profile.table);
+        all.add(NamedDataset { name, dataset }, field, &wanted, &profile.table);
     }
     let plot = all.plot();
     finished(plot, named.into_iter().map(|(name, _)| name).collect(), log)
 }
 
-/// What is drawn of datasets.
+/// The kind of plot of datasets.
 #[derive(serde::Deserialize)]
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 enum PlotKind {
@@ -151,23 +153,23 @@ const OVER: [(&str, SeriesAxis); 5] = [
     ("cycles", SeriesAxis::Cycles),
 ];
 
-/// What the solver and the steps of datasets tell.
+/// Plots data of the solver and of the steps of datasets.
 #[pyfunction]
 pub(crate) fn told(
     py: Python<'_>,
-    named: Vec<(String, Py<Dataset>)>,
+    named: Vec<(String, Py<PyDataset>)>,
     kind: &str,
     log: &str,
 ) -> PyResult<Curves> {
     let kind = written::<PlotKind>(kind)?;
     // errors follow from the fields, all else from what the solver tells
     let is_whole = matches!(kind, PlotKind::Convergence { .. });
-    let data = |dataset: &Dataset| if is_whole { dataset.whole() } else { dataset.results() };
+    let data = |dataset: &PyDataset| if is_whole { dataset.whole() } else { dataset.results() };
     let datasets = named.iter().map(|(_, dataset)| data(dataset.get()));
     let datasets = datasets.collect::<PyResult<Vec<Arc<Data>>>>()?;
     let names: Vec<String> = named.into_iter().map(|(name, _)| name).collect();
     let pairs = names.iter().zip(&datasets);
-    let named: Vec<_> = pairs.map(|(name, dataset)| Named { name, dataset }).collect();
+    let named: Vec<_> = pairs.map(|(name, dataset)| NamedDataset { name, dataset }).collect();
     let plot = match kind {
         PlotKind::Convergence { step } => {
             long(py, None, None, |_| plots::convergence(&named, step))?
@@ -176,7 +178,7 @@ pub(crate) fn told(
             plots::history(&named, word("what", &what, &WORK)?, step)
         }
         PlotKind::Series { numbers, over } => {
-            let numbers: Result<Vec<Number>, _> = numbers.iter().map(|n| n.parse()).collect();
+            let numbers: Result<Vec<SeriesNumber>, _> = numbers.iter().map(|n| n.parse()).collect();
             let over = word("over", &over, &OVER)?;
             numbers.and_then(|numbers| plots::series(&named, &numbers, over))
         }

@@ -8,8 +8,8 @@ use ppum_fracture::solve::Plan;
 use ppum_problem::Problem;
 use pyo3::prelude::*;
 
-use crate::dataset::Dataset;
-use crate::errors::{Finding, problem, ungrown, unsolved};
+use crate::dataset::PyDataset;
+use crate::errors::{ProblemFinding, problem, ungrown, unsolved};
 use crate::watch::long;
 
 /// Everything that is wrong in the text of a problem; nothing if it can be read.
@@ -19,9 +19,9 @@ pub(crate) fn check(
     text: &str,
     name: &str,
     folder: PathBuf,
-) -> PyResult<Vec<Finding>> {
+) -> PyResult<Vec<ProblemFinding>> {
     let read = long(py, None, None, |_| Problem::parse(text, name, &folder))?;
-    Ok(read.err().map_or_else(Vec::new, |mistakes| Finding::all(&mistakes)))
+    Ok(read.err().map_or_else(Vec::new, |mistakes| ProblemFinding::all(&mistakes)))
 }
 
 /// Solves the problem of a text; files that it names are looked for in the folder. A problem with
@@ -36,7 +36,7 @@ pub(crate) fn solve(
     memory: Option<u64>,
     threads: Option<usize>,
     progress: Option<Bound<'_, PyAny>>,
-) -> PyResult<Dataset> {
+) -> PyResult<PyDataset> {
     let read = long(py, threads, None, |_| Problem::parse(text, name, &folder))?;
     let read = read.map_err(|mistakes| problem(&mistakes))?;
     let progress = progress.as_ref();
@@ -47,5 +47,5 @@ pub(crate) fn solve(
         let once = |watcher: &dyn Watcher| Plan::new(&read, memory, watcher)?.solve(watcher);
         long(py, threads, progress, once)?.map_err(unsolved)
     };
-    solved.map(Dataset::new)
+    solved.map(PyDataset::new)
 }

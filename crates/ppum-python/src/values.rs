@@ -2,7 +2,7 @@
 
 use ppum::crack::Side;
 use ppum::progress::{Cancelled, Phase, Progress, Watcher};
-use ppum::sample::{Place, Wanted, evaluate_each};
+use ppum::sample::{SampledQuantity, SidedPoint, evaluate_each};
 use ppum::vec2::{Vec2, vec2};
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -15,7 +15,7 @@ const PIECE: usize = 1 << 15;
 
 /// Points, as two arrays of one length.
 #[derive(Clone, Copy)]
-pub(crate) struct Points<'a> {
+pub(crate) struct PointArrays<'a> {
     pub(crate) x: &'a [f64],
     pub(crate) y: &'a [f64],
     /// Where they are offsets from, if they are.
@@ -23,30 +23,30 @@ pub(crate) struct Points<'a> {
     pub(crate) side: Side,
 }
 
-impl Points<'_> {
-    fn places(&self, seen: &AnchoredField<'_>, from: usize, count: usize) -> Vec<Place> {
+impl PointArrays<'_> {
+    fn places(&self, seen: &AnchoredField<'_>, from: usize, count: usize) -> Vec<SidedPoint> {
         let points = self.x[from..].iter().zip(&self.y[from..]).take(count);
         let place = |(&x, &y): (&f64, &f64)| self.place(seen, vec2(x, y));
         points.map(place).collect()
     }
 
-    fn place(&self, seen: &AnchoredField<'_>, point: Vec2) -> Place {
+    fn place(&self, seen: &AnchoredField<'_>, point: Vec2) -> SidedPoint {
         match self.anchor {
             Some(anchor) => seen.seats.offset(anchor, point, self.side),
             None => seen.seats.at(point, self.side),
         }
     }
 
-    /// What is wanted at few points, here and now.
-    pub(crate) fn few(&self, seen: &AnchoredField<'_>, wanted: Wanted<'_>) -> Vec<f64> {
+    /// Returns the requested values at few points, at once.
+    pub(crate) fn few(&self, seen: &AnchoredField<'_>, wanted: SampledQuantity<'_>) -> Vec<f64> {
         evaluate_each(&seen.field, wanted, &self.places(seen, 0, self.x.len()))
     }
 
-    /// What is wanted at all points, in rows one after the other.
+    /// Writes the requested values at all points, in rows one after the other.
     pub(crate) fn fill(
         &self,
         seen: &AnchoredField<'_>,
-        wanted: Wanted<'_>,
+        wanted: SampledQuantity<'_>,
         rows: &mut [f64],
         watcher: &dyn Watcher,
     ) -> Result<(), Cancelled> {

@@ -8,7 +8,7 @@ use crate::view::ViewError;
 /// The reason why a view was not evaluated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum RenderError {
+pub enum RasterError {
     /// The quantity has no meaning for the field.
     #[error(transparent)]
     Quantity(#[from] QuantityError),

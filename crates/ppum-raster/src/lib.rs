@@ -41,9 +41,9 @@
 //! # Time to build
 //!
 //! The kernels of the renderer are generic code, compiled here for each instruction set, number
-//! type and order of derivatives. [`Sample`](raster::Sample) is implemented for f64 and f32 by
-//! functions that are not generic, so no other crate compiles kernels. This library has no unit
-//! tests, which would compile them again; its tests are in `tests/raster`.
+//! type and order of derivatives. [`RasterValue`](raster::RasterValue) is implemented for f64 and
+//! f32 by functions that are not generic, so no other crate compiles kernels. This library has no
+//! unit tests, which would compile them again; its tests are in `tests/raster`.
 
 mod error;
 pub mod parts;
@@ -55,4 +55,4 @@ pub mod scatter;
 pub mod summation;
 pub mod view;
 
-pub use error::RenderError;
+pub use error::RasterError;

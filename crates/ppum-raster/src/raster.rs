@@ -4,18 +4,18 @@ use ppum::domain::Domain;
 use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
-use ppum::real::Scalar;
+use ppum::real::LaneNumber;
 use rayon::prelude::*;
 
-use crate::error::RenderError;
-use crate::rows::Strips;
+use crate::error::RasterError;
+use crate::rows::RowBatches;
 use crate::summation::Summation;
 use crate::view::View;
 
 /// The number types of a raster: f64 and f32.
-pub trait Sample: Scalar + Into<f64> {
+pub trait RasterValue: LaneNumber + Into<f64> {
     /// Relative difference up to which values count as one: some roundings, and of f64 the rounding
-    /// of a linear system too, since a field that is constant but for that should look so.
+    /// of a linear system too, since a field that is constant except for that should look so.
     const SAME: f64;
 
     /// [`render`](crate::scatter::render) for this type. Implemented for each, so that the
@@ -28,7 +28,7 @@ pub trait Sample: Scalar + Into<f64> {
         view: &View,
         quantity: &Quantity,
         watcher: &dyn Watcher,
-    ) -> Result<Raster<Self>, RenderError>;
+    ) -> Result<Raster<Self>, RasterError>;
 
     /// The values as a slice of f64 or of f32: code that matches on it is compiled once for both
     /// types, and not in every crate that draws.
@@ -43,10 +43,10 @@ pub trait Sample: Scalar + Into<f64> {
         view: &View,
         quantity: &Quantity,
         summation: Summation,
-        strips: Strips,
+        strips: RowBatches,
         watcher: &dyn Watcher,
         take: &mut dyn FnMut(Vec<Self>),
-    ) -> Result<(), RenderError>;
+    ) -> Result<(), RasterError>;
 }
 
 /// Values whose number type is asked at run time.
@@ -78,7 +78,7 @@ const BLOCK: usize = 1024;
 const LAZY: usize = 1 << 24;
 
 /// Returns `count` zeros, written by all threads of the pool: one thread would take a tenth of the
-/// time of a picture.
+/// time of an image.
 #[must_use]
 pub fn zeros<T: Copy + Default + Send>(count: usize) -> Vec<T> {
     if count > LAZY {
@@ -107,7 +107,7 @@ pub struct Statistics {
     pub mean: f64,
 }
 
-impl<T: Sample> Raster<T> {
+impl<T: RasterValue> Raster<T> {
     /// A raster from its values.
     ///
     /// # Panics
@@ -139,7 +139,7 @@ impl<T: Sample> Raster<T> {
         &self.values[row as usize * columns..][..columns]
     }
 
-    /// The value that all pixels of a value have, but for rounding; none if they differ or
+    /// The value that all pixels of a value have, except for rounding; none if they differ or
     /// are infinite.
     #[must_use]
     pub fn one_value(&self) -> Option<f64> {
@@ -173,7 +173,7 @@ impl<T: Sample> Raster<T> {
         (!found.is_empty()).then_some(found)
     }
 
-    /// The pixels of the plate without a value, by their place row by row: what is undefined there,
+    /// The pixels of the body without a value, by their place row by row: what is undefined there,
     /// as a formula may be, and not outside.
     ///
     /// # Panics

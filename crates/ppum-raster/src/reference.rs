@@ -6,7 +6,7 @@ use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
 use rayon::prelude::*;
 
-use crate::error::RenderError;
+use crate::error::RasterError;
 use crate::parts::Parts;
 use crate::raster::Raster;
 use crate::view::View;
@@ -23,7 +23,7 @@ pub fn reference(
     view: &View,
     quantity: &Quantity,
     watcher: &dyn Watcher,
-) -> Result<Raster<f64>, RenderError> {
+) -> Result<Raster<f64>, RasterError> {
     quantity.check(field)?;
     let [columns, rows] = view.pixels;
     let parts = Parts::start(watcher, rows as usize)?;

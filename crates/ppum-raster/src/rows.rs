@@ -9,14 +9,14 @@ pub const BAND: u32 = 32;
 
 /// The rows that are evaluated, and how many of them at a time.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Strips {
+pub struct RowBatches {
     /// The rows; the first is a multiple of [`BAND`].
     rows: Range<u32>,
     /// Rows of a strip, rounded up to whole bands.
     height: u32,
 }
 
-impl Strips {
+impl RowBatches {
     /// Some rows, so many at a time.
     pub(crate) fn new(rows: Range<u32>, height: u32) -> Self {
         Self { rows, height }

@@ -1,13 +1,13 @@
-//! The view of a picture: a window of the plane on a grid of square pixels.
+//! The view of an image: a window of the plane on a grid of square pixels.
 //!
 //! Positions are formed as `center + offset`, never as absolute coordinates, so a view 1e-12 of the
-//! domain wide is as good as any. Row 0 is at the *top* of the picture while y points up:
+//! domain wide is as good as any. Row 0 is at the *top* of the image while y points up:
 //!
 //! ```text
 //! offset of the centre of pixel (i, j) = ((i + 1/2 − nx/2) s, (ny/2 − j − 1/2) s),   s = width / nx
 //! ```
 //!
-//! *Continuous* pixel coordinates have their origin at the picture's upper left corner, y down;
+//! *Continuous* pixel coordinates have their origin at the image's upper left corner, y down;
 //! the centre of pixel (i, j) is at (i + 1/2, j + 1/2).
 
 use std::ops::Range;
@@ -18,15 +18,15 @@ use ppum::vec2::{Rect, Vec2, vec2};
 /// A window of the plane with square pixels; its height follows from the width and the pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
-    /// The middle of the picture, in world coordinates.
+    /// The middle of the image, in world coordinates.
     pub center: Vec2,
-    /// Width of the picture \[length\], positive and finite.
+    /// Width of the image \[length\], positive and finite.
     pub width: f64,
     /// Columns and rows, both positive.
     pub pixels: [u32; 2],
 }
 
-/// Most pixels of one picture: a raster of f64 values then takes 2 GiB.
+/// Most pixels of one image: a raster of f64 values then takes 2 GiB.
 pub const MAX_PIXELS: u64 = 1 << 28;
 
 /// The reason why there is no such view.
@@ -129,7 +129,7 @@ impl View {
         Self { center: vec2(beyond(x, self.center.x), beyond(y, self.center.y)), ..*self }
     }
 
-    /// The same picture magnified `factor` times around its centre.
+    /// Returns the view magnified `factor` times around its centre.
     ///
     /// # Errors
     /// As [`View::new`].
@@ -137,9 +137,9 @@ impl View {
         Self::new(self.center, self.width / factor, self.pixels)
     }
 
-    /// The same window with `n` × `n` pixels in place of each: the centre of pixel (n i + a, n j +
-    /// b) lies at ((a + 1/2)/n, (b + 1/2)/n) of pixel (i, j), as exactly as centres lie anywhere.
-    /// It may have more than [`MAX_PIXELS`], and is then drawn in strips
+    /// Returns the window with `n` × `n` pixels in place of each: the centre of pixel (n i + a, n
+    /// j + b) lies at ((a + 1/2)/n, (b + 1/2)/n) of pixel (i, j), as exactly as centres lie
+    /// anywhere. It may have more than [`MAX_PIXELS`], and is then drawn in strips
     /// ([`render_strips`](crate::scatter::render_strips)).
     ///
     /// # Errors
@@ -158,7 +158,7 @@ impl View {
         }
     }
 
-    /// Height of the picture \[length\].
+    /// Height of the image \[length\].
     #[must_use]
     pub fn height(&self) -> f64 {
         self.pixel_size() * f64::from(self.pixels[1])

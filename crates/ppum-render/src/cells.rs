@@ -1,4 +1,4 @@
-//! Values of patches as pictures: each pixel has that of the cell, the element, or without these
+//! Values of patches as images: each pixel has that of the cell, the element, or without these
 //! the patch with the largest φ, that its centre lies in.
 
 use ppum::crack::Side;
@@ -75,8 +75,8 @@ pub fn label(name: &str) -> &str {
     OWN.iter().find(|(own, _)| *own == name).map_or(name, |(_, label)| label)
 }
 
-/// The picture of one value per patch, NaN outside the domain and where there is no cell. Borders
-/// belong to the right and upper cell. Of a cover without cells a point has the value of the patch
+/// The image of one value per patch, NaN outside the domain and where there is no cell. Borders
+/// belong to the right and upper cell. In a cover without cells, a point has the value of the patch
 /// whose φ is largest there.
 ///
 /// # Panics
@@ -105,7 +105,7 @@ pub fn raster(field: &Field<'_>, values: &[f64], view: &View) -> Raster {
     raster
 }
 
-/// The picture of one value per element, or per patch without a cell, NaN outside.
+/// The image of one value per element, or per patch without a cell, NaN outside.
 pub(crate) fn of_owners(field: &Field<'_>, values: &[f64], view: &View) -> Raster {
     let local = field.at(view.center);
     let [columns, rows] = view.pixels.map(|n| n as usize);

@@ -1,10 +1,10 @@
 //! Points for arrows and crosses, with their values: vectors, and principal stresses with
 //! their directions.
 //!
-//! The points are those of a [`Lattice`] that lie in the view and on the plate. It is at rest in
-//! the world: its points are multiples of the spacing from the origin, so panning moves the arrows
-//! with the field, and no arrow jumps. Values are evaluated at the points, each by itself; those
-//! that are not finite, as stresses at a tip, have no glyph.
+//! The points are those of a [`GlyphLattice`] that lie in the view and on the body. It is at rest
+//! in the world: its points are multiples of the spacing from the origin, so panning moves the
+//! arrows with the field, and no arrow jumps. Values are evaluated at the points, each by itself;
+//! those that are not finite, as stresses at a tip, have no glyph.
 //!
 //! A point on a crack stands for one of its faces: that on the left of the crack's direction, and
 //! says so.
@@ -15,7 +15,7 @@ use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, Reflection};
 use ppum::sides::Segments;
 use ppum::vec2::{Vec2, vec2};
-use ppum_raster::RenderError;
+use ppum_raster::RasterError;
 use ppum_raster::parts::Parts;
 use ppum_raster::view::View;
 use rayon::prelude::*;
@@ -47,12 +47,12 @@ pub struct Principal {
     pub angle: f64,
 }
 
-/// The points of a lattice in a picture, with the points of the plate that are seen there; row by
+/// The points of a lattice in an image, with the points of the body that are seen there; row by
 /// row from below.
 #[derive(Clone, Debug)]
-pub struct Lattice<'f> {
+pub struct GlyphLattice<'f> {
     field: &'f Field<'f>,
-    /// The point of the plate that [`LatticePoint::point`] is counted from.
+    /// The point of the body that [`LatticePoint::point`] is counted from.
     anchor: Vec2,
     rows: Vec<Vec<LatticePoint>>,
 }
@@ -65,7 +65,7 @@ const ON_LINE: f64 = 1e-6;
 struct LatticePoint {
     /// Its offset from the view's centre.
     at: Vec2,
-    /// The point of the plate that is there, as an offset from the anchor.
+    /// The point of the body that is there, as an offset from the anchor.
     point: Vec2,
 }
 
@@ -88,8 +88,8 @@ impl Glyph<Principal> {
     }
 }
 
-impl<'f> Lattice<'f> {
-    /// The lattice with a spacing in pixels, at least [`LEAST_SPACING`], on the undeformed plate.
+impl<'f> GlyphLattice<'f> {
+    /// The lattice with a spacing in pixels, at least [`LEAST_SPACING`], on the undeformed body.
     #[must_use]
     pub fn new(field: &'f Field<'f>, view: &View, spacing: f64) -> Self {
         let [x, y] = lines(view, spacing);
@@ -99,7 +99,7 @@ impl<'f> Lattice<'f> {
         Self { field, anchor: view.center, rows: y.iter().map(row).collect() }
     }
 
-    /// The points of the same lattice beyond lines of symmetry, where the plate is that of the
+    /// The points of the same lattice beyond lines of symmetry, where the body is that of the
     /// [reflected](View::reflected) view; points on the lines are the body's own.
     #[must_use]
     pub fn reflected(
@@ -121,9 +121,9 @@ impl<'f> Lattice<'f> {
         lattice
     }
 
-    /// The lattice on the deformed plate, at rest in the deformed plane: the centres of the pixels
-    /// that its points lie in, and the points of the plate that are seen there. Of an image of the
-    /// plate, which is that of the reflected view, the places are reflected back.
+    /// The lattice on the deformed body, at rest in the deformed plane: the centres of the pixels
+    /// that its points lie in, and the points of the body that are seen there. For a mirrored
+    /// image of the body, which is that of the reflected view, the points are reflected back.
     #[must_use]
     pub fn deformed(points: &DeformedPoints<'f>, reflection: &Reflection, spacing: f64) -> Self {
         let view = &points.view.view;
@@ -148,15 +148,15 @@ impl<'f> Lattice<'f> {
         &self,
         quantities: &[Quantity; 2],
         watcher: &dyn Watcher,
-    ) -> Result<Vec<Glyph<Vec2>>, RenderError> {
+    ) -> Result<Vec<Glyph<Vec2>>, RasterError> {
         self.glyphs(quantities, watcher, |[x, y]| vec2(x, y))
     }
 
-    /// Principal stresses, those at the points of the plate in its undeformed directions.
+    /// Principal stresses, those at the points of the body in its undeformed directions.
     ///
     /// # Errors
     /// The field has no stresses; the watcher stops the call.
-    pub fn principal(&self, watcher: &dyn Watcher) -> Result<Vec<Glyph<Principal>>, RenderError> {
+    pub fn principal(&self, watcher: &dyn Watcher) -> Result<Vec<Glyph<Principal>>, RasterError> {
         let field = self.field;
         let named = |name| Quantity::from_name(name, field.equation, &field.data.components);
         let quantities = [named("s1")?, named("s2")?, named("direction")?];
@@ -169,7 +169,7 @@ impl<'f> Lattice<'f> {
         quantities: &[Quantity; N],
         watcher: &dyn Watcher,
         value: impl Fn([f64; N]) -> V + Sync,
-    ) -> Result<Vec<Glyph<V>>, RenderError> {
+    ) -> Result<Vec<Glyph<V>>, RasterError> {
         quantities.iter().try_for_each(|quantity| quantity.check(self.field))?;
         let parts = Parts::start(watcher, self.rows.len())?;
         let segments = Segments::new(&self.field.step.cracks);
@@ -243,11 +243,11 @@ mod tests {
             let field = Field::new(&dataset, 0).expect("a field");
             let view = View::hug(dataset.domain.bounds, [400, 300]).expect("a view");
             let quantities = displacement(&field);
-            let arrows = Lattice::new(&field, &view, SPACING)
+            let arrows = GlyphLattice::new(&field, &view, SPACING)
                 .vectors(&quantities, unwatched())
                 .expect("arrows");
             let crosses =
-                Lattice::new(&field, &view, SPACING).principal(unwatched()).expect("crosses");
+                GlyphLattice::new(&field, &view, SPACING).principal(unwatched()).expect("crosses");
             assert_eq!(arrows.len(), crosses.len());
             // the area of the domain, without the hole, over that of a square of the lattice
             let area = dataset.domain.bounds.size().x * dataset.domain.bounds.size().y;
@@ -280,7 +280,8 @@ mod tests {
             let start = dataset.steps[0].cracks[0].points[1];
             let seen = |center| {
                 let view = View::new(center, width, [200, 150]).expect("a view");
-                let all = Lattice::new(&field, &view, SPACING).vectors(&quantities, unwatched());
+                let all =
+                    GlyphLattice::new(&field, &view, SPACING).vectors(&quantities, unwatched());
                 (view, all.expect("arrows"))
             };
             let (first, arrows) = seen(start);
@@ -298,8 +299,8 @@ mod tests {
         }
     }
 
-    /// On the deformed plate points stand in a lattice of the picture, and have the values of the
-    /// points of the plate there.
+    /// On the deformed body points stand in a lattice of the image, and have the values of the
+    /// points of the body there.
     #[test]
     fn glyphs_of_the_deformed_plate_are_those_of_its_points() {
         for seed in 0..3 {
@@ -311,12 +312,12 @@ mod tests {
             let (factor, quantities) = (0.1, displacement(&field));
             let seen = Deformation::new(&field, factor).expect("elastic").seen(&view);
             let points = seen.points(unwatched()).expect("points");
-            let lattice = Lattice::deformed(&points, &Reflection::NONE, SPACING);
+            let lattice = GlyphLattice::deformed(&points, &Reflection::NONE, SPACING);
             let arrows = lattice.vectors(&quantities, unwatched()).expect("arrows");
             assert!(arrows.len() > 60, "{}", arrows.len());
             for arrow in &arrows {
-                // x = X + s u(X): the point of the plate that the value itself leads to has
-                // this value
+                // x = X + s u(X): the point of the body that the value itself leads to has this
+                // value
                 let place = view.center + arrow.offset - arrow.value * factor;
                 let mut local = field.at(place);
                 let u = quantities.each_ref().map(|q| q.at(&mut local, Vec2::ZERO, Side::Above));
@@ -339,8 +340,9 @@ mod tests {
         let field = Field::new(&dataset, 0).expect("a field");
         let view = View::new(vec2(0.75, 0.0), 0.8, [200, 100]).expect("a view");
         let quantities = displacement(&field);
-        let all =
-            Lattice::new(&field, &view, 10.0).vectors(&quantities, unwatched()).expect("arrows");
+        let all = GlyphLattice::new(&field, &view, 10.0)
+            .vectors(&quantities, unwatched())
+            .expect("arrows");
         let on: Vec<_> = all.iter().filter(|glyph| glyph.face.is_some()).collect();
         assert_eq!(on.len(), 17);
         let id = SegmentId { crack: 0, segment: 0 };
@@ -357,16 +359,17 @@ mod tests {
         let dataset = Recipe { components: 1, ..Recipe::default() }.dataset();
         let field = Field::new(&dataset, 0).expect("a field");
         let view = View::hug(dataset.domain.bounds, [40, 30]).expect("a view");
-        let found = Lattice::new(&field, &view, SPACING).principal(unwatched());
-        assert!(matches!(found, Err(RenderError::Quantity(_))));
+        let found = GlyphLattice::new(&field, &view, SPACING).principal(unwatched());
+        assert!(matches!(found, Err(RasterError::Quantity(_))));
         let quantities =
             ["du_dx", "du_dy"].map(|q| Quantity::parse(q, &field).expect("a quantity"));
         let stop = |_: Progress| Verdict::Stop;
-        let found = Lattice::new(&field, &view, SPACING).vectors(&quantities, &stop);
-        assert!(matches!(found, Err(RenderError::Cancelled(_))));
+        let found = GlyphLattice::new(&field, &view, SPACING).vectors(&quantities, &stop);
+        assert!(matches!(found, Err(RasterError::Cancelled(_))));
         // a spacing of nothing is the least one
-        let dense =
-            Lattice::new(&field, &view, 0.0).vectors(&quantities, unwatched()).expect("arrows");
+        let dense = GlyphLattice::new(&field, &view, 0.0)
+            .vectors(&quantities, unwatched())
+            .expect("arrows");
         assert!(dense.len() <= 11 * 9, "{}", dense.len());
     }
 }

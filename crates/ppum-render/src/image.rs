@@ -1,9 +1,9 @@
-//! Pictures of colours.
+//! Images of colours.
 
 /// Red, green, blue (sRGB) and opacity, each 0 to 255; opacity is not multiplied in.
 pub type Rgba = [u8; 4];
 
-/// A picture of [`Rgba`] pixels, row by row from the top.
+/// An image of [`Rgba`] pixels, row by row from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Image {
     /// Columns and rows.
@@ -13,7 +13,7 @@ pub struct Image {
 }
 
 impl Image {
-    /// A picture of one colour.
+    /// An image of one colour.
     #[must_use]
     pub fn filled(size: [u32; 2], color: Rgba) -> Self {
         Self { size, rgba: color.repeat(size[0] as usize * size[1] as usize) }

@@ -2,10 +2,10 @@
 //!
 //! [`ppum_raster`], whose modules are re-exported here, evaluates a quantity at the centre of each
 //! pixel of a [`View`](view::View) into a [`Raster`](raster::Raster), and
-//! [`Picture`](picture::Picture) maps its values to colours. [`png`] encodes an image with its
-//! metadata, [`animation`] encodes several images; [`samples`] takes means over pixels;
+//! [`ColoredRaster`](picture::ColoredRaster) maps its values to colours. [`png`] encodes an image
+//! with its metadata, [`animation`] encodes several images; [`samples`] takes means over pixels;
 //! `ppum-figure` draws over images and around them. Nothing is resampled, interpolated or
-//! triangulated. [`deform`] draws the deformed plate; [`resample`] resamples on a grid as other
+//! triangulated. [`deform`] draws the deformed body; [`resample`] resamples on a grid as other
 //! programs do, for comparison.
 //!
 //! Overlays use the exact field too: [`isolines`](isoline::isolines), arrows and crosses
@@ -15,7 +15,7 @@
 //! ```
 //! use ppum::prelude::*;
 //! use ppum::progress::unwatched;
-//! use ppum_render::picture::{Picture, Style};
+//! use ppum_render::picture::{ColoredRaster, Style};
 //! use ppum_render::{png, scatter::render, view::View};
 //!
 //! // one patch, u = 1 + 2ξ with ξ = x / 1.25
@@ -31,7 +31,7 @@
 //! let view = View::window(-1.0, -1.0, 1.0, 1.0, [4, 4])?;
 //! let raster = render::<f64>(&field, &view, &Quantity::parse("u", &field)?, unwatched())?;
 //! assert!((raster.value(3, 0) - 2.2).abs() < 1e-15); // x = 0.75
-//! let picture = Picture::bare(&raster, &view, &Style::named("viridis")?)?;
+//! let picture = ColoredRaster::bare(&raster, &view, &Style::named("viridis")?)?;
 //! let file = png::encode(&picture.image, &picture.description("A slope", "by hand", "u"))?;
 //! assert_eq!(&file[1..4], b"PNG");
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -54,7 +54,7 @@ pub mod samples;
 pub mod scale;
 pub mod shades;
 
-pub use ppum_raster::{RenderError, pixels, raster, reference, scatter, view};
+pub use ppum_raster::{RasterError, pixels, raster, reference, scatter, view};
 
 #[cfg(test)]
 ppum_testkit::errors_cross_threads!(

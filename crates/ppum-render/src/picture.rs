@@ -1,15 +1,15 @@
 //! From a raster of values to colours.
 
 use ppum::vec2::Vec2;
-use ppum_raster::raster::{Raster, Sample};
+use ppum_raster::raster::{Raster, RasterValue};
 use ppum_raster::view::View;
 use rayon::prelude::*;
 
 use crate::colormap::{Colormap, ColormapError, HALF, Rgb};
 use crate::extrema::Extrema;
 use crate::image::{Image, Rgba};
-use crate::png::Text;
-use crate::range::{Range, RangeError, ValueSpan};
+use crate::png::TextChunk;
+use crate::range::{ColorRange, RangeChoice, RangeError};
 use crate::samples::Samples;
 use crate::scale::{Normalization, Scale};
 use crate::shades::Shades;
@@ -22,10 +22,10 @@ pub struct Style {
     /// The way values spread over the colours.
     pub scale: Scale,
     /// The range of values that the colours span.
-    pub range: Range,
+    pub range: RangeChoice,
     /// The colour of pixels without a value; transparent unless set.
     pub undefined: Rgba,
-    /// The colour of those that lie on the plate; crosshatched if there is none.
+    /// The colour of those that lie on the body; crosshatched if there is none.
     pub nan_color: Option<Rgb>,
 }
 
@@ -39,7 +39,7 @@ impl Style {
         Ok(Self {
             colormap,
             scale: Scale::Linear,
-            range: Range::Auto,
+            range: RangeChoice::Auto,
             undefined: [0; 4],
             nan_color: None,
         })
@@ -50,7 +50,7 @@ impl Style {
     #[must_use]
     pub fn classed(self, values: &[f64]) -> Self {
         let (Some(first), Some(last)) = (values.first(), values.last()) else { return self };
-        let range = Range::Fixed(first - HALF, last + HALF);
+        let range = RangeChoice::Fixed(first - HALF, last + HALF);
         Self { colormap: self.colormap.classed(values), scale: Scale::Linear, range, ..self }
     }
 }
@@ -64,7 +64,7 @@ impl Default for Style {
 
 /// A coloured raster, pixel for pixel, with what is needed to read it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub struct ColoredRaster {
     /// The colours.
     pub image: Image,
     /// The view.
@@ -72,10 +72,10 @@ pub struct Picture {
     /// Position of a value among the colours, the range found.
     pub normalization: Normalization,
     /// The range, how it came about, and what is known of the values.
-    pub span: ValueSpan,
+    pub span: ColorRange,
     /// The colours.
     pub colormap: Colormap,
-    /// The one value that is seen, if there is no other but for rounding.
+    /// The one value that is seen, if there is no other except for rounding.
     pub one_value: Option<f64>,
     /// True if some value is finite.
     pub has_values: bool,
@@ -83,7 +83,7 @@ pub struct Picture {
     pub has_below: bool,
     /// True if some value lies above the range, at a pixel or not; an infinite one always does.
     pub has_above: bool,
-    /// What a pixel's value is: that at its centre, or a mean.
+    /// The meaning of a pixel's value: the value at its centre, or a mean.
     pub samples: Samples,
 }
 
@@ -92,8 +92,8 @@ const HATCH: Rgba = [96, 96, 102, 255];
 const HATCHED: Rgba = [196, 196, 200, 255];
 const HATCH_STEP: u32 = 6;
 
-impl Picture {
-    /// The bare picture of a raster: one pixel a value, nothing else. A range that is found is
+impl ColoredRaster {
+    /// The bare image of a raster: one pixel a value, nothing else. A range that is found is
     /// found from the pixels alone; [`spanning`](Self::spanning) takes one that knows the extrema
     /// between them.
     ///
@@ -102,7 +102,7 @@ impl Picture {
     ///
     /// # Panics
     /// If the raster does not have the view's size.
-    pub fn bare<T: Sample>(
+    pub fn bare<T: RasterValue>(
         raster: &Raster<T>,
         view: &View,
         style: &Style,
@@ -113,18 +113,18 @@ impl Picture {
         Self::spanning(raster, view, style, span)
     }
 
-    /// The bare picture of a raster with a range that was found for it, or for others too.
+    /// The bare image of a raster with a range that was found for it, or for others too.
     ///
     /// # Errors
     /// A range that does not fit the scale.
     ///
     /// # Panics
     /// If the raster does not have the view's size.
-    pub fn spanning<T: Sample>(
+    pub fn spanning<T: RasterValue>(
         raster: &Raster<T>,
         view: &View,
         style: &Style,
-        span: ValueSpan,
+        span: ColorRange,
     ) -> Result<Self, RangeError> {
         assert_eq!(raster.size, view.pixels, "a raster belongs to a view of its size");
         let Style { colormap, scale, undefined, .. } = style;
@@ -153,7 +153,7 @@ impl Picture {
     }
 
     /// Says that values are means, and gives each pixel the opacity that it has by its share of the
-    /// plate ([`Means`](crate::samples::Means)).
+    /// body ([`Means`](crate::samples::Means)).
     ///
     /// # Panics
     /// If there is not one opacity for each pixel.
@@ -166,7 +166,7 @@ impl Picture {
         self.samples = samples;
     }
 
-    /// Gives pixels of the plate that have no value ([`Raster::undefined`]) a colour, or
+    /// Gives pixels of the body that have no value ([`Raster::undefined`]) a colour, or
     /// crosshatches them, to tell them from those outside.
     pub fn mark_undefined(&mut self, pixels: &[u32], color: Option<Rgb>) {
         let columns = self.image.size[0];
@@ -180,12 +180,12 @@ impl Picture {
         }
     }
 
-    /// A description of the picture, for the texts of its file: `Title`, `Software` and
+    /// A description of the image, for the texts of its file: `Title`, `Software` and
     /// `Description`, then under `ppum:` the dataset, quantity, view (centre, width, pixels: enough
     /// to draw it again to the last bit), meaning of a pixel, range, scale and colour map; how the
     /// range came about, and the extrema if they were looked for.
     #[must_use]
-    pub fn description(&self, title: &str, dataset: &str, quantity: &str) -> Vec<Text> {
+    pub fn description(&self, title: &str, dataset: &str, quantity: &str) -> Vec<TextChunk> {
         let View { center: Vec2 { x, y }, width, pixels: [columns, rows] } = self.view;
         let norm = &self.normalization;
         let software = concat!("ppum ", env!("CARGO_PKG_VERSION"));
@@ -216,7 +216,7 @@ impl Picture {
 }
 
 /// One value in place of all finite ones.
-fn evened<T: Sample>(raster: &Raster<T>, one: f64) -> Vec<f64> {
+fn evened<T: RasterValue>(raster: &Raster<T>, one: f64) -> Vec<f64> {
     let of = |value: f64| if value.is_finite() { one } else { value };
     raster.values.par_iter().map(|&value| of(value.into())).collect()
 }
@@ -225,7 +225,7 @@ fn evened<T: Sample>(raster: &Raster<T>, one: f64) -> Vec<f64> {
 const BLOCK: usize = 1024;
 
 /// The colours of values, and whether one of them lay below, and above, the range.
-fn painted<T: Sample>(shades: &Shades, values: &[T]) -> (Vec<u8>, [bool; 2]) {
+fn painted<T: RasterValue>(shades: &Shades, values: &[T]) -> (Vec<u8>, [bool; 2]) {
     let mut rgba = vec![0; 4 * values.len()];
     let pixels = rgba.as_chunks_mut::<4>().0.par_chunks_mut(BLOCK);
     let blocks = pixels.zip(values.par_chunks(BLOCK)).with_min_len(16);
@@ -248,10 +248,11 @@ mod tests {
         let inf = f64::INFINITY;
         let values = vec![0.0, 2.0, 10.0, -0.1, 10.1, inf, -inf, f64::NAN];
         let mut style = Style::named("magma").unwrap();
-        style.range = Range::Fixed(0.0, 10.0);
+        style.range = RangeChoice::Fixed(0.0, 10.0);
         style.colormap = style.colormap.contrasting();
         let map = &style.colormap;
-        let picture = Picture::bare(&Raster::new([4, 2], values), &view(4, 2), &style).unwrap();
+        let picture =
+            ColoredRaster::bare(&Raster::new([4, 2], values), &view(4, 2), &style).unwrap();
         let colors: Vec<Rgba> = (0..8).map(|k| picture.image.pixel(k % 4, k / 4)).collect();
         let ends = [map.color(0.0), map.color(0.2), map.color(1.0)];
         assert_eq!(colors[..3], ends);
@@ -263,10 +264,14 @@ mod tests {
     #[test]
     fn bands_end_at_their_values() {
         let map = Colormap::named("viridis").unwrap().banded(3);
-        let style =
-            Style { colormap: map.clone(), range: Range::Fixed(0.0, 3.0), ..Style::default() };
+        let style = Style {
+            colormap: map.clone(),
+            range: RangeChoice::Fixed(0.0, 3.0),
+            ..Style::default()
+        };
         let values = vec![1.0 - 1e-12, 1.0, 2.0 - 1e-12, 2.0, 3.0, 0.0];
-        let picture = Picture::bare(&Raster::new([3, 2], values), &view(3, 2), &style).unwrap();
+        let picture =
+            ColoredRaster::bare(&Raster::new([3, 2], values), &view(3, 2), &style).unwrap();
         let colors: Vec<Rgba> = (0..6).map(|k| picture.image.pixel(k % 3, k / 3)).collect();
         let bands = [0.1, 0.5, 0.9].map(|t| map.color(t));
         assert_eq!(colors, [0, 1, 1, 2, 2, 0].map(|k: usize| bands[k]));
@@ -279,7 +284,7 @@ mod tests {
         let classes = raster.whole_numbers(3).expect("three");
         assert_eq!(classes, [6.0, 12.0, 30.0]);
         let style = Style { scale: Scale::Log, ..Style::default() }.classed(&classes);
-        let picture = Picture::bare(&raster, &view(3, 2), &style).unwrap();
+        let picture = ColoredRaster::bare(&raster, &view(3, 2), &style).unwrap();
         let colors: Vec<Rgba> = (0..6).map(|k| picture.image.pixel(k % 3, k / 3)).collect();
         let map = Colormap::named("viridis").unwrap();
         let [a, b, c] = [0.0, 0.5, 1.0].map(|t| map.color(t));
@@ -291,7 +296,7 @@ mod tests {
     fn what_has_no_value_is_hatched_or_has_a_colour() {
         let values: Vec<f64> = (0..240).map(|k| if k % 3 == 0 { f64::NAN } else { 1.0 }).collect();
         let raster = Raster::new([20, 12], values);
-        let mut picture = Picture::bare(&raster, &view(20, 12), &Style::default()).unwrap();
+        let mut picture = ColoredRaster::bare(&raster, &view(20, 12), &Style::default()).unwrap();
         let plain = picture.clone();
         let undefined: Vec<u32> = (0..120).filter(|k| k % 3 == 0).collect();
         let mut colored = picture.clone();
@@ -315,7 +320,7 @@ mod tests {
         {
             let raster = Raster::from_fn([500, 4], |i, j| f64::from(40 + 4 * i + j).powi(2));
             let style = Style { scale, ..Style::named(name).unwrap() };
-            let picture = Picture::bare(&raster, &view(500, 4), &style).unwrap();
+            let picture = ColoredRaster::bare(&raster, &view(500, 4), &style).unwrap();
             for (i, j) in [(0, 0), (3, 1), (77, 2), (250, 0), (499, 3)] {
                 let t = picture.normalization.position(raster.value(i, j));
                 let (found, exact) = (picture.image.pixel(i, j), picture.colormap.color(t));
@@ -330,18 +335,18 @@ mod tests {
     fn single_precision_gives_the_same_picture() {
         let wide = Raster::from_fn([64, 48], |i, j| f64::from(i * j) * 0.25);
         let narrow = Raster::from_fn([64, 48], |i, j| (i * j) as f32 * 0.25);
-        let draw = |picture: Result<Picture, _>| picture.unwrap().image;
+        let draw = |picture: Result<ColoredRaster, _>| picture.unwrap().image;
         let style = Style::default();
         assert_eq!(
-            draw(Picture::bare(&wide, &view(64, 48), &style)),
-            draw(Picture::bare(&narrow, &view(64, 48), &style))
+            draw(ColoredRaster::bare(&wide, &view(64, 48), &style)),
+            draw(ColoredRaster::bare(&narrow, &view(64, 48), &style))
         );
     }
 
     #[test]
     fn the_description_restores_the_view() {
         let raster = Raster::from_fn([4, 2], |i, _| f64::from(i));
-        let picture = Picture::bare(&raster, &view(4, 2), &Style::default()).unwrap();
+        let picture = ColoredRaster::bare(&raster, &view(4, 2), &Style::default()).unwrap();
         let texts = picture.description("Plate", "plate.h5", "von Mises");
         let text = |key: &str| &texts.iter().find(|t| t.0 == key).unwrap().1;
         assert_eq!(text("ppum:view"), "center 0.1,-0.2 width 3e-7 pixels 4x2");

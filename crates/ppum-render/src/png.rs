@@ -2,7 +2,7 @@
 //!
 //! Texts are stored as `tEXt` chunks, as `iTXt` (UTF-8) where they need it, with what is not
 //! [printable](mod@ppum::printable) escaped: programs show them on terminals. See
-//! [`Picture::description`](crate::picture::Picture::description) for the keys.
+//! [`ColoredRaster::description`](crate::picture::ColoredRaster::description) for the keys.
 
 use std::borrow::Cow;
 
@@ -11,34 +11,34 @@ use ppum::printable::printable;
 use crate::image::Image;
 
 /// A key of 1 to 79 Latin-1 characters and its text.
-pub type Text = (String, String);
+pub type TextChunk = (String, String);
 
-/// The picture as the bytes of a PNG file, sRGB, 8 bits a channel; without opacity if all of it is
+/// The image as the bytes of a PNG file, sRGB, 8 bits a channel; without opacity if all of it is
 /// opaque.
 ///
 /// # Errors
-/// A key that is empty, too long or not Latin-1; a picture without pixels.
-pub fn encode(image: &Image, texts: &[Text]) -> Result<Vec<u8>, ::png::EncodingError> {
+/// A key that is empty, too long or not Latin-1; an image without pixels.
+pub fn encode(image: &Image, texts: &[TextChunk]) -> Result<Vec<u8>, ::png::EncodingError> {
     encode_at(image, None, texts)
 }
 
-/// The same with the size that the picture has on paper: its pixels per inch, which the file holds
-/// as whole pixels per metre.
+/// Encodes with the size that the image has on paper: its pixels per inch, which the file holds as
+/// whole pixels per metre.
 ///
 /// # Errors
 /// Those of [`encode`].
 pub fn encode_at(
     image: &Image,
     dpi: Option<f64>,
-    texts: &[Text],
+    texts: &[TextChunk],
 ) -> Result<Vec<u8>, ::png::EncodingError> {
     encode_by(image, dpi, texts, ::png::Compression::default())
 }
 
-/// The same, several times as fast and larger: for frames that are seen and thrown away.
+/// Encodes several times as fast, into a larger file: for frames that are seen and thrown away.
 ///
 /// # Errors
-/// A picture without pixels.
+/// An image without pixels.
 pub fn encode_quickly(image: &Image) -> Result<Vec<u8>, ::png::EncodingError> {
     encode_by(image, None, &[], ::png::Compression::Fastest)
 }
@@ -46,7 +46,7 @@ pub fn encode_quickly(image: &Image) -> Result<Vec<u8>, ::png::EncodingError> {
 fn encode_by(
     image: &Image,
     dpi: Option<f64>,
-    texts: &[Text],
+    texts: &[TextChunk],
     compression: ::png::Compression,
 ) -> Result<Vec<u8>, ::png::EncodingError> {
     let (color, data) = color_data(image);
@@ -67,7 +67,7 @@ fn encode_by(
 /// Adds texts to a file that is not begun.
 pub(crate) fn describe<W: std::io::Write>(
     encoder: &mut ::png::Encoder<'_, W>,
-    texts: &[Text],
+    texts: &[TextChunk],
 ) -> Result<(), ::png::EncodingError> {
     for (key, text) in texts {
         let text = printable(text).into_owned();
@@ -100,14 +100,14 @@ fn color_data(image: &Image) -> (::png::ColorType, Cow<'_, [u8]>) {
 mod tests {
     use super::*;
 
-    fn read(bytes: &[u8]) -> (Image, Vec<Text>, ::png::ColorType) {
+    fn read(bytes: &[u8]) -> (Image, Vec<TextChunk>, ::png::ColorType) {
         let decoder = ::png::Decoder::new(std::io::Cursor::new(bytes));
         let mut reader = decoder.read_info().unwrap();
         let mut data = vec![0; reader.output_buffer_size().unwrap()];
         reader.next_frame(&mut data).unwrap();
         reader.finish().unwrap();
         let info = reader.info();
-        let mut texts: Vec<Text> = info
+        let mut texts: Vec<TextChunk> = info
             .uncompressed_latin1_text
             .iter()
             .map(|t| (t.keyword.clone(), t.text.clone()))
@@ -117,7 +117,7 @@ mod tests {
         (image, texts, info.color_type)
     }
 
-    fn texts() -> Vec<Text> {
+    fn texts() -> Vec<TextChunk> {
         let text = |k: &str, t: &str| (k.to_owned(), t.to_owned());
         vec![text("Title", "Crack in a plate, 3 µm"), text("ppum:quantity", "σ_yy at 10⁻³")]
     }

@@ -76,8 +76,8 @@ pub struct Normalization {
 
 impl Normalization {
     /// A scale on a range that is known to be fit for it: min < max, not nearer than the smallest
-    /// normal number, and min > 0 on a logarithmic scale. [`Range`](crate::range::Range) sees to
-    /// that for ranges of people's.
+    /// normal number, and min > 0 on a logarithmic scale.
+    /// [`RangeChoice`](crate::range::RangeChoice) ensures that for user-defined ranges.
     #[must_use]
     pub fn new(scale: Scale, min: f64, max: f64) -> Self {
         debug_assert!(min < max && (max - min).is_normal() && (scale != Scale::Log || min > 0.0));

@@ -7,7 +7,7 @@
 //! On a linear scale entries are found on vectors, as the low bits of a number; colours are then
 //! looked up one by one. The table stays in the first cache, where a look-up takes about a cycle.
 
-use ppum::real::{Job, Real, Scalar};
+use ppum::real::{LaneJob, LaneNumber, Real};
 use ppum_raster::raster::SampleSlice;
 
 use crate::colormap::Colormap;
@@ -84,7 +84,7 @@ impl Shades {
     fn paint_values<T: TableKey>(&self, values: &[T], pixels: &mut [Rgba]) -> [bool; 2] {
         let ramp = Some(&self.norm).filter(|_| self.jumping.is_none()).and_then(Ramp::new);
         if let Some(ramp) = ramp {
-            return T::dispatch(Paint { ramp, table: &self.table, values, pixels });
+            return T::dispatch(RowShades { ramp, table: &self.table, values, pixels });
         }
         let mut beyond = [false; 2];
         for (pixel, &value) in pixels.iter_mut().zip(values) {
@@ -98,7 +98,7 @@ impl Shades {
 }
 
 /// A number type whose bits tell an entry.
-pub trait TableKey: Scalar {
+pub trait TableKey: LaneNumber {
     /// From this number to twice of it only whole numbers are numbers of the type: the last bits of
     /// a sum with it count.
     const WHOLE: f64;
@@ -165,30 +165,30 @@ impl<T: TableKey> Ramp<T> {
     /// The entries of some values, as the low bits of a number.
     #[inline(always)]
     fn entries<R: Real<Scalar = T>>(&self, v: R, beyond: &mut [bool; 2]) -> R {
-        let lit = |number: usize| v.lit(number as f64);
-        let splat = |number: T| v.lit(number.to_f64());
+        let lit = |number: usize| v.broadcast(number as f64);
+        let splat = |number: T| v.broadcast(number.to_f64());
         let [least, greatest] = self.range.map(splat);
         let [start, rest] = self.start.map(splat);
         // not fused, so that colours are the same on all processors
-        let entry = (v - start - rest) * splat(self.slope) + v.lit(0.5);
+        let entry = (v - start - rest) * splat(self.slope) + v.broadcast(0.5);
         let inside = entry.floor().max(lit(0)).min(lit(PALETTE - 1));
         let (below, above) = (least.gt(v), v.gt(greatest));
         *beyond = [beyond[0] | R::any(below), beyond[1] | R::any(above)];
         let entry = R::select(below, lit(BELOW), inside);
         let entry = R::select(above, lit(ABOVE), entry);
-        R::select(v.ge(v), entry, lit(UNDEFINED)) + v.lit(T::WHOLE)
+        R::select(v.ge(v), entry, lit(UNDEFINED)) + v.broadcast(T::WHOLE)
     }
 }
 
 /// Colours a row on a linear scale.
-struct Paint<'a, T> {
+struct RowShades<'a, T> {
     ramp: Ramp<T>,
     table: &'a [Rgba; LENGTH],
     values: &'a [T],
     pixels: &'a mut [Rgba],
 }
 
-impl<T: TableKey> Job<T> for Paint<'_, T> {
+impl<T: TableKey> LaneJob<T> for RowShades<'_, T> {
     type Output = [bool; 2];
 
     #[inline(always)]

@@ -18,16 +18,16 @@ use ppum::weight::WeightFunction;
 use ppum_raster::reference::reference;
 use ppum_render::deform::{Deformation, DeformedPoints, TOLERANCE, automatic_factor};
 use ppum_render::view::View;
-use ppum_testkit::meshes::{Elements, Polynomial, field};
+use ppum_testkit::meshes::{BivariatePolynomial, MeshBuilder, field};
 use ppum_testkit::random::Random;
 
 const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 
 /// A displacement of the plane by polynomials of x and y.
-type Displacement = [Polynomial; 2];
+type Displacement = [BivariatePolynomial; 2];
 
 /// The dataset of a mesh on which each patch has polynomials of x and y as its displacement.
-fn displaced(elements: &Elements, by: impl Fn(usize) -> Displacement) -> Dataset {
+fn displaced(elements: &MeshBuilder, by: impl Fn(usize) -> Displacement) -> Dataset {
     let rows = [0, 1].map(|component| {
         let part = |patch: usize| {
             let [x, y] = &elements.maps[patch];
@@ -58,7 +58,7 @@ fn displaced(elements: &Elements, by: impl Fn(usize) -> Displacement) -> Dataset
 }
 
 /// Adds a level field, a polynomial of x and y; returns its index.
-fn add_level(dataset: &mut Dataset, elements: &Elements, level: &Polynomial) -> u32 {
+fn add_level(dataset: &mut Dataset, elements: &MeshBuilder, level: &BivariatePolynomial) -> u32 {
     let part = |patch: usize| {
         let [x, y] = &elements.maps[patch];
         let mut level = level.of(x, y);
@@ -73,8 +73,8 @@ fn add_level(dataset: &mut Dataset, elements: &Elements, level: &Polynomial) -> 
 }
 
 /// Each element twice, on both sides of a level field, the other side with another displacement.
-fn cut(elements: &Elements, level: &Polynomial, by: [Displacement; 2]) -> Dataset {
-    let mut twice = Elements::default();
+fn cut(elements: &MeshBuilder, level: &BivariatePolynomial, by: [Displacement; 2]) -> Dataset {
+    let mut twice = MeshBuilder::default();
     for (patch, map) in elements.maps.iter().enumerate() {
         let mesh = &elements.mesh;
         for _ in 0..2 {
@@ -92,14 +92,14 @@ fn cut(elements: &Elements, level: &Polynomial, by: [Displacement; 2]) -> Datase
 }
 
 /// a + b x + c y + d x² + …, in the order of total degree.
-fn polynomial(coefficients: &[f64]) -> Polynomial {
+fn polynomial(coefficients: &[f64]) -> BivariatePolynomial {
     let degree = (0..9).find(|d| (d + 1) * (d + 2) / 2 >= coefficients.len()).unwrap_or(8);
     let mut all = coefficients.to_vec();
     all.resize((degree + 1) * (degree + 2) / 2, 0.0);
-    Polynomial::new(PolynomialSpace::Total, degree, &all)
+    BivariatePolynomial::new(PolynomialSpace::Total, degree, &all)
 }
 
-fn value(p: &Polynomial, at: Vec2) -> f64 {
+fn value(p: &BivariatePolynomial, at: Vec2) -> f64 {
     p.0.iter().map(|((a, b), c)| c * at.x.powi(*a) * at.y.powi(*b)).sum()
 }
 
@@ -179,7 +179,7 @@ fn plates_fill_their_moved_borders() {
             }
         }
         let map_degree = if curved { 2 } else { 1 };
-        let (elements, _) = Elements::quadtree(&mut random, 4, map_degree, &plane);
+        let (elements, _) = MeshBuilder::quadtree(&mut random, 4, map_degree, &plane);
         let u = random_displacement(&mut random, degree);
         let dataset = displaced(&elements, |_| u.clone());
         let field = Field::new(&dataset, 0).unwrap();
@@ -240,7 +240,7 @@ fn same_as_of_boxes(dataset: &Dataset, u: &Displacement, factor: f64, view: &Vie
     }
 }
 
-fn text(p: &Polynomial) -> String {
+fn text(p: &BivariatePolynomial) -> String {
     let terms = p.0.iter().map(|((a, b), c)| format!("({c:?})*x^{a}*y^{b}"));
     terms.collect::<Vec<_>>().join(" + ")
 }
@@ -262,7 +262,7 @@ fn by_formulas(texts: [String; 2]) -> Dataset {
 }
 
 /// The corners of an element of the plane, counter-clockwise.
-fn corners(elements: &Elements, patch: usize) -> Vec<Vec2> {
+fn corners(elements: &MeshBuilder, patch: usize) -> Vec<Vec2> {
     let corners = elements.mesh.shape[patch].corners();
     corners.iter().map(|&xi| elements.mesh.image(patch, xi).0).collect()
 }
@@ -274,7 +274,7 @@ fn elements_come_apart_and_overlap() {
     let mut random = Random(7);
     let (mut gaps, mut overlaps) = (0, 0);
     for case in 0..6 {
-        let elements = Elements::grid([4, 3], 1, &identity());
+        let elements = MeshBuilder::grid([4, 3], 1, &identity());
         let all: Vec<Displacement> = (0..elements.mesh.len())
             .map(|_| {
                 [(), ()].map(|()| {
@@ -320,7 +320,7 @@ fn elements_come_apart_and_overlap() {
 /// Where the plate has gone is known wherever the view is.
 #[test]
 fn bounds_follow_the_plate() {
-    let (elements, _) = Elements::quadtree(&mut Random(3), 5, 1, &identity());
+    let (elements, _) = MeshBuilder::quadtree(&mut Random(3), 5, 1, &identity());
     let dataset = displaced(&elements, |_| [5.0, 1.0].map(|c| polynomial(&[c, 0.0, 0.0])));
     let field = Field::new(&dataset, 0).unwrap();
     let bounds = Rect::new(Vec2::ZERO, vec2(1.0, 1.0));
@@ -339,7 +339,7 @@ fn bounds_follow_the_plate() {
 #[test]
 fn the_outline_is_the_border_alone() {
     let mut random = Random(3);
-    let (elements, _) = Elements::quadtree(&mut random, 5, 1, &identity());
+    let (elements, _) = MeshBuilder::quadtree(&mut random, 5, 1, &identity());
     let dataset = displaced(&elements, |_| [0.0, 0.5].map(|c| polynomial(&[0.1, c, 0.0])));
     let field = Field::new(&dataset, 0).unwrap();
     let view = View::fit(Rect::new(vec2(-0.1, -0.1), vec2(1.4, 1.4)), [300, 300]).unwrap();
@@ -366,7 +366,7 @@ fn cut_elements_open_like_cracks() {
     let circle = polynomial(&[0.16 + 0.3025 - 0.09, -0.8, -1.1, 1.0, 0.0, 1.0]);
     for (case, level) in [&straight, &circle].into_iter().enumerate() {
         for is_clipped in [true, false] {
-            let elements = Elements::grid([5, 4], 1, &identity());
+            let elements = MeshBuilder::grid([5, 4], 1, &identity());
             let dataset = match is_clipped {
                 true => cut(&elements, level, by.map(constant)),
                 false => jumping(&elements, level, by),
@@ -401,7 +401,7 @@ fn cut_elements_open_like_cracks() {
 }
 
 /// One patch an element, with functions of the level's sign.
-fn jumping(elements: &Elements, level: &Polynomial, by: [Vec2; 2]) -> Dataset {
+fn jumping(elements: &MeshBuilder, level: &BivariatePolynomial, by: [Vec2; 2]) -> Dataset {
     let mut dataset = displaced(elements, |_| identity());
     let index = add_level(&mut dataset, elements, level);
     let mut data = FieldData::new("displacement", &["ux", "uy"]);
@@ -421,7 +421,7 @@ fn jumping(elements: &Elements, level: &Polynomial, by: [Vec2; 2]) -> Dataset {
 }
 
 /// Both faces are drawn, to a tenth of a pixel, without gaps.
-fn faces_lie_on_the_level(points: &DeformedPoints<'_>, level: &Polynomial, by: [Vec2; 2]) {
+fn faces_lie_on_the_level(points: &DeformedPoints<'_>, level: &BivariatePolynomial, by: [Vec2; 2]) {
     let view = &points.view.view;
     let mut lengths = [0.0; 2];
     for path in points.view.cut_faces() {
@@ -443,7 +443,7 @@ fn faces_lie_on_the_level(points: &DeformedPoints<'_>, level: &Polynomial, by: [
 #[test]
 fn an_enriched_tip_opens_a_parabola() {
     let (tip, c) = (vec2(0.53, 0.47), 0.1);
-    let elements = Elements::grid([5, 4], 1, &identity());
+    let elements = MeshBuilder::grid([5, 4], 1, &identity());
     let mut dataset = displaced(&elements, |_| identity());
     let along = add_level(&mut dataset, &elements, &polynomial(&[-tip.x, 1.0, 0.0]));
     let beside = add_level(&mut dataset, &elements, &polynomial(&[-tip.y, 0.0, 1.0]));
@@ -481,7 +481,7 @@ fn an_enriched_tip_opens_a_parabola() {
 #[test]
 fn nodes_are_whole_at_any_zoom() {
     let mut random = Random(12);
-    let elements = Elements::grid([3, 3], 1, &identity());
+    let elements = MeshBuilder::grid([3, 3], 1, &identity());
     let u = random_displacement(&mut random, 2);
     let dataset = displaced(&elements, |_| u.clone());
     let field = Field::new(&dataset, 0).unwrap();
@@ -503,7 +503,7 @@ fn nodes_are_whole_at_any_zoom() {
 /// Of elements that overlap the first owns a point: what another one would move is not there.
 #[test]
 fn points_belong_to_the_first_element() {
-    let mut elements = Elements::default();
+    let mut elements = MeshBuilder::default();
     for shift in [0.0, 0.5] {
         let map = [polynomial(&[shift, 0.5, 0.0]), polynomial(&[0.0, 0.0, 0.5])];
         elements.push(Shape::Square, PolynomialSpace::Total, 1, map);
@@ -530,7 +530,7 @@ fn points_belong_to_the_first_element() {
 fn factor_zero_changes_nothing() {
     let mut random = Random(21);
     let plane = [polynomial(&[0.0, 1.0, 0.1, 0.2]), polynomial(&[0.0, 0.0, 1.0, 0.0, 0.2])];
-    let (elements, _) = Elements::quadtree(&mut random, 3, 2, &plane);
+    let (elements, _) = MeshBuilder::quadtree(&mut random, 3, 2, &plane);
     let u = random_displacement(&mut random, 2);
     let dataset = displaced(&elements, |_| u.clone());
     let field = Field::new(&dataset, 0).unwrap();

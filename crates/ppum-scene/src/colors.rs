@@ -7,18 +7,18 @@ use std::path::Path;
 use ppum::quantity::Quantity;
 use ppum_render::colormap::{Colormap, ColormapError, LONGEST, Rgb};
 use ppum_render::picture::Style;
-use ppum_render::range::Range;
+use ppum_render::range::RangeChoice;
 use ppum_render::scale::Scale;
 use serde::{Deserialize, Serialize};
 
-use crate::drawing::{RasterValues, Shown, classes};
+use crate::drawing::{DisplayedQuantity, RasterValues, classes};
 use crate::written;
 
-/// The way values become colours, but for the map itself.
+/// The way values become colours, except for the map itself.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(default)]
-pub struct Colors {
+pub struct ColorOptions {
     /// Name of the map, or of a file with one; by default that of the quantity.
     #[cfg_attr(feature = "clap", arg(long, value_name = "NAME", help = maps()))]
     pub colormap: Option<String>,
@@ -30,7 +30,7 @@ pub struct Colors {
         arg(default_value = "auto")
     )]
     #[serde(with = "written")]
-    pub range: Range,
+    pub range: RangeChoice,
     /// Mapping of values to colours: linear, log, or symlog, logarithmic on both sides of zero
     #[cfg_attr(feature = "clap", arg(long, default_value = "linear"))]
     #[serde(with = "written")]
@@ -78,10 +78,10 @@ fn extremes() -> impl clap::builder::TypedValueParser<Value = bool> {
     PossibleValuesParser::new([end, contrast]).map(|word| word == "contrast")
 }
 
-/// Most bands: more than eyes, and pictures, can tell apart.
+/// Most bands: more than eyes, and images, can tell apart.
 pub const MOST_BANDS: u16 = 1000;
 
-impl Colors {
+impl ColorOptions {
     /// The map: that of the name or file, by default one that suits the quantity.
     ///
     /// # Errors
@@ -100,9 +100,11 @@ impl Colors {
     #[must_use]
     pub fn style(&self, quantity: Option<&Quantity>, mut colormap: Colormap) -> Style {
         let range = match (self.range, quantity.and_then(period)) {
-            (Range::Auto, Some([from, to])) if colormap.cyclic => Range::Fixed(from, to),
+            (RangeChoice::Auto, Some([from, to])) if colormap.cyclic => {
+                RangeChoice::Fixed(from, to)
+            }
             // values of cells have no peaks between the pixels
-            (Range::Auto, None) if quantity.is_none() => Range::Full,
+            (RangeChoice::Auto, None) if quantity.is_none() => RangeChoice::Full,
             (range, _) => range,
         };
         if self.contrast {
@@ -116,10 +118,10 @@ impl Colors {
         Style { colormap, range, scale, nan_color, ..Style::default() }
     }
 
-    /// The style of pictures of one range. Few whole numbers have a colour each.
+    /// The style of images of one range. Few whole numbers have a colour each.
     pub fn style_of<'a>(
         &self,
-        pictures: impl IntoIterator<Item = (&'a Shown, &'a RasterValues)> + Clone,
+        pictures: impl IntoIterator<Item = (&'a DisplayedQuantity, &'a RasterValues)> + Clone,
         colormap: Colormap,
     ) -> Style {
         let first = pictures.clone().into_iter().next();
@@ -131,7 +133,7 @@ impl Colors {
     #[must_use]
     pub fn classed(&self, style: Style, classes: Option<Vec<f64>>) -> Style {
         let is_free =
-            self.range == Range::Auto && self.bands.is_none() && self.scale == Scale::Linear;
+            self.range == RangeChoice::Auto && self.bands.is_none() && self.scale == Scale::Linear;
         match classes.filter(|_| is_free) {
             Some(classes) => style.classed(&classes),
             None => style,
@@ -156,8 +158,8 @@ pub enum MapError {
     },
 }
 
-/// The map of a file, or the built-in one of that name. What is neither, but there, is read as a
-/// file too, to say why it cannot be.
+/// The map of a file, or the built-in one of that name. Any other existing path is read as a file
+/// too, to say why it cannot be.
 ///
 /// # Errors
 /// An unknown name; a file that cannot be read, or holds no map.

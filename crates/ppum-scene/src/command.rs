@@ -97,8 +97,8 @@ fn quoted(word: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::look::Look;
-    use crate::place::Place;
+    use crate::page_style::PageStyle;
+    use crate::place::ViewRegion;
 
     #[test]
     fn words_that_a_shell_would_change_are_quoted() {
@@ -109,8 +109,9 @@ mod tests {
 
     #[test]
     fn what_is_not_chosen_is_not_said() {
-        let place = Place { center: Some([-0.5, 1e-13]), width: Some(1e-12), ..Place::default() };
-        let look = Look { size: Some([80, 60]), ..Look::default() };
+        let place =
+            ViewRegion { center: Some([-0.5, 1e-13]), width: Some(1e-12), ..ViewRegion::default() };
+        let look = PageStyle { size: Some([80, 60]), ..PageStyle::default() };
         let request = Request { look, place, ..Request::default() };
         assert_eq!(
             line(&render(&request, "-x.h5", "x.png")),

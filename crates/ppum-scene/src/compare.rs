@@ -1,23 +1,23 @@
-//! Direct drawing beside what resampling gives: its pictures, its errors, and the memory and time
+//! Direct drawing beside what resampling gives: its images, its errors, and the memory and time
 //! of each.
 
 use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
-use ppum_render::RenderError;
-use ppum_render::picture::{Picture, Style};
-use ppum_render::range::{Range, RangeError, ValueSpan};
+use ppum_render::RasterError;
+use ppum_render::picture::{ColoredRaster, Style};
+use ppum_render::range::{ColorRange, RangeChoice, RangeError};
 use ppum_render::raster::Raster;
-use ppum_render::resample::need::{Needed, Obstacle};
-use ppum_render::resample::norms::{Norms, norms};
-use ppum_render::resample::{Grid, GridError, Interpolation, Samples, cells};
+use ppum_render::resample::need::{ConvergenceObstacle, GridNeed};
+use ppum_render::resample::norms::{DifferenceNorms, norms};
+use ppum_render::resample::{GridError, GridSamples, Interpolation, SampleGrid, cells};
 use ppum_render::scale::Scale;
 use ppum_render::view::View;
 use serde::{Deserialize, Serialize};
 
 use crate::written;
 
-/// A way of resampling, over the whole plate.
+/// A way of resampling, over the whole body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Compare {
@@ -35,9 +35,9 @@ impl Compare {
     /// The grid over a field's domain.
     ///
     /// # Errors
-    /// As [`Grid::new`].
-    pub fn grid_over(&self, field: &Field<'_>) -> Result<Grid, GridError> {
-        Grid::over_domain(field, [self.grid; 2])
+    /// As [`SampleGrid::new`].
+    pub fn grid_over(&self, field: &Field<'_>) -> Result<SampleGrid, GridError> {
+        SampleGrid::over_domain(field, [self.grid; 2])
     }
 }
 
@@ -47,10 +47,10 @@ impl Default for Compare {
     }
 }
 
-/// A picture that was made of few values.
+/// An image that was interpolated from few values.
 #[derive(Clone, Debug)]
-pub struct Resampled {
-    /// Of the cells of the cover none.
+pub struct ResampledImage {
+    /// `None` for the cells of the cover.
     pub interpolation: Option<Interpolation>,
     /// Points of the grid, if there is one.
     pub grid: Option<[u32; 2]>,
@@ -59,14 +59,14 @@ pub struct Resampled {
     /// The values at the pixels.
     pub raster: Raster,
     /// How far they are from the field.
-    pub norms: Norms,
+    pub norms: DifferenceNorms,
 }
 
-impl Resampled {
-    /// Interpolates samples at the pixels where the direct picture has its values.
+impl ResampledImage {
+    /// Interpolates samples at the pixels where the direct image has its values.
     #[must_use]
     pub fn on_grid(
-        samples: &Samples,
+        samples: &GridSamples,
         interpolation: Interpolation,
         view: &View,
         direct: &Raster,
@@ -87,7 +87,7 @@ impl Resampled {
         view: &View,
         direct: &Raster,
         watcher: &dyn Watcher,
-    ) -> Result<Self, RenderError> {
+    ) -> Result<Self, RasterError> {
         let raster = cells(field, view, quantity, watcher)?;
         let (bytes, norms) = (8 * field.step.partition.len() as u64, norms(direct, &raster));
         Ok(Self { interpolation: None, grid: None, bytes, norms, raster })
@@ -108,30 +108,30 @@ pub struct NeededGrid {
 impl NeededGrid {
     /// The words for what was found.
     #[must_use]
-    pub fn new(needed: Needed) -> Self {
+    pub fn new(needed: GridNeed) -> Self {
         let never = |reason| ("none", None, Some(reason));
         let (kind, size, reason) = match needed {
-            Needed::Grid(size) => ("measured", Some(size.map(f64::from)), None),
-            Needed::Extrapolated(size) => ("extrapolated", Some(size.map(f64::round)), None),
-            Needed::Never(Obstacle::Singular) => never("singular"),
-            Needed::Never(Obstacle::Jump) => never("jump"),
-            Needed::Never(Obstacle::Stalled) => never("stalled"),
+            GridNeed::Grid(size) => ("measured", Some(size.map(f64::from)), None),
+            GridNeed::Extrapolated(size) => ("extrapolated", Some(size.map(f64::round)), None),
+            GridNeed::Never(ConvergenceObstacle::Singular) => never("singular"),
+            GridNeed::Never(ConvergenceObstacle::Jump) => never("jump"),
+            GridNeed::Never(ConvergenceObstacle::Stalled) => never("stalled"),
         };
         Self { kind, size, reason }
     }
 }
 
-/// The picture of a difference, with a range of both signs also where all differences have one: no
+/// The image of a difference, with a range of both signs also where all differences have one: no
 /// difference is white.
 ///
 /// # Errors
-/// As [`Picture::spanning`].
-pub fn signed(apart: &Raster, view: &View) -> Result<Picture, RangeError> {
+/// As [`ColoredRaster::spanning`].
+pub fn signed(apart: &Raster, view: &View) -> Result<ColoredRaster, RangeError> {
     let style = Style { scale: Scale::Linear, ..difference_style() };
-    let found = Range::Auto.span(style.scale, true, apart, None);
+    let found = RangeChoice::Auto.span(style.scale, true, apart, None);
     let size = found.max.max(-found.min);
-    let span = ValueSpan { min: -size, max: size, ..found };
-    Picture::spanning(apart, view, &style, span)
+    let span = ColorRange { min: -size, max: size, ..found };
+    ColoredRaster::spanning(apart, view, &style, span)
 }
 
 /// Blue, white, red.

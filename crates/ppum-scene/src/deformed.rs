@@ -1,4 +1,4 @@
-//! The deformed plate: how much, and what of the plane is seen of it.
+//! The deformed body: how much, and what of the plane is seen of it.
 
 use std::fmt;
 use std::str::FromStr;
@@ -14,18 +14,18 @@ use ppum_render::raster::Raster;
 use ppum_render::view::View;
 
 use crate::body::BodyView;
-use crate::drawing::{Drawn, PROCESSOR, Shown};
+use crate::drawing::{DisplayedQuantity, PROCESSOR, PixelValues};
 
-/// How many times its displacement a plate is drawn with: written as a number, or `auto`.
+/// How many times its displacement a body is drawn with: written as a number, or `auto`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Factor {
-    /// The largest displacement is some 5 % of the plate.
+pub enum Magnification {
+    /// The largest displacement is some 5 % of the body.
     Auto,
     /// So many times.
     Given(f64),
 }
 
-impl FromStr for Factor {
+impl FromStr for Magnification {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
@@ -39,7 +39,7 @@ impl FromStr for Factor {
     }
 }
 
-impl fmt::Display for Factor {
+impl fmt::Display for Magnification {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Auto => f.write_str("auto"),
@@ -48,10 +48,10 @@ impl fmt::Display for Factor {
     }
 }
 
-crate::written::as_text!(Factor);
+crate::written::as_text!(Magnification);
 
-impl Factor {
-    /// The number, which for `auto` follows from the displacements of all plates.
+impl Magnification {
+    /// The number, which for `auto` follows from the displacements of all bodies.
     ///
     /// # Errors
     /// Fields that are no displacements.
@@ -64,7 +64,7 @@ impl Factor {
     }
 }
 
-/// A box around the deformed plate, and around the undeformed one if its border is drawn, with
+/// A box around the deformed body, and around the undeformed one if its border is drawn, with
 /// some room around it.
 ///
 /// # Errors
@@ -137,8 +137,8 @@ fn grown(Rect { min, max }: Rect, part: f64) -> Rect {
 /// Room around what is known of the places of a mesh's elements, for what bends between them.
 const BEYOND: f64 = 0.25;
 
-/// Room around the plate, in parts of its size: the outline is known to a tenth of a pixel of a
-/// small picture.
+/// Room around the body, in parts of its size: the outline is known to a tenth of a pixel of a
+/// small image.
 const ROOM: f64 = 0.01;
 
 /// The factor as it is told: `deformed ×100`.
@@ -147,27 +147,27 @@ pub fn words(factor: f64) -> String {
     format!("deformed ×{}", trimmed(factor))
 }
 
-/// The values of a picture of the deformed plate.
+/// The values of an image of the deformed body.
 ///
 /// # Errors
 /// A quantity without meaning for the field; a watcher that stops it.
 pub fn draw(
     points: &DeformedPoints<'_>,
-    shown: &Shown,
+    shown: &DisplayedQuantity,
     watcher: &dyn Watcher,
-) -> Result<Drawn, DeformError> {
+) -> Result<PixelValues, DeformError> {
     let raster = match shown {
-        Shown::Quantity(quantity) => points.raster(quantity, watcher)?,
-        Shown::Cells(_, values) => points.cells(values),
+        DisplayedQuantity::Quantity(quantity) => points.raster(quantity, watcher)?,
+        DisplayedQuantity::Cells(_, values) => points.cells(values),
     };
     let without = undefined(points, &raster.values);
     let overlap = (0..).zip(&raster.overlap).filter(|(_, is)| **is).map(|(pixel, _)| pixel);
     let (view, overlap, by) = (points.view.view, overlap.collect(), PROCESSOR.into());
     let values = raster.values.into();
-    Ok(Drawn { view, values, by, without, overlap, opacity: None, norms: None })
+    Ok(PixelValues { view, values, by, without, overlap, opacity: None, norms: None })
 }
 
-/// The pixels of the plate without a value.
+/// The pixels of the body without a value.
 fn undefined(points: &DeformedPoints<'_>, values: &Raster) -> Vec<u32> {
     let [columns, rows] = values.size;
     let all = (0..rows).flat_map(|j| (0..columns).map(move |i| (i, j)));

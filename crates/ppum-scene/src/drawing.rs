@@ -1,4 +1,4 @@
-//! What a picture shows, and its values once they are drawn; colours come afterwards.
+//! The quantity that an image shows, and its values once they are drawn; colours come afterwards.
 
 use ppum::dataset::Step;
 use ppum::field::Field;
@@ -7,24 +7,24 @@ use ppum::text::trimmed_to;
 use ppum_render::cells;
 use ppum_render::extrema::Extrema;
 use ppum_render::image::{Image, Rgba};
-use ppum_render::picture::{Picture, Style};
-use ppum_render::range::{RangeError, ValueSpan};
-use ppum_render::raster::{Raster, Sample, Statistics};
-use ppum_render::resample::norms::Norms;
+use ppum_render::picture::{ColoredRaster, Style};
+use ppum_render::range::{ColorRange, RangeError};
+use ppum_render::raster::{Raster, RasterValue, Statistics};
+use ppum_render::resample::norms::DifferenceNorms;
 use ppum_render::samples::{Means, Samples};
 use ppum_render::view::View;
 use rayon::prelude::*;
 
-/// What a picture shows.
+/// A quantity that an image can show.
 #[derive(Clone, Debug)]
-pub enum Shown {
+pub enum DisplayedQuantity {
     /// A quantity, at every point.
     Quantity(Quantity),
     /// One value per patch, on its cell, with its name.
     Cells(String, Vec<f64>),
 }
 
-impl Shown {
+impl DisplayedQuantity {
     /// The quantity, if it is one.
     pub fn quantity(&self) -> Option<&Quantity> {
         match self {
@@ -66,19 +66,19 @@ impl Shown {
 /// Most values that have a colour each: no more can be told apart.
 const MOST_CLASSES: usize = 20;
 
-/// The values that have a colour each in pictures of one range, rising: none unless they are few
+/// The values that have a colour each in images of one range, rising: none unless they are few
 /// whole numbers in all of them.
 pub fn classes<'a>(
-    pictures: impl IntoIterator<Item = (&'a Shown, &'a RasterValues)>,
+    pictures: impl IntoIterator<Item = (&'a DisplayedQuantity, &'a RasterValues)>,
 ) -> Option<Vec<f64>> {
-    let values = |(shown, values): (&Shown, &RasterValues)| {
+    let values = |(shown, values): (&DisplayedQuantity, &RasterValues)| {
         shown.is_whole().then(|| values.whole_numbers(MOST_CLASSES))?
     };
     let found: Option<Vec<Vec<f64>>> = pictures.into_iter().map(values).collect();
     united(found?)
 }
 
-/// Classes of several pictures together, if they are not too many.
+/// Classes of several images together, if they are not too many.
 pub fn united(classes: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     let mut all = classes.concat();
     all.sort_by(f64::total_cmp);
@@ -86,7 +86,7 @@ pub fn united(classes: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     (all.len() <= MOST_CLASSES).then_some(all)
 }
 
-/// The field, view and quantity of a picture.
+/// The field, view and quantity of an image.
 #[derive(Clone, Copy, Debug)]
 pub struct DrawingInput<'a> {
     /// The field.
@@ -97,7 +97,7 @@ pub struct DrawingInput<'a> {
     pub quantity: &'a Quantity,
 }
 
-/// Relative error of stresses above which fewer than three digits remain, which pictures show.
+/// Relative error of stresses above which fewer than three digits remain, which images show.
 const FEW_DIGITS: f64 = 1e-3;
 
 /// The relative error of stresses in single precision, of a step that keeps fewer than three digits
@@ -110,7 +110,7 @@ pub fn single_precision_error(step: &Step) -> Option<f64> {
     (error > FEW_DIGITS).then_some(error)
 }
 
-/// The warning about pictures of a step in single precision, if its coefficients do not bear it.
+/// The warning about images of a step in single precision, if its coefficients do not bear it.
 #[must_use]
 pub fn single_precision_warning(step: &Step) -> Option<String> {
     let error = single_precision_error(step)?;
@@ -123,21 +123,22 @@ pub fn single_precision_warning(step: &Step) -> Option<String> {
 
 /// Values at the centres of a view's pixels, and what drew them: `cpu f64`, `gpu f32, NAME`.
 #[derive(Clone, Debug)]
-pub struct Drawn {
+pub struct PixelValues {
     /// The view.
     pub view: View,
     /// The values.
     pub values: RasterValues,
-    /// What drew them.
+    /// The device that drew them.
     pub by: String,
-    /// The pixels of the plate without a value, by their place row by row.
+    /// The pixels of the body without a value, by their place row by row.
     pub without: Vec<u32>,
-    /// The pixels where the deformed plate lies over itself.
+    /// The pixels where the deformed body lies over itself.
     pub overlap: Vec<u32>,
-    /// Of values that are means, of so many samples a pixel: how much of each pixel is plate.
+    /// The number of samples a pixel that the values are means of, and how much of each pixel the
+    /// body covers.
     pub opacity: Option<(Samples, Vec<u8>)>,
-    /// Of a difference how large it is, also in parts of the side that was taken away.
-    pub norms: Option<Norms>,
+    /// The size of a difference, also in parts of the side that was taken away.
+    pub norms: Option<DifferenceNorms>,
 }
 
 /// Values in the precision that they were computed in.
@@ -189,7 +190,7 @@ impl RasterValues {
 
     /// The smallest and the largest value, which may be infinite.
     pub fn ends(&self) -> [f64; 2] {
-        fn of<T: Sample>(raster: &Raster<T>) -> [f64; 2] {
+        fn of<T: RasterValue>(raster: &Raster<T>) -> [f64; 2] {
             let start = [f64::INFINITY, f64::NEG_INFINITY];
             let values = raster.values.iter().map(|&value| value.into());
             values.fold(start, |[min, max], value: f64| [min.min(value), max.max(value)])
@@ -209,8 +210,8 @@ impl RasterValues {
     }
 }
 
-impl Drawn {
-    /// The values of an undeformed plate.
+impl PixelValues {
+    /// The values of an undeformed body.
     pub fn new(values: impl Into<RasterValues>, field: &Field<'_>, view: &View, by: &str) -> Self {
         let values = values.into();
         let without = match &values {
@@ -226,8 +227,8 @@ impl Drawn {
         Self::new(cells::raster(field, values, view), field, view, PROCESSOR)
     }
 
-    /// The means of samples of an undeformed plate.
-    pub fn averaged<T: Sample>(means: Means<T>, job: DrawingInput<'_>, by: &str) -> Self
+    /// The means of samples of an undeformed body.
+    pub fn averaged<T: RasterValue>(means: Means<T>, job: DrawingInput<'_>, by: &str) -> Self
     where
         RasterValues: From<Raster<T>>,
     {
@@ -237,7 +238,7 @@ impl Drawn {
     }
 
     /// The range of the values, with the extrema of the view if these are known.
-    pub fn span(&self, style: &Style, values: Option<Extrema>) -> ValueSpan {
+    pub fn span(&self, style: &Style, values: Option<Extrema>) -> ColorRange {
         let Style { range, scale, colormap, .. } = style;
         match &self.values {
             RasterValues::Double(raster) => range.span(*scale, colormap.diverging, raster, values),
@@ -246,10 +247,14 @@ impl Drawn {
     }
 
     /// Gives the values colours of a range.
-    pub fn picture(&self, style: &Style, span: ValueSpan) -> Result<Picture, RangeError> {
+    pub fn picture(&self, style: &Style, span: ColorRange) -> Result<ColoredRaster, RangeError> {
         let mut picture = match &self.values {
-            RasterValues::Double(raster) => Picture::spanning(raster, &self.view, style, span),
-            RasterValues::Single(raster) => Picture::spanning(raster, &self.view, style, span),
+            RasterValues::Double(raster) => {
+                ColoredRaster::spanning(raster, &self.view, style, span)
+            }
+            RasterValues::Single(raster) => {
+                ColoredRaster::spanning(raster, &self.view, style, span)
+            }
         }?;
         picture.mark_undefined(&self.without, style.nan_color);
         hatch(&mut picture.image, &self.overlap);
@@ -259,15 +264,19 @@ impl Drawn {
         Ok(picture)
     }
 
-    /// The number of pixels of the plate without a value, and of all of them.
+    /// The number of pixels of the body without a value, and of all of them.
     pub fn undefined(&self) -> [usize; 2] {
         let Statistics { finite, infinite, .. } = self.values.statistics();
         [self.without.len(), self.without.len() + finite + infinite]
     }
 }
 
-/// The pixels of the plate without a value: on a mesh those of its elements.
-pub(crate) fn undefined<T: Sample>(raster: &Raster<T>, field: &Field<'_>, view: &View) -> Vec<u32> {
+/// The pixels of the body without a value: on a mesh those of its elements.
+pub(crate) fn undefined<T: RasterValue>(
+    raster: &Raster<T>,
+    field: &Field<'_>,
+    view: &View,
+) -> Vec<u32> {
     let without = raster.undefined(field.domain, view);
     if field.step.partition.mesh().is_none() {
         return without;
@@ -277,10 +286,10 @@ pub(crate) fn undefined<T: Sample>(raster: &Raster<T>, field: &Field<'_>, view: 
     without.into_par_iter().filter(is_inside).collect()
 }
 
-/// What draws all that is not drawn by a backend.
+/// The name of the device of values that no backend computes.
 pub const PROCESSOR: &str = "cpu f64";
 
-/// Dark lines across the pixels where the plate lies over itself.
+/// Dark lines across the pixels where the body lies over itself.
 fn hatch(image: &mut Image, overlap: &[u32]) {
     let columns = image.size[0];
     let pixels = image.rgba.as_chunks_mut().0;

@@ -1,4 +1,5 @@
-//! What computes the values of an image: the processor, in either precision, or a graphics card.
+//! Computation of the values of an image by the processor, in either precision, or by a graphics
+//! card.
 //!
 //! Whatever computes them gives a raster; ranges, colours, overlays and figures are made of it by
 //! the same code. Graphics cards are behind a function, so that programs without them need
@@ -11,16 +12,18 @@ use std::sync::{Mutex, PoisonError};
 use ppum::field::Field;
 use ppum::progress::{Watcher, unwatched};
 use ppum::quantity::{Quantity, Source};
-use ppum_render::RenderError;
-use ppum_render::raster::{Raster, Sample};
+use ppum_render::RasterError;
+use ppum_render::raster::{Raster, RasterValue};
 use ppum_render::samples::{Samples, means};
 use ppum_render::scatter::render;
 use serde::{Deserialize, Serialize};
 
-use crate::drawing::{DrawingInput, Drawn, PROCESSOR, RasterValues, single_precision_warning};
+use crate::drawing::{
+    DrawingInput, PROCESSOR, PixelValues, RasterValues, single_precision_warning,
+};
 use crate::notice::Notice;
 
-/// What computes the values.
+/// The backend that computes the values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
 #[serde(rename_all = "lowercase")]
@@ -32,7 +35,7 @@ pub enum Backend {
     Cpu,
     /// Any graphics device, a software one too: one pass that gathers
     Gpu,
-    /// The same by the three passes of Üffinger et al. 2011, to compare
+    /// Splatting in the three passes of Üffinger et al. 2011, to compare
     Splat,
 }
 
@@ -90,7 +93,7 @@ pub enum Device {
 
 /// The way a device draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Method {
+pub enum DeviceMethod {
     /// One pass that gathers.
     Gather,
     /// Three passes that splat.
@@ -108,17 +111,22 @@ pub struct CardError {
 }
 
 /// Draws the means of so many samples a pixel on a device.
-pub type DrawOnCard =
-    fn(DrawingInput<'_>, Samples, Device, Method, &dyn Watcher) -> Result<Drawn, CardError>;
+pub type DrawOnCard = fn(
+    DrawingInput<'_>,
+    Samples,
+    Device,
+    DeviceMethod,
+    &dyn Watcher,
+) -> Result<PixelValues, CardError>;
 
 /// The card of a program that was built without.
 fn no_card(
     _: DrawingInput<'_>,
     _: Samples,
     _: Device,
-    _: Method,
+    _: DeviceMethod,
     _: &dyn Watcher,
-) -> Result<Drawn, CardError> {
+) -> Result<PixelValues, CardError> {
     let reason = "no graphics adapter: this program was built without graphics cards; leave the backend out, or use `--backend cpu`";
     Err(CardError { message: reason.to_owned(), is_normal: true })
 }
@@ -132,7 +140,7 @@ pub enum EngineError {
         "graphics devices compute in single precision; use backend cpu, or leave precision out"
     )]
     Double,
-    /// The deformed plate on a device, or in single precision.
+    /// The deformed body on a device, or in single precision.
     #[error(
         "the deformed plate is drawn by the processor, in double precision; leave backend and precision out"
     )]
@@ -142,7 +150,7 @@ pub enum EngineError {
     Card(#[from] CardError),
     /// The quantity, or a watcher that stopped it.
     #[error(transparent)]
-    Render(#[from] RenderError),
+    Render(#[from] RasterError),
 }
 
 /// Computes values as they are asked for, and collects what is to be said of the image.
@@ -192,7 +200,11 @@ impl<'a> Engine<'a> {
     ///
     /// # Errors
     /// A quantity that the field does not have; a device that fails; a watcher that stops it.
-    pub fn draw(&self, job: DrawingInput<'_>, samples: Samples) -> Result<Drawn, EngineError> {
+    pub fn draw(
+        &self,
+        job: DrawingInput<'_>,
+        samples: Samples,
+    ) -> Result<PixelValues, EngineError> {
         let drawn = self.drawn(job, samples)?;
         if let (RasterValues::Single(_), Some(text)) =
             (&drawn.values, single_precision_warning(job.field.step))
@@ -202,7 +214,7 @@ impl<'a> Engine<'a> {
         Ok(drawn)
     }
 
-    fn drawn(&self, job: DrawingInput<'_>, samples: Samples) -> Result<Drawn, EngineError> {
+    fn drawn(&self, job: DrawingInput<'_>, samples: Samples) -> Result<PixelValues, EngineError> {
         let on = |device, method| (self.card)(job, samples, device, method, self.watcher);
         let is_mesh = job.field.step.partition.mesh().is_some();
         match self.backend {
@@ -211,10 +223,10 @@ impl<'a> Engine<'a> {
                 Ok(self.on_processor(job, samples)?)
             }
             Backend::Cpu => Ok(self.on_processor(job, samples)?),
-            Backend::Gpu => Ok(on(Device::Any, Method::Gather)?),
-            Backend::Splat => Ok(on(Device::Any, Method::Splat)?),
+            Backend::Gpu => Ok(on(Device::Any, DeviceMethod::Gather)?),
+            Backend::Splat => Ok(on(Device::Any, DeviceMethod::Splat)?),
             Backend::Auto if self.needs_processor(job) => Ok(self.on_processor(job, samples)?),
-            Backend::Auto => on(Device::Hardware, Method::Gather).or_else(|error| {
+            Backend::Auto => on(Device::Hardware, DeviceMethod::Gather).or_else(|error| {
                 if !error.is_normal {
                     self.tell(Notice::NoCard(error.message));
                 }
@@ -230,14 +242,18 @@ impl<'a> Engine<'a> {
         self.precision == Some(Precision::F64) || backend.needs_processor(job.field, job.quantity)
     }
 
-    fn on_processor(&self, job: DrawingInput<'_>, samples: Samples) -> Result<Drawn, RenderError> {
+    fn on_processor(
+        &self,
+        job: DrawingInput<'_>,
+        samples: Samples,
+    ) -> Result<PixelValues, RasterError> {
         match self.precision {
             Some(Precision::F32) => computed::<f32>(job, samples, "cpu f32", self.watcher),
             _ => computed::<f64>(job, samples, PROCESSOR, self.watcher),
         }
     }
 
-    /// Refuses to draw the deformed plate, which only the processor can, in double precision, by
+    /// Refuses to draw the deformed body, which only the processor can, in double precision, by
     /// anything else.
     ///
     /// # Errors
@@ -256,7 +272,7 @@ impl<'a> Engine<'a> {
         }
     }
 
-    /// Tells that something has no value at some pixels of the plate, of so many.
+    /// Tells that something has no value at some pixels of the body, of so many.
     pub fn tell_undefined(&self, name: &str, counts: [usize; 2], is_of_cells: bool) {
         match counts {
             [_, 0] => self.tell(Notice::OffPlate),
@@ -271,18 +287,22 @@ impl<'a> Engine<'a> {
     }
 }
 
-fn computed<T: Sample>(
+fn computed<T: RasterValue>(
     job: DrawingInput<'_>,
     samples: Samples,
     by: &str,
     watcher: &dyn Watcher,
-) -> Result<Drawn, RenderError>
+) -> Result<PixelValues, RasterError>
 where
     RasterValues: From<Raster<T>>,
 {
     let DrawingInput { field, view, quantity } = job;
     if samples != Samples::CENTER {
-        return Ok(Drawn::averaged(means::<T>(field, view, quantity, samples, watcher)?, job, by));
+        return Ok(PixelValues::averaged(
+            means::<T>(field, view, quantity, samples, watcher)?,
+            job,
+            by,
+        ));
     }
-    Ok(Drawn::new(render::<T>(field, view, quantity, watcher)?, field, view, by))
+    Ok(PixelValues::new(render::<T>(field, view, quantity, watcher)?, field, view, by))
 }

@@ -1,5 +1,5 @@
-//! What each option of an image does: the comment of its field, which is the help of the command
-//! line, the docstring of Python and the tooltip of the window.
+//! The effect of each option of an image: the comment of its field, which is the help of the
+//! command line, the docstring of Python and the tooltip of the window.
 
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
@@ -30,7 +30,8 @@ pub fn tooltip(option: &str) -> &'static str {
 mod tests {
     use super::*;
 
-    /// Each field that a request has in JSON, but for what programs read by options of their own.
+    /// Each field that a request has in JSON, except for what programs read by options of their
+    /// own.
     #[test]
     fn every_option_has_a_text() {
         let own = ["labels", "quantities", "parts", "subject", "quantity"];

@@ -1,70 +1,70 @@
-//! The overlays of a picture, drawn.
+//! The overlays of an image, drawn.
 
 use ppum::crack::Crack;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::quantity::{Axis, Quantity, Reflection};
-use ppum_figure::canvas::Item;
-use ppum_figure::figure::Design;
+use ppum_figure::canvas::CanvasItem;
+use ppum_figure::figure::FigureStyle;
 use ppum_figure::levels;
 use ppum_figure::overlay::{self, LegendEntry, Room};
 use ppum_figure::ticks::Notation;
-use ppum_render::RenderError;
+use ppum_render::RasterError;
 use ppum_render::cells;
 use ppum_render::deform::DeformError;
-use ppum_render::glyph::Lattice;
+use ppum_render::glyph::GlyphLattice;
 use ppum_render::isoline::Isoline;
-use ppum_render::picture::Picture;
+use ppum_render::picture::ColoredRaster;
 use ppum_render::view::View;
 
 use crate::body::{BodyPart, BodyView};
 use crate::drawing::RasterValues;
 use crate::notice::Notice;
-use crate::overlays::{Levels, Overlay, Overlays};
-use crate::stations::Stations;
+use crate::overlays::{IsolineLevels, Overlay, Overlays};
+use crate::stations::BoundarySamples;
 use crate::whole;
 
-/// What overlays are drawn on.
+/// The image that overlays are drawn on, with its dataset and field.
 #[derive(Clone, Copy)]
-pub struct Ground<'a> {
+pub struct LayerInput<'a> {
     /// The dataset, which may hold the problem with its supports and loads.
     pub dataset: &'a Dataset,
     /// Its field.
     pub field: &'a Field<'a>,
     /// The quantity that is shown; none of values of cells, which have no isolines.
     pub quantity: Option<&'a Quantity>,
-    /// The picture below.
-    pub picture: &'a Picture,
+    /// The image below.
+    pub picture: &'a ColoredRaster,
     /// Values at the centres of its pixels.
     pub values: &'a RasterValues,
-    /// The design of the figure around it, none of a bare picture: lines and letters have their
+    /// The design of the figure around it, none of a bare image: lines and letters have their
     /// width by it, and cracks are drawn whatever is asked for.
-    pub design: Option<&'a Design>,
+    pub design: Option<&'a FigureStyle>,
     /// True if a colour bar tells how numbers are written.
     pub has_bar: bool,
 }
 
-impl Ground<'_> {
+impl LayerInput<'_> {
     /// The levels of isolines; none where nothing but rounding tells values apart.
-    pub(crate) fn levels(&self, wanted: &Levels) -> Vec<f64> {
+    pub(crate) fn levels(&self, wanted: &IsolineLevels) -> Vec<f64> {
         let norm = &self.picture.normalization;
         match wanted {
             _ if self.picture.one_value.is_some() => Vec::new(),
-            Levels::Auto => levels::automatic(norm, AUTOMATIC),
-            Levels::Count(count) => levels::about(norm, *count),
-            Levels::At(values) => values.clone(),
+            IsolineLevels::Auto => levels::automatic(norm, AUTOMATIC),
+            IsolineLevels::Count(count) => levels::about(norm, *count),
+            IsolineLevels::At(values) => values.clone(),
         }
     }
 
-    /// Isolines, found on the exact field; the picture's values say where to look for them.
+    /// Isolines, found on the exact field; the image's values say where to look for them.
     pub(crate) fn isolines(
         &self,
         seen: &BodyView<'_>,
         quantity: &Quantity,
         levels: &[f64],
         watcher: &dyn Watcher,
-    ) -> Result<Vec<Isoline>, RenderError> {
+    ) -> Result<Vec<Isoline>, RasterError> {
         whole::between_ends(levels, self.ends(), |levels| {
             whole::isolines(self.field, seen, quantity, levels, self.values, watcher)
         })
@@ -72,27 +72,27 @@ impl Ground<'_> {
 
     /// The ends of the values, those of the pixels if no others are known, and of the colours.
     fn ends(&self) -> ([f64; 2], [f64; 2]) {
-        let Picture { span, normalization: norm, .. } = self.picture;
+        let ColoredRaster { span, normalization: norm, .. } = self.picture;
         let known = span.values.as_ref().map(|values| [values.min.value, values.max.value]);
         (known.unwrap_or_else(|| self.values.ends()), [norm.min(), norm.max()])
     }
 }
 
-/// Scale of lines and letters over a picture: that of the figure's design, or of a bare picture of
+/// Scale of lines and letters over an image: that of the figure's design, or of a bare image of
 /// so many pixels.
 #[must_use]
-pub fn scale(design: Option<&Design>, pixels: [u32; 2]) -> f64 {
-    design.map_or_else(|| overlay::line_scale(pixels), Design::scale)
+pub fn scale(design: Option<&FigureStyle>, pixels: [u32; 2]) -> f64 {
+    design.map_or_else(|| overlay::line_scale(pixels), FigureStyle::scale)
 }
 
-/// What is drawn over a picture.
+/// The layers over an image.
 #[derive(Debug, Default)]
 pub struct Layers {
-    /// Items in pixels of the picture, the lowest first.
-    pub items: Vec<Item>,
-    /// The entries of a legend that has no room in the picture.
+    /// Items in pixels of the image, the lowest first.
+    pub items: Vec<CanvasItem>,
+    /// The entries of a legend that has no room in the image.
     pub legend: Vec<LegendEntry>,
-    /// What was asked for and is not seen.
+    /// Notices about requested items that are not visible.
     pub notices: Vec<Notice>,
 }
 
@@ -106,19 +106,19 @@ pub enum LayersError {
          component"
     )]
     Crosses,
-    /// An overlay that belongs to the plate as it was.
+    /// An overlay that belongs to the body as it was.
     #[error("{}: of these overlays the deformed plate has cells and cracks alone", .0.name())]
     Deformed(Overlay),
     /// Isolines, or values that they are found from.
     #[error(transparent)]
-    Render(Box<RenderError>),
-    /// Places of the deformed plate.
+    Render(Box<RasterError>),
+    /// Places of the deformed body.
     #[error(transparent)]
     Deform(Box<DeformError>),
 }
 
-impl From<RenderError> for LayersError {
-    fn from(error: RenderError) -> Self {
+impl From<RasterError> for LayersError {
+    fn from(error: RasterError) -> Self {
         Self::Render(Box::new(error))
     }
 }
@@ -135,16 +135,16 @@ const AUTOMATIC: usize = 14;
 const SPACING: f64 = 30.0;
 
 impl Overlays {
-    /// Draws them over a picture of what is seen. The deformed plate of a figure has its border and
+    /// Draws them over an image of what is seen. The deformed body of a figure has its border and
     /// the faces of its cracks unless they are left out; with `outline` the border of the
     /// undeformed one too.
     ///
     /// # Errors
-    /// Overlays that the field or the deformed plate does not have; too many isolines; a watcher
+    /// Overlays that the field or the deformed body does not have; too many isolines; a watcher
     /// that stops it.
     pub fn layers(
         &self,
-        ground: Ground<'_>,
+        ground: LayerInput<'_>,
         seen: &BodyView<'_>,
         outline: bool,
         watcher: &dyn Watcher,
@@ -154,16 +154,16 @@ impl Overlays {
         }
         let scale = scale(ground.design, ground.picture.view.pixels);
         let layers = Layers::default();
-        let mut drawing = Drawing { overlays: self, ground, seen, scale, watcher, layers };
+        let mut drawing = LayerDrawing { overlays: self, ground, seen, scale, watcher, layers };
         drawing.draw(outline)?;
         Ok(drawing.with_legend())
     }
 }
 
 /// Layers while they are drawn.
-struct Drawing<'a, 'f> {
+struct LayerDrawing<'a, 'f> {
     overlays: &'a Overlays,
-    ground: Ground<'a>,
+    ground: LayerInput<'a>,
     /// The body and its images, as they are seen.
     seen: &'a BodyView<'f>,
     scale: f64,
@@ -171,7 +171,7 @@ struct Drawing<'a, 'f> {
     layers: Layers,
 }
 
-impl<'a> Drawing<'a, '_> {
+impl<'a> LayerDrawing<'a, '_> {
     /// Draws all of them; with `outline` the border of the undeformed body below a deformed one.
     fn draw(&mut self, outline: bool) -> Result<(), LayersError> {
         if self.seen.factor().is_some() {
@@ -195,7 +195,7 @@ impl<'a> Drawing<'a, '_> {
             }
             other => self.overlay(other, &stations),
         });
-        let overlays: Vec<Item> = overlays.collect::<Vec<_>>().concat();
+        let overlays: Vec<CanvasItem> = overlays.collect::<Vec<_>>().concat();
         self.layers.legend.extend(meaning);
         self.isolines()?;
         self.layers.items.extend(glyphs);
@@ -203,8 +203,8 @@ impl<'a> Drawing<'a, '_> {
         Ok(())
     }
 
-    /// What is drawn of the body and, flipped, of its images.
-    fn of_parts(&self, mut draw: impl FnMut(&BodyPart<'_>) -> Vec<Item>) -> Vec<Item> {
+    /// Layers of the body and, flipped, of its images.
+    fn of_parts(&self, mut draw: impl FnMut(&BodyPart<'_>) -> Vec<CanvasItem>) -> Vec<CanvasItem> {
         let mut items = draw(&self.seen.own);
         for image in &self.seen.images {
             let (flips, size) = (image.flips(), image.view.pixels);
@@ -235,7 +235,7 @@ impl<'a> Drawing<'a, '_> {
     }
 
     /// The centres or the boxes of cells by their enrichments, and what their colours mean.
-    fn enrichments(&self, wanted: Overlay) -> (Vec<Item>, Vec<LegendEntry>) {
+    fn enrichments(&self, wanted: Overlay) -> (Vec<CanvasItem>, Vec<LegendEntry>) {
         let draw = if wanted == Overlay::Boxes { overlay::boxes } else { overlay::centers };
         let mut entries = Vec::new();
         let items = self.of_parts(|part| {
@@ -264,8 +264,8 @@ impl<'a> Drawing<'a, '_> {
     }
 
     /// An overlay of the body and of its images.
-    fn overlay(&self, wanted: Overlay, stations: &Stations) -> Vec<Item> {
-        let Ground { field, picture, .. } = self.ground;
+    fn overlay(&self, wanted: Overlay, stations: &BoundarySamples) -> Vec<CanvasItem> {
+        let LayerInput { field, picture, .. } = self.ground;
         let (view, scale, mirrors) = (&picture.view, self.scale, self.seen.lines.at());
         match wanted {
             Overlay::Supports => overlay::supports(view, scale, &stations.supports),
@@ -301,7 +301,7 @@ impl<'a> Drawing<'a, '_> {
     }
 
     /// An overlay of the cover.
-    fn of_cover(&self, wanted: Overlay, view: &View) -> Vec<Item> {
+    fn of_cover(&self, wanted: Overlay, view: &View) -> Vec<CanvasItem> {
         let (scale, field) = (self.scale, self.ground.field);
         let step = field.step;
         match wanted {
@@ -320,7 +320,7 @@ impl<'a> Drawing<'a, '_> {
     fn isolines(&mut self) -> Result<(), LayersError> {
         let Some((quantity, levels)) = self.levels() else { return Ok(()) };
         let lines = self.ground.isolines(self.seen, quantity, &levels, self.watcher)?;
-        let Ground { field, picture, .. } = self.ground;
+        let LayerInput { field, picture, .. } = self.ground;
         let cracks = match self.seen.factor() {
             // they have opened, or closed: nothing can be said of their lines
             Some(_) => Vec::new(),
@@ -334,7 +334,7 @@ impl<'a> Drawing<'a, '_> {
     /// Isolines, or a word that there are none of the levels that were listed; others lie in the
     /// range, if there is one.
     fn add_isolines(&mut self, view: &View, lines: &[Isoline], room: Option<Room>) {
-        if matches!(self.overlays.isolines, Some(Levels::At(_))) {
+        if matches!(self.overlays.isolines, Some(IsolineLevels::At(_))) {
             self.notice_of_none(lines.len(), Notice::NoIsoline);
         }
         self.layers.items.extend(overlay::isolines(view, self.scale, lines, room));
@@ -346,7 +346,7 @@ impl<'a> Drawing<'a, '_> {
 
     /// Where labels of levels may stand, if they are asked for: not below a legend.
     fn room(&self, view: &View, cracks: &[Crack]) -> Option<Room> {
-        let Ground { picture, has_bar, .. } = self.ground;
+        let LayerInput { picture, has_bar, .. } = self.ground;
         let notation = || match has_bar {
             true => Notation::of(&picture.normalization),
             false => Notation::PLAIN,
@@ -367,8 +367,8 @@ impl<'a> Drawing<'a, '_> {
     }
 
     /// Arrows and crosses with what their lengths mean in the legend.
-    fn glyphs(&mut self) -> Result<Vec<Item>, LayersError> {
-        let Ground { field, picture: Picture { view, .. }, .. } = self.ground;
+    fn glyphs(&mut self) -> Result<Vec<CanvasItem>, LayersError> {
+        let LayerInput { field, picture: ColoredRaster { view, .. }, .. } = self.ground;
         let mut items = Vec::new();
         if let Some(spacing) = self.overlays.crosses {
             let mut found = Vec::new();
@@ -402,23 +402,23 @@ impl<'a> Drawing<'a, '_> {
     }
 
     /// The points of a part with glyphs.
-    fn lattice<'b>(&'b self, part: &'b BodyPart<'_>, spacing: f64) -> Lattice<'b> {
+    fn lattice<'b>(&'b self, part: &'b BodyPart<'_>, spacing: f64) -> GlyphLattice<'b> {
         let (by, spacing) = (&part.reflection, spacing * self.scale);
         match &part.points {
-            Some(points) => Lattice::deformed(points, by, spacing),
-            None => Lattice::reflected(self.ground.field, self.seen.view(), by, spacing),
+            Some(points) => GlyphLattice::deformed(points, by, spacing),
+            None => GlyphLattice::reflected(self.ground.field, self.seen.view(), by, spacing),
         }
     }
 
     /// Points along the border with supports and loads; none if nobody asks for them.
-    fn stations(&mut self) -> Stations {
+    fn stations(&mut self) -> BoundarySamples {
         if !self.overlays.have_stations() {
-            return Stations::default();
+            return BoundarySamples::default();
         }
         let spacing = SPACING * self.scale * self.ground.picture.view.pixel_size();
-        let stations = Stations::of(self.ground.dataset, spacing).unwrap_or_else(|notice| {
+        let stations = BoundarySamples::of(self.ground.dataset, spacing).unwrap_or_else(|notice| {
             self.layers.notices.push(notice);
-            Stations::default()
+            BoundarySamples::default()
         });
         stations.mirrored(&self.seen.lines)
     }

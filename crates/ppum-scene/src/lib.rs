@@ -1,20 +1,23 @@
-//! What a picture of a dataset shows, as data, and what is drawn of it.
+//! Images of a dataset: their content, as data, and their drawing.
 //!
-//! A picture comes about in four steps, each of which is a value of its own, so that a program can
+//! An image comes about in four steps, each of which is a value of its own, so that a program can
 //! keep what has not changed: the [view](body::BodyView) of the body; the values
-//! [`Drawn`](drawing::Drawn) of what is [`Shown`](drawing::Shown); their colours, a range
-//! ([`range::value_span`]) and a style ([`Colors`](colors::Colors)); the
-//! [`Layers`](layers::Layers) of its [`Overlays`](overlays::Overlays). What people choose is plain
-//! data that can be compared, kept and written. The program's commands and its window draw by this
-//! crate alone, so both draw the same.
+//! ([`PixelValues`](drawing::PixelValues)) of the [quantity](drawing::DisplayedQuantity) that is
+//! shown; their colours, a range ([`range::value_span`]) and a style
+//! ([`ColorOptions`](colors::ColorOptions)); the [`Layers`](layers::Layers) of its
+//! [`Overlays`](overlays::Overlays). The users' choices are plain data that can be compared, kept
+//! and written. The program's commands and its window draw by this crate alone, so both draw the
+//! same.
 
 #[cfg(feature = "clap")]
 pub mod arguments;
 pub mod body;
+pub mod camera;
 pub mod colors;
 pub mod command;
 pub mod compare;
 pub mod deformed;
+pub mod difference;
 pub mod drawing;
 pub mod engine;
 #[cfg(feature = "problem")]
@@ -23,19 +26,19 @@ pub mod export;
 pub mod facts;
 #[cfg(feature = "clap")]
 pub mod help;
+pub mod image_job;
 pub mod layers;
-pub mod look;
+pub mod location;
 pub mod material;
-pub mod minus;
 pub mod mirror;
 pub mod moving;
 pub mod notice;
 pub mod overlays;
 pub mod owner;
+pub mod page_style;
 pub mod panels;
 pub mod paper;
 pub mod place;
-pub mod placing;
 #[cfg(feature = "problem")]
 pub mod plots;
 pub mod probe;
@@ -45,9 +48,7 @@ pub mod request;
 pub mod scene;
 pub mod shared;
 pub mod shot;
-pub mod spot;
 mod stations;
-pub mod still;
 pub mod table;
 mod whole;
 mod written;

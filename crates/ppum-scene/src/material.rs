@@ -1,8 +1,8 @@
-//! The point of the plate that the displacement has moved to a place: x + s u(x) = y, by
-//! Newton's method.
+//! The point of the body that the displacement has moved to a place: x + s u(x) = y, by Newton's
+//! method.
 //!
-//! What is found is such a point, whichever start has led there; where the plate folds it is one
-//! of several.
+//! Every result is such a point, whichever start led to it; where the body folds over itself it is
+//! one of several.
 
 use ppum::crack::{Side, tips};
 use ppum::field::{Field, LocalField};
@@ -12,17 +12,17 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_render::deform::Deformation;
 use ppum_render::view::View;
 
+use crate::location::Location;
 use crate::mirror::MirrorLines;
-use crate::spot::Spot;
 
 /// Steps from one start, and halvings of a step.
 const STEPS: usize = 25;
 const HALVINGS: usize = 8;
 /// Starts around the first one, for places near cracks.
 const AROUND: u32 = 8;
-/// Points nearer to a tip than this part of the plate are counted from it.
+/// Points nearer to a tip than this part of the body are counted from it.
 const NEAR: f64 = 1e-3;
-/// What is missed at most, in pixels.
+/// The largest distance of a result from the place, in pixels.
 const MISS: f64 = 1e-3;
 
 /// A body that is deformed by a factor, and its images at lines of symmetry: points of the
@@ -40,19 +40,19 @@ pub struct DeformedWhole<'a> {
 impl DeformedWhole<'_> {
     /// The point that is seen at an offset from the centre of a view; none where no part is.
     #[must_use]
-    pub fn spot(&self, view: &View, offset: Vec2) -> Option<Spot> {
+    pub fn spot(&self, view: &View, offset: Vec2) -> Option<Location> {
         let point = |by: Reflection| {
             let there = [by.point(view.center), by.vector(offset)];
             let factor = self.factor * by.sign();
             let spot = material(self.field, factor, there, view.pixel_size())?;
-            Some(Spot::new(by.point(spot.anchor()), by.vector(spot.offset())))
+            Some(Location::new(by.point(spot.anchor()), by.vector(spot.offset())))
         };
         point(Reflection::NONE).or_else(|| self.lines.reflections().find_map(point))
     }
 
     /// The offset from the centre of a view at which a point is seen.
     #[must_use]
-    pub fn offset(&self, view: &View, spot: &Spot) -> Vec2 {
+    pub fn offset(&self, view: &View, spot: &Location) -> Vec2 {
         let (point, body) = (spot.point(), self.field.domain.body_bounds());
         let is_there = |by: &Reflection| body.contains(by.point(point));
         let image = self.lines.reflections().find(is_there).filter(|_| !body.contains(point));
@@ -65,13 +65,13 @@ impl DeformedWhole<'_> {
 }
 
 /// The point that `factor` times its displacement moves to `center + offset`, to a thousandth of a
-/// pixel; none if no point of the plate lies there.
+/// pixel; none if no point of the body lies there.
 fn material(
     field: &Field<'_>,
     factor: f64,
     [center, offset]: [Vec2; 2],
     pixel: f64,
-) -> Option<Spot> {
+) -> Option<Location> {
     let place = center + offset;
     let bounds = field.domain.bounds;
     let within = |p: Vec2| p.max(bounds.min).min(bounds.max);
@@ -90,7 +90,7 @@ fn material(
         let near = start + coarse;
         let anchor = tip_near(field, near).unwrap_or(near);
         let rest = [(center - anchor) + offset, near - anchor];
-        newton(&mut field.at(anchor), factor, rest, tolerance).map(|o| Spot::new(anchor, o))
+        newton(&mut field.at(anchor), factor, rest, tolerance).map(|o| Location::new(anchor, o))
     };
     [start, first].into_iter().chain(around).find_map(solved)
 }
@@ -109,13 +109,13 @@ fn tip_near(field: &Field<'_>, point: Vec2) -> Option<Vec2> {
 }
 
 /// s u and its gradient at a point.
-struct Moved {
+struct DisplacedPoint {
     shift: Vec2,
     /// The columns of I + s ∇u.
     columns: [Vec2; 2],
 }
 
-fn map(local: &mut LocalField<'_>, offset: Vec2, factor: f64) -> Option<Moved> {
+fn map(local: &mut LocalField<'_>, offset: Vec2, factor: f64) -> Option<DisplacedPoint> {
     let mut jets = [Jet::constant(0.0); 3];
     if !local.field.is_displacement() || !local.evaluate::<1>(offset, Side::Above, &mut jets) {
         return None;
@@ -123,7 +123,7 @@ fn map(local: &mut LocalField<'_>, offset: Vec2, factor: f64) -> Option<Moved> {
     let [u, v, _] = jets;
     let shift = vec2(u.v, v.v) * factor;
     let columns = [vec2(1.0 + factor * u.x, factor * v.x), vec2(factor * u.y, 1.0 + factor * v.y)];
-    shift.is_finite().then_some(Moved { shift, columns })
+    shift.is_finite().then_some(DisplacedPoint { shift, columns })
 }
 
 /// The offset that is moved to a goal, both counted from the field's anchor.

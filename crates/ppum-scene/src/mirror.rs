@@ -14,7 +14,7 @@ use ppum::domain::Domain;
 use ppum::quantity::{Reflection, ValueChange};
 use ppum::vec2::{Rect, Vec2, vec2};
 
-/// What is asked of the whole: written `auto`, or as edges with commas between.
+/// The edges at which the body is mirrored: written `auto`, or as a list with commas between.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mirror {
     /// Beyond the edges whose symmetry the dataset knows.
@@ -205,16 +205,16 @@ impl Mirror {
 /// The edges of a dataset's problem that have a symmetry.
 #[cfg(feature = "problem")]
 fn known(dataset: &Dataset) -> Vec<MirrorEdge> {
-    use ppum_problem::{Edge, Problem, Symmetry};
+    use ppum_problem::{DomainEdge, Problem, Symmetry};
 
     let problem = Problem::of_dataset(dataset).ok().flatten();
     let edges = problem.map(|problem| problem.mirrors()).unwrap_or_default();
     let edge = |(edge, symmetry)| MirrorEdge {
         edge: match edge {
-            Edge::Left => BoxEdge::Left,
-            Edge::Right => BoxEdge::Right,
-            Edge::Bottom => BoxEdge::Bottom,
-            Edge::Top => BoxEdge::Top,
+            DomainEdge::Left => BoxEdge::Left,
+            DomainEdge::Right => BoxEdge::Right,
+            DomainEdge::Bottom => BoxEdge::Bottom,
+            DomainEdge::Top => BoxEdge::Top,
         },
         is_odd: symmetry == Symmetry::Antisymmetric,
     };

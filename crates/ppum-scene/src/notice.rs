@@ -1,5 +1,4 @@
-//! What is said of an image beside it: what was asked for and is not seen, and what is not as
-//! it seems.
+//! Notices about an image: requested items that are not visible, and values that may mislead.
 
 use std::fmt;
 
@@ -19,13 +18,13 @@ pub enum Notice {
     /// Single precision shows fewer than three digits, see
     /// [`single_precision_warning`](crate::drawing::single_precision_warning).
     SinglePrecision(String),
-    /// No pixel has its centre on the plate.
+    /// No pixel has its centre on the body.
     OffPlate,
-    /// Something has no value at some pixels of the plate, of so many.
+    /// Something has no value at some pixels of the body, of so many.
     Undefined {
         /// Its name.
         name: String,
-        /// Pixels without a value, and all of the plate.
+        /// Pixels without a value, and all of the body.
         counts: [usize; 2],
         /// True for values of cells.
         is_of_cells: bool,
@@ -138,7 +137,7 @@ fn undefined_pixels(name: &str, counts: [usize; 2]) -> String {
     undefined(name, counts, "pixels")
 }
 
-/// That a quantity has no value at some of the `things` of the plate.
+/// That a quantity has no value at some of the `things` of the body.
 #[must_use]
 pub fn undefined(name: &str, counts: [usize; 2], things: &str) -> String {
     format!(

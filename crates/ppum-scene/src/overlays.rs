@@ -1,4 +1,4 @@
-//! What is drawn over the colours of a picture, as data.
+//! Overlays over the colours of an image, as data.
 
 use std::fmt;
 use std::str::FromStr;
@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 /// Distance of arrows and crosses if none is given, see [`Overlays::arrows`].
 pub const SPACING: f64 = 36.0;
 
-/// What is drawn over the colours. Distances of arrows and crosses are pixels of a bare picture of
+/// The overlays over the colours. Distances of arrows and crosses are pixels of a bare image of
 /// at most 1024 × 768; in larger ones and in figures they have the scale of lines and letters.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
@@ -33,7 +33,7 @@ pub struct Overlays {
         feature = "clap",
         arg(long, value_name = "auto|N|A,B,…", allow_hyphen_values = true)
     )]
-    pub isolines: Option<Levels>,
+    pub isolines: Option<IsolineLevels>,
     /// Label the isolines with their levels, where there is room
     #[cfg_attr(feature = "clap", arg(long, requires = "isolines"))]
     pub level_labels: bool,
@@ -85,9 +85,9 @@ pub enum Overlay {
     Rings,
     /// Cracks with their tips, rims of holes, and lines along which elements are cut.
     Cracks,
-    /// Supports of the plate and exchanges of a potential, as its problem file has them.
+    /// Supports of the body and exchanges of a potential, as its problem file has them.
     Supports,
-    /// Loads on the plate, as its problem file has them.
+    /// Loads on the body, as its problem file has them.
     Loads,
 }
 
@@ -121,7 +121,7 @@ impl Overlay {
         }
     }
 
-    /// What it shows, as the command line says it.
+    /// Describes it in the words of the command line.
     #[cfg(feature = "clap")]
     #[must_use]
     pub fn meaning(self) -> String {
@@ -129,7 +129,7 @@ impl Overlay {
         help.map(|help| help.to_string()).unwrap_or_default()
     }
 
-    /// True if the deformed plate has it too.
+    /// True if the deformed body has it too.
     #[must_use]
     pub fn is_deformable(self) -> bool {
         matches!(self, Self::Cells | Self::Cracks)
@@ -143,27 +143,27 @@ impl Overlay {
 }
 
 impl Overlays {
-    /// The first of them that the deformed plate does not have.
+    /// The first of them that the deformed body does not have.
     #[must_use]
     pub fn undeformable(&self) -> Option<Overlay> {
         self.shown.iter().copied().find(|overlay| !overlay.is_deformable())
     }
 
-    /// Those that the deformed plate has.
+    /// Those that the deformed body has.
     #[must_use]
     pub fn deformable(&self) -> Self {
         let shown = self.shown.iter().copied().filter(|overlay| overlay.is_deformable());
         Self { shown: shown.collect(), ..self.clone() }
     }
 
-    /// True if supports or loads are shown, which stand outside of the plate.
+    /// True if supports or loads are shown, which stand outside of the body.
     #[must_use]
     pub fn have_stations(&self) -> bool {
         self.shown.iter().any(|o| matches!(o, Overlay::Supports | Overlay::Loads))
     }
 
-    /// Room around the plate for what stands outside of it, in parts of the plate's larger side, in
-    /// a picture of so many pixels with lines and letters of a scale.
+    /// Room around the body for what stands outside of it, in parts of the body's larger side, in
+    /// an image of so many pixels with lines and letters of a scale.
     #[must_use]
     pub fn margin(&self, pixels: [u32; 2], scale: f64) -> f64 {
         let side = f64::from(pixels[0].min(pixels[1]));
@@ -172,15 +172,15 @@ impl Overlays {
     }
 }
 
-/// Room for supports and loads around the plate: a little more than the longest arrow, in units of
+/// Room for supports and loads around the body: a little more than the longest arrow, in units of
 /// the scale.
 const MARGIN: f64 = 48.0;
-/// The same in parts of the picture's shorter side, at most.
+/// The margin relative to the image's shorter side, at most.
 const MARGIN_PART: f64 = 0.15;
 
 /// The levels of isolines: written `auto`, a number, or values with commas between.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Levels {
+pub enum IsolineLevels {
     /// Round ones, some fourteen at most.
     Auto,
     /// About so many.
@@ -189,7 +189,7 @@ pub enum Levels {
     At(Vec<f64>),
 }
 
-impl FromStr for Levels {
+impl FromStr for IsolineLevels {
     type Err = &'static str;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
@@ -211,7 +211,7 @@ impl FromStr for Levels {
     }
 }
 
-impl fmt::Display for Levels {
+impl fmt::Display for IsolineLevels {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Auto => f.write_str("auto"),
@@ -228,7 +228,7 @@ pub(crate) fn listed(values: &[f64]) -> String {
     texts.join(",") + end
 }
 
-crate::written::as_text!(Levels);
+crate::written::as_text!(IsolineLevels);
 
 #[cfg(test)]
 mod tests {
@@ -237,16 +237,16 @@ mod tests {
     #[test]
     fn levels_are_written_as_they_are_read() {
         let all = [
-            Levels::Auto,
-            Levels::Count(7),
-            Levels::At(vec![0.5]),
-            Levels::At(vec![-1e-300, 0.1 + 0.2, 3e25]),
+            IsolineLevels::Auto,
+            IsolineLevels::Count(7),
+            IsolineLevels::At(vec![0.5]),
+            IsolineLevels::At(vec![-1e-300, 0.1 + 0.2, 3e25]),
         ];
         for levels in all {
             assert_eq!(levels.to_string().parse(), Ok(levels));
         }
         for wrong in ["", ",", "0", "1001", "a", "1,a", "inf,1", "nan,"] {
-            assert!(wrong.parse::<Levels>().is_err(), "{wrong}");
+            assert!(wrong.parse::<IsolineLevels>().is_err(), "{wrong}");
         }
     }
 

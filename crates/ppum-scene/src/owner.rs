@@ -15,18 +15,18 @@ pub enum Owner {
         /// Level of the cell.
         level: u8,
     },
-    /// Of a cover without cells the patch with the largest φ.
+    /// For a cover without cells, the patch with the largest φ.
     Box {
         /// Its index.
         patch: u32,
     },
     /// The element of a mesh that holds the point, or its part.
-    Element(Element),
+    Element(MeshElement),
 }
 
 /// An element, or a part of one.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Element {
+pub struct MeshElement {
     /// Index of the patch.
     pub patch: u32,
     /// Number of the element in its own mesh.
@@ -53,7 +53,7 @@ impl Owner {
         Self::of(field, &mut local, offset, &patches)
     }
 
-    /// The owner of a point of the plate, of the patches that cover it; none if no patch does.
+    /// The owner of a point of the body, of the patches that cover it; none if no patch does.
     pub(crate) fn of(
         field: &Field<'_>,
         local: &mut LocalField<'_>,
@@ -64,7 +64,7 @@ impl Owner {
         match partition.mesh() {
             Some(mesh) => {
                 let patch = local.owner(offset, Side::Above)?;
-                Some(Self::Element(Element::new(field, mesh, patch)))
+                Some(Self::Element(MeshElement::new(field, mesh, patch)))
             }
             None if partition.boxes().has_cells() => in_cell(field, point, patches),
             None => {
@@ -84,7 +84,7 @@ impl Owner {
     }
 }
 
-impl Element {
+impl MeshElement {
     fn new(field: &Field<'_>, mesh: &Mesh, patch: usize) -> Self {
         let degrees = field.data.blocks(patch).map(|block| field.data.block_degree[block]);
         Self {

@@ -1,25 +1,27 @@
 //! Several quantities, or parts of a field, in one figure.
 
 use ppum::dataset::Dataset;
-use ppum::decompose::Part;
+use ppum::decompose::FieldPart;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::{
-    Design, FigureError, Labels, PanelGrid, lacks_legend, panel_area, panels,
+    FigureError, FigureStyle, Labels, PanelGrid, lacks_legend, panel_area, panels,
 };
-use ppum_render::png::Text;
-use ppum_render::range::ValueSpan;
+use ppum_render::png::TextChunk;
+use ppum_render::range::ColorRange;
 
 use crate::body::BodyView;
-use crate::drawing::Drawn;
+use crate::camera::{CameraChoice, extent};
+use crate::drawing::PixelValues;
 use crate::engine::Engine;
-use crate::look::{DEFAULT_SIZE, Look, SHAPE};
+use crate::image_job::ImageJob;
 use crate::notice::Notice;
-use crate::placing::{Placing, extent};
+use crate::page_style::{DEFAULT_SIZE, PageStyle, SHAPE};
 use crate::request::{PanelsError, Request};
 use crate::scene::{Subject, SubjectError};
-use crate::shared::Coloring;
-use crate::shot::{Asked, FieldSource, Input, Shot, ShotError, tell_legend, title};
-use crate::still::Still;
+use crate::shared::ColorMapping;
+use crate::shot::{
+    FieldSource, ImageError, ImageInput, QuantityRequest, RenderedImage, tell_legend, title,
+};
 
 /// The name of the part that is the whole field.
 pub const WHOLE: &str = "all";
@@ -30,7 +32,7 @@ pub fn caption(part: &str) -> String {
     match part.trim() {
         WHOLE => "whole field".to_owned(),
         part => match part.parse() {
-            Ok(Part::Patch(patch)) => format!("part of patch {patch}"),
+            Ok(FieldPart::Patch(patch)) => format!("part of patch {patch}"),
             _ => format!("{part} part"),
         },
     }
@@ -39,7 +41,7 @@ pub fn caption(part: &str) -> String {
 /// The dataset changed as a subject says, once for each of some parts in place of its own.
 ///
 /// # Errors
-/// What the dataset does not have.
+/// A file that cannot be read; features that the dataset does not have.
 pub fn datasets(
     dataset: &Dataset,
     subject: &Subject,
@@ -53,13 +55,13 @@ pub fn datasets(
     changed.collect()
 }
 
-/// What a panel shows, and of which plate; several parts of a field are several plates.
+/// The content of a panel, and its body; several parts of a field are several bodies.
 struct PanelContent<'a> {
-    still: Still<'a>,
-    asked: Asked,
+    still: ImageJob<'a>,
+    asked: QuantityRequest,
 }
 
-/// A figure of panels: each quantity of a request of each of some plates.
+/// A figure of panels: each quantity of a request of each of some bodies.
 struct PanelFigure<'a> {
     request: &'a Request,
     sources: &'a [FieldSource<'a>],
@@ -68,11 +70,11 @@ struct PanelFigure<'a> {
 }
 
 /// A figure of panels that was drawn.
-pub struct DrawnPanels {
+pub struct PanelImages {
     /// The page.
     pub page: Canvas,
-    /// The pictures, row by row.
-    pub shots: Vec<Shot>,
+    /// The images, row by row.
+    pub shots: Vec<RenderedImage>,
     /// Their words: captions are titles.
     pub labels: Vec<Labels>,
     /// The names of the quantities, with commas between.
@@ -84,18 +86,18 @@ pub struct DrawnPanels {
 /// Draws the panels of a request; `sources` are the fields of its parts, as [`datasets`] has them.
 ///
 /// # Errors
-/// What a field does not have; a layout of too few panels; a size without room; a watcher that
-/// stops it.
+/// Features that a field does not have; a layout of too few panels; a size without room; a watcher
+/// that stops it.
 pub fn draw(
     sources: &[FieldSource<'_>],
     request: &Request,
     engine: &Engine<'_>,
-) -> Result<DrawnPanels, ShotError> {
+) -> Result<PanelImages, ImageError> {
     PanelFigure::new(sources, request)?.draw(engine)
 }
 
 impl<'a> PanelFigure<'a> {
-    fn new(sources: &'a [FieldSource<'a>], request: &'a Request) -> Result<Self, ShotError> {
+    fn new(sources: &'a [FieldSource<'a>], request: &'a Request) -> Result<Self, ImageError> {
         request.panels.check(&request.scene)?;
         let quantities = match &request.panels.quantities[..] {
             [] => vec![request.scene.quantity.clone()],
@@ -104,16 +106,16 @@ impl<'a> PanelFigure<'a> {
         let content = |quantity: &Option<String>, source: FieldSource<'a>| {
             let mut request = request.clone();
             request.scene.quantity.clone_from(quantity);
-            let still = Still::new(source, request)?;
-            let asked = Asked::new(&still.request.scene, source.field)?;
+            let still = ImageJob::new(source, request)?;
+            let asked = QuantityRequest::new(&still.request.scene, source.field)?;
             Ok(PanelContent { still, asked })
         };
         let of = |quantity| sources.iter().map(move |&source| content(quantity, source));
-        let contents = quantities.iter().flat_map(of).collect::<Result<Vec<_>, ShotError>>()?;
+        let contents = quantities.iter().flat_map(of).collect::<Result<Vec<_>, ImageError>>()?;
         Ok(Self { request, sources, contents })
     }
 
-    fn draw(&self, engine: &Engine<'_>) -> Result<DrawnPanels, ShotError> {
+    fn draw(&self, engine: &Engine<'_>) -> Result<PanelImages, ImageError> {
         let PanelContent { still, .. } = &self.contents[0];
         let (source, request) = (still.source, &still.request);
         let labels = self.labels()?;
@@ -123,11 +125,12 @@ impl<'a> PanelFigure<'a> {
         let size = [grid.columns, grid.rows];
         let whole = source.bounds(&request.scene);
         let aspect = request.place.aspect(whole);
-        let design = request.design(whole, Look::page(aspect, size), size);
-        let room = |design: &Design| panel_area(&titled, &captions, grid, design);
+        let design = request.design(whole, PageStyle::page(aspect, size), size);
+        let room = |design: &FigureStyle| panel_area(&titled, &captions, grid, design);
         let design = request.look.fitted(design, aspect, size, room)?;
         let room = room(&design)?;
-        let placing = Placing::new(&request.place, extent(request, Some(&design), room), still)?;
+        let placing =
+            CameraChoice::new(&request.place, extent(request, Some(&design), room), still)?;
         let seen = placing.body(source, &request.scene, engine)?;
         let shots = self.shots(&seen, &design, engine)?;
         let all: Vec<_> = shots.iter().zip(&labels).map(|(s, l)| s.panel(l.clone())).collect();
@@ -139,40 +142,41 @@ impl<'a> PanelFigure<'a> {
         }
         let names = self.contents.iter().step_by(self.sources.len());
         let names = names.map(|content| content.asked.name.as_str()).collect::<Vec<_>>().join(", ");
-        Ok(DrawnPanels { page, shots, labels, names, is_shared: self.is_shared() })
+        Ok(PanelImages { page, shots, labels, names, is_shared: self.is_shared() })
     }
 
     fn is_shared(&self) -> bool {
         self.request.panels.shared_range
     }
 
-    /// The pictures of all panels, of one range if that is asked for.
+    /// The images of all panels, of one range if that is asked for.
     fn shots(
         &self,
         seen: &BodyView<'_>,
-        design: &Design,
+        design: &FigureStyle,
         engine: &Engine<'_>,
-    ) -> Result<Vec<Shot>, ShotError> {
+    ) -> Result<Vec<RenderedImage>, ImageError> {
         let inputs = self.contents.iter();
-        let inputs: Vec<Input<'_>> =
+        let inputs: Vec<ImageInput<'_>> =
             inputs.map(|content| content.still.source.input(&content.asked, seen)).collect();
         let drawn = inputs.iter().map(|input| {
             let drawn = input.values(self.request.samples, engine)?;
             input.tell_values(&drawn, engine);
             Ok(drawn)
         });
-        let drawn = drawn.collect::<Result<Vec<_>, ShotError>>()?;
+        let drawn = drawn.collect::<Result<Vec<_>, ImageError>>()?;
         let colorings = self.colorings(&inputs, &drawn, engine)?;
         let shots = self.contents.iter().zip(&inputs).zip(drawn.iter().zip(&colorings));
-        let shot = |((content, input), (drawn, coloring)): ((&PanelContent<'_>, &Input<'_>), _)| {
-            input.shot(&content.still.request, drawn, coloring, Some(design), engine)
-        };
+        let shot =
+            |((content, input), (drawn, coloring)): ((&PanelContent<'_>, &ImageInput<'_>), _)| {
+                input.shot(&content.still.request, drawn, coloring, Some(design), engine)
+            };
         shots.map(shot).collect()
     }
 
     /// The arrangement: as given, but without rows and columns that no panel is in; else a row for
-    /// each of several quantities of several parts, or that with the largest pictures.
-    fn grid(&self, title: &str, captions: &[&str]) -> Result<PanelGrid, ShotError> {
+    /// each of several quantities of several parts, or that with the largest images.
+    fn grid(&self, title: &str, captions: &[&str]) -> Result<PanelGrid, ImageError> {
         let (count, parts) = (captions.len(), self.sources.len());
         let sized = |size| PanelGrid { shared_bar: self.is_shared(), ..PanelGrid::new(size) };
         let of = |columns: usize| sized([columns as u32, count.div_ceil(columns) as u32]);
@@ -206,7 +210,7 @@ impl<'a> PanelFigure<'a> {
 
     /// The words of the panels, `(a) σ_yy` above the first; where one bar is for all it names what
     /// they share.
-    fn labels(&self) -> Result<Vec<Labels>, ShotError> {
+    fn labels(&self) -> Result<Vec<Labels>, ImageError> {
         let (parts, all) = (self.sources.len(), &self.contents);
         let is_one = all.len() == parts;
         let captions: Vec<_> = match &self.request.panels.parts[..] {
@@ -214,7 +218,7 @@ impl<'a> PanelFigure<'a> {
             parts => parts.iter().map(|part| caption(part)).collect(),
         };
         let of = |(number, content): (usize, &PanelContent<'_>)| {
-            let PanelContent { still: Still { source, request }, asked } = content;
+            let PanelContent { still: ImageJob { source, request }, asked } = content;
             let [name, _] = asked.shown.words(source.field);
             let mut labels = source.labels(&asked.shown, request)?;
             if self.is_shared() && !is_one && request.labels.bar.is_none() {
@@ -234,10 +238,10 @@ impl<'a> PanelFigure<'a> {
     /// The ways to colours, of one range for all if that is asked for.
     fn colorings(
         &self,
-        inputs: &[Input<'_>],
-        drawn: &[Drawn],
+        inputs: &[ImageInput<'_>],
+        drawn: &[PixelValues],
         engine: &Engine<'_>,
-    ) -> Result<Vec<Coloring>, ShotError> {
+    ) -> Result<Vec<ColorMapping>, ImageError> {
         let colors = &self.request.scene.colors;
         let all = inputs.iter().zip(drawn);
         if !self.is_shared() {
@@ -247,17 +251,17 @@ impl<'a> PanelFigure<'a> {
         let style = colors.style_of(all.clone().map(|(i, drawn)| (i.shown, &drawn.values)), map);
         let spans = all.map(|(input, drawn)| input.span(drawn, &style, engine.watcher));
         let spans = spans.collect::<Result<Vec<_>, _>>()?;
-        let span = ValueSpan::shared(&spans, style.colormap.diverging);
+        let span = ColorRange::shared(&spans, style.colormap.diverging);
         let span = span.ok_or(PanelsError::Shared)?;
-        Ok(vec![Coloring { style, span, ends: None }; inputs.len()])
+        Ok(vec![ColorMapping { style, span, ends: None }; inputs.len()])
     }
 }
 
-impl DrawnPanels {
+impl PanelImages {
     /// The texts of the file: what it shows, of which dataset, and what drew it. Ranges of panels
     /// that have their own stand on their bars.
     #[must_use]
-    pub fn texts(&self, file: &str) -> Vec<Text> {
+    pub fn texts(&self, file: &str) -> Vec<TextChunk> {
         let mut texts = self.shots[0].description(file, &self.names);
         let is_own = |key: &str| ["ppum:range", "ppum:range-basis", "ppum:extrema"].contains(&key);
         texts.retain(|(key, _)| self.is_shared || !is_own(key));

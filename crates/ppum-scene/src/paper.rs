@@ -17,7 +17,7 @@ pub struct PaperSize {
 const LONGEST: f64 = 1000.0;
 
 impl PaperSize {
-    /// The same in a unit that is so many times as long.
+    /// Returns the length in a unit that is so many times as long.
     #[must_use]
     pub fn over(self, factor: f64) -> Self {
         Self { width: self.width / factor, height: self.height.map(|height| height / factor) }

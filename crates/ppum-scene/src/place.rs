@@ -15,7 +15,7 @@ use crate::arguments::positive;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(default, deny_unknown_fields)]
-pub struct Place {
+pub struct ViewRegion {
     /// View by two opposite corners
     #[cfg_attr(
         feature = "clap",
@@ -62,9 +62,9 @@ fn center(text: &str) -> Result<[f64; 2], String> {
 pub struct ImageExtent {
     /// Columns and rows.
     pub pixels: [u32; 2],
-    /// True if a picture of the whole domain takes no more pixels than that has.
+    /// True if an image of the whole domain takes no more pixels than that has.
     pub may_shrink: bool,
-    /// Room around the domain in a picture of all of it, in parts of its larger side.
+    /// Room around the domain in an image of all of it, in parts of its larger side.
     pub margin: f64,
 }
 
@@ -83,7 +83,7 @@ pub enum PlaceError {
     /// A view beside the domain.
     #[error("the view shows nothing of the domain")]
     Outside,
-    /// A view beside the deformed plate.
+    /// A view beside the deformed body.
     #[error(
         "the view shows nothing of the deformed plate, which lies between ({}, {}) and ({}, {})",
         trimmed(.0.min.x), trimmed(.0.min.y), trimmed(.0.max.x), trimmed(.0.max.y)
@@ -115,7 +115,7 @@ pub fn numbered_tip(field: &Field<'_>, number: usize) -> Result<TipId, PlaceErro
 /// How much is enlarged around a tip if nothing is said.
 const DEFAULT_ZOOM: f64 = 10.0;
 
-impl Place {
+impl ViewRegion {
     /// The part of the plane that a view shows.
     #[must_use]
     pub fn of(view: &View) -> Self {
@@ -133,8 +133,8 @@ impl Place {
         Some(Rect::new(a.min(b), a.max(b)))
     }
 
-    /// Width over height of what is to be seen, of the whole picture those of a box; none if it is
-    /// whatever the picture has room for.
+    /// Width over height of what is to be seen, of the whole image those of a box; none if it is
+    /// whatever the image has room for.
     #[must_use]
     pub fn aspect(&self, whole: Rect) -> Option<f64> {
         if self.center.is_some() || self.tip.is_some() {
@@ -144,7 +144,7 @@ impl Place {
         Some(size.x / size.y)
     }
 
-    /// The view; of the whole picture that of a box.
+    /// The view; of the whole image that of a box.
     ///
     /// # Errors
     /// A tip that there is not; a view without pixels, or too small.

@@ -7,35 +7,35 @@ use ppum::quantity::{QuantityGradient, Reflection, ValueChange};
 use ppum::sides::Segments;
 use ppum::vec2::{Vec2, vec2};
 
-use crate::drawing::Shown;
+use crate::drawing::DisplayedQuantity;
+use crate::location::{Location, number};
 use crate::mirror::{MirrorLines, slope_sign};
 use crate::owner::Owner;
-use crate::spot::{Spot, number};
 use crate::whole::reflected;
 
-/// What is read at a point.
+/// The reading at a point.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Probed {
+pub struct ProbeReading {
     /// The point.
-    pub spot: Spot,
+    pub spot: Location,
     /// The number of the tip that it is, if it is one.
     pub tip: Option<usize>,
     /// The crack that it lies on, if it lies on one.
     pub crack: Option<u32>,
     /// The values: one, or above and below a crack.
-    pub sides: Vec<Sided>,
-    /// The patch that it belongs to; none outside the plate.
+    pub sides: Vec<SideValue>,
+    /// The patch that it belongs to; none outside the body.
     pub owner: Option<Owner>,
     /// The patches of a cover that cover it, with their φ.
     pub patches: Vec<(u32, f64)>,
-    /// True in an image of a plate that is mirrored: patch and tip are those at the point whose
+    /// True in an image of a body that is mirrored: patch and tip are those at the point whose
     /// image it is.
     pub is_mirrored: bool,
 }
 
 /// Value and gradient, on one side of a crack.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sided {
+pub struct SideValue {
     /// The side of the crack, if the point lies on one.
     pub side: Option<Side>,
     /// The value; NaN where there is none.
@@ -46,7 +46,7 @@ pub struct Sided {
     pub terms: Option<[f64; 2]>,
 }
 
-impl Sided {
+impl SideValue {
     /// The gradient by its size and direction: `3.2 at 45°`; none where there is none.
     #[must_use]
     pub fn slope(&self) -> Option<String> {
@@ -71,8 +71,8 @@ impl Sided {
     }
 }
 
-impl Probed {
-    /// True outside the plate.
+impl ProbeReading {
+    /// True outside the body.
     #[must_use]
     pub fn is_outside(&self) -> bool {
         self.owner.is_none()
@@ -83,7 +83,7 @@ impl Probed {
     #[must_use]
     pub fn minus(self, left: &Self) -> Self {
         let count = self.sides.len().max(left.sides.len());
-        let of = |sides: &[Sided], k: usize| sides[k.min(sides.len() - 1)];
+        let of = |sides: &[SideValue], k: usize| sides[k.min(sides.len() - 1)];
         let sides = (0..count).map(|k| of(&self.sides, k).minus(&of(&left.sides, k))).collect();
         Self { sides, crack: self.crack.or(left.crack), ..self }
     }
@@ -100,7 +100,7 @@ impl Probed {
 
 /// Reads values at points of a field and of its images, as long as it is given that field.
 pub struct PointReader {
-    shown: Shown,
+    shown: DisplayedQuantity,
     gradient: Option<QuantityGradient>,
     images: Vec<ImageReader>,
 }
@@ -114,25 +114,30 @@ struct ImageReader {
 }
 
 impl ImageReader {
-    fn new(field: &Field<'_>, shown: &Shown, reflection: Reflection) -> Option<Self> {
+    fn new(field: &Field<'_>, shown: &DisplayedQuantity, reflection: Reflection) -> Option<Self> {
         let (shown, change) = reflected(shown, &reflection, field).ok()?;
         let reader = PointReader::new(field, &shown, &MirrorLines::default());
         Some(Self { reflection, reader, change })
     }
 
     /// The values at a point of the image; none outside of it.
-    fn read(&self, field: &Field<'_>, spot: &Spot) -> Option<Probed> {
+    fn read(&self, field: &Field<'_>, spot: &Location) -> Option<ProbeReading> {
         let Self { reflection, reader, change } = self;
         let there = reflection.point(spot.anchor());
-        let there = Spot::new(there, reflection.vector(spot.offset()));
+        let there = Location::new(there, reflection.vector(spot.offset()));
         let read = reader.read_own(field, &there);
-        let side = |sided: &Sided| Sided {
+        let side = |sided: &SideValue| SideValue {
             value: change.apply(sided.value),
             gradient: reflection.vector(sided.gradient) * slope_sign(*change),
             ..*sided
         };
         let sides = read.sides.iter().map(side).collect();
-        (!read.is_outside()).then_some(Probed { spot: *spot, sides, is_mirrored: true, ..read })
+        (!read.is_outside()).then_some(ProbeReading {
+            spot: *spot,
+            sides,
+            is_mirrored: true,
+            ..read
+        })
     }
 }
 
@@ -142,7 +147,7 @@ const MOST_SEGMENTS: usize = 10_000;
 impl PointReader {
     /// Reads what is shown of a field that is mirrored at some lines.
     #[must_use]
-    pub fn new(field: &Field<'_>, shown: &Shown, lines: &MirrorLines) -> Self {
+    pub fn new(field: &Field<'_>, shown: &DisplayedQuantity, lines: &MirrorLines) -> Self {
         let gradient = shown.quantity().and_then(|one| QuantityGradient::new(one, field).ok());
         let image = |by| ImageReader::new(field, shown, by);
         let images = lines.reflections().filter_map(image).collect();
@@ -151,7 +156,7 @@ impl PointReader {
 
     /// The values at a point of the body or of an image.
     #[must_use]
-    pub fn read(&self, field: &Field<'_>, spot: &Spot) -> Probed {
+    pub fn read(&self, field: &Field<'_>, spot: &Location) -> ProbeReading {
         let own = self.read_own(field, spot);
         let is_outside = own.is_outside();
         let mut images = self.images.iter().filter(|_| is_outside);
@@ -160,7 +165,7 @@ impl PointReader {
 
     /// The values at a point of the body itself.
     #[must_use]
-    pub fn read_own(&self, field: &Field<'_>, spot: &Spot) -> Probed {
+    pub fn read_own(&self, field: &Field<'_>, spot: &Location) -> ProbeReading {
         let tip = spot.tip(&field.step.cracks);
         let on = if tip.is_some() { None } else { segment_of(field, spot) };
         let mut local = match on {
@@ -180,7 +185,7 @@ impl PointReader {
         let sides = sides.iter().map(|&side| {
             let at = (spot.offset(), side.unwrap_or_default());
             let (value, gradient) = self.value(&mut local, at, owner);
-            Sided { side, value, gradient, terms: None }
+            SideValue { side, value, gradient, terms: None }
         });
         let sides = sides.collect();
         let phi = |patch: &u32| {
@@ -190,7 +195,7 @@ impl PointReader {
         let is_cover = field.step.partition.mesh().is_none();
         let patches = patches.iter().filter(|_| is_cover).map(phi).collect();
         let (spot, crack) = (*spot, on.map(|segment| segment.crack));
-        Probed { spot, tip, crack, sides, owner, patches, is_mirrored: false }
+        ProbeReading { spot, tip, crack, sides, owner, patches, is_mirrored: false }
     }
 
     /// Value and gradient on a side; of a value of cells that of the point's own.
@@ -201,12 +206,14 @@ impl PointReader {
         owner: Option<Owner>,
     ) -> (f64, Vec2) {
         match (&self.shown, &self.gradient) {
-            (Shown::Quantity(_), Some(both)) => {
+            (DisplayedQuantity::Quantity(_), Some(both)) => {
                 let slope = both.at(local, offset, side);
                 (slope.value, slope.gradient)
             }
-            (Shown::Quantity(quantity), None) => (quantity.at(local, offset, side), NOWHERE),
-            (Shown::Cells(_, values), _) => {
+            (DisplayedQuantity::Quantity(quantity), None) => {
+                (quantity.at(local, offset, side), NOWHERE)
+            }
+            (DisplayedQuantity::Cells(_, values), _) => {
                 let of_cell = owner.and_then(|owner| values.get(owner.patch() as usize));
                 (of_cell.copied().unwrap_or(f64::NAN), NOWHERE)
             }
@@ -214,10 +221,10 @@ impl PointReader {
     }
 }
 
-/// The segment that a point lies on: the one that it was put on if the step still has it, or
-/// one that it lies on but for rounding.
+/// The segment that a point lies on: the one that it was put on if the step still has it, or one
+/// that it lies on except for rounding.
 #[must_use]
-pub fn segment_of(field: &Field<'_>, spot: &Spot) -> Option<SegmentId> {
+pub fn segment_of(field: &Field<'_>, spot: &Location) -> Option<SegmentId> {
     let cracks = &field.step.cracks;
     if let Some([crack, segment]) = spot.on {
         let points = cracks.get(crack as usize).map(|c| &c.points[..]).unwrap_or_default();

@@ -1,20 +1,20 @@
-//! The range of a picture's colours: found with the true extrema of the view, and told.
+//! The range of an image's colours: found with the true extrema of the view, and told.
 
 use ppum::crack::{Crack, TipId, tips};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
-use ppum::text::{Places, apart, beside, trimmed};
+use ppum::text::{LocationText, apart, beside, trimmed};
 use ppum::vec2::{Vec2, vec2};
-use ppum_render::RenderError;
-use ppum_render::extrema::{Extrema, Extremum, On, SingularKind};
-use ppum_render::picture::{Picture, Style};
-use ppum_render::range::{Basis, ValueSpan};
+use ppum_render::RasterError;
+use ppum_render::extrema::{Extrema, Extremum, ExtremumSite, SingularKind};
+use ppum_render::picture::{ColoredRaster, Style};
+use ppum_render::range::{Basis, ColorRange};
 use ppum_render::scale::Scale;
 
 use crate::body::BodyView;
-use crate::drawing::Drawn;
+use crate::drawing::PixelValues;
 use crate::whole;
 
 /// The range of what was drawn; one that has to be found with the extrema of what is seen of the
@@ -27,10 +27,10 @@ pub fn value_span(
     field: &Field<'_>,
     seen: &BodyView<'_>,
     quantity: &Quantity,
-    drawn: &Drawn,
+    drawn: &PixelValues,
     style: &Style,
     watcher: &dyn Watcher,
-) -> Result<ValueSpan, RenderError> {
+) -> Result<ColorRange, RasterError> {
     if !style.range.is_found() {
         return Ok(drawn.span(style, None));
     }
@@ -42,46 +42,46 @@ pub fn value_span(
 
 /// Writes places of a dataset, whichever step they are of.
 #[must_use]
-pub fn places(dataset: &Dataset) -> Places {
+pub fn places(dataset: &Dataset) -> LocationText {
     let cracks: Vec<_> = dataset.steps.iter().flat_map(|step| &step.cracks).cloned().collect();
-    Places::new(&dataset.domain.bounds, &cracks)
+    LocationText::new(&dataset.domain.bounds, &cracks)
 }
 
-/// What is known of places.
-pub struct Telling<'a> {
-    places: Places,
+/// The data of a field that messages about ranges and locations need.
+pub struct RangeLocations<'a> {
+    places: LocationText,
     cracks: &'a [Crack],
-    /// Size of the plate.
+    /// Size of the body.
     size: f64,
     /// The hole that is its outline, if it has one.
     outline: Option<usize>,
 }
 
-/// Why a picture has one colour on a logarithmic scale.
+/// Why an image has one colour on a logarithmic scale.
 const NOT_POSITIVE: &str =
     "; no value is positive, and a logarithmic scale has one colour for them: symlog has more";
 
-/// Views narrower than this part of the plate have their places told from their centre.
+/// Views narrower than this part of the body have their places told from their centre.
 const DEEP: f64 = 1e-3;
 
-impl<'a> Telling<'a> {
-    /// What is known of the places of a field.
+impl<'a> RangeLocations<'a> {
+    /// Collects the data of a field.
     #[must_use]
     pub fn new(dataset: &Dataset, field: &'a Field<'_>) -> Self {
         Self::with(places(dataset), field)
     }
 
-    /// The same with what is known of how places of the dataset are written, which takes long where
-    /// there are many cracks.
+    /// Collects the data with a known format of locations, which takes long to find where there are
+    /// many cracks.
     #[must_use]
-    pub fn with(places: Places, field: &'a Field<'_>) -> Self {
+    pub fn with(places: LocationText, field: &'a Field<'_>) -> Self {
         let (size, outline) = (field.domain.bounds.size(), field.domain.outline());
         Self { places, cracks: &field.step.cracks, size: size.x.max(size.y), outline }
     }
 
-    /// What colours mean, and between which values all others lie: `colours from 0 to 2.7 (robust);
-    /// values from 0.1 at (0.2, 0.3) to ∞ at tip 0 (0.5, 0)`.
-    pub fn colors(&self, picture: &Picture) -> String {
+    /// Writes the meaning of the colours, and the bounds of all other values:
+    /// `colours from 0 to 2.7 (robust); values from 0.1 at (0.2, 0.3) to ∞ at tip 0 (0.5, 0)`.
+    pub fn colors(&self, picture: &ColoredRaster) -> String {
         let (norm, span) = (&picture.normalization, &picture.span);
         let colors = match picture.one_value {
             _ if !picture.has_values => {
@@ -136,7 +136,7 @@ impl<'a> Telling<'a> {
     fn place(&self, extremum: &Extremum, center: Vec2, width: f64) -> String {
         let at = match extremum.on {
             // known exactly, and told by its number
-            On::Singular(_) => self.places.show(center + extremum.offset),
+            ExtremumSite::Singular(_) => self.places.show(center + extremum.offset),
             _ if width < DEEP * self.size => {
                 let offset = [extremum.offset.x, extremum.offset.y];
                 let [dx, dy] = offset.map(|v| trimmed(rounded(v, width)));
@@ -148,7 +148,7 @@ impl<'a> Telling<'a> {
             }
         };
         match extremum.on {
-            On::Singular(kind) => format!("{} {at}", self.kind(kind)),
+            ExtremumSite::Singular(kind) => format!("{} {at}", self.kind(kind)),
             on => [at].into_iter().chain(words(on)).collect::<Vec<_>>().join(" "),
         }
     }
@@ -191,15 +191,17 @@ pub fn value(value: f64, size: f64) -> String {
     }
 }
 
-/// What a place lies on, if that is anything.
-pub fn words(on: On) -> Option<String> {
+/// Names the feature that a place lies on, if there is one.
+pub fn words(on: ExtremumSite) -> Option<String> {
     match on {
-        On::Face(segment, side) => Some(format!("{} crack {}", side.name(), segment.crack)),
-        On::Rim(hole) => Some(format!("on the rim of hole {hole}")),
-        On::Border => Some("on the border".into()),
-        On::Interface => Some("on an interface".into()),
-        On::Everywhere => Some("as everywhere, but for rounding".into()),
-        On::Inside | On::Pixel | On::Singular(_) => None,
+        ExtremumSite::Face(segment, side) => {
+            Some(format!("{} crack {}", side.name(), segment.crack))
+        }
+        ExtremumSite::Rim(hole) => Some(format!("on the rim of hole {hole}")),
+        ExtremumSite::Border => Some("on the border".into()),
+        ExtremumSite::Interface => Some("on an interface".into()),
+        ExtremumSite::Everywhere => Some("as everywhere, but for rounding".into()),
+        ExtremumSite::Inside | ExtremumSite::Pixel | ExtremumSite::Singular(_) => None,
     }
 }
 
@@ -219,13 +221,13 @@ mod tests {
     use super::*;
     use crate::mirror::MirrorLines;
     use ppum::progress::unwatched;
-    use ppum_render::range::Range;
+    use ppum_render::range::RangeChoice;
     use ppum_render::scatter::render;
     use ppum_render::view::View;
     use ppum_testkit::random::Random;
     use ppum_testkit::synthetic::{Coefficients, Recipe};
 
-    /// While one moves, a picture of another view has the range, and the extrema, of the view
+    /// While one moves, an image of another view has the range, and the extrema, of the view
     /// before: their places stay where they are.
     #[test]
     fn places_stay_when_the_view_moves() {
@@ -238,16 +240,17 @@ mod tests {
             let view = View::fit(dataset.domain.bounds, [90, 70]).unwrap();
             let draw = |view: &View| {
                 let raster = render::<f64>(&field, view, &quantity, unwatched()).unwrap();
-                Drawn::new(raster, &field, view, "test")
+                PixelValues::new(raster, &field, view, "test")
             };
-            let (drawn, style) = (draw(&view), Style { range: Range::Auto, ..Style::default() });
+            let (drawn, style) =
+                (draw(&view), Style { range: RangeChoice::Auto, ..Style::default() });
             let seen = BodyView::new(&field, view, MirrorLines::default());
             let span = value_span(&field, &seen, &quantity, &drawn, &style, unwatched()).unwrap();
             let by = vec2(random.between(-0.2, 0.2), random.between(-0.2, 0.2)) * view.width;
             let moved = draw(&View { center: view.center + by, ..view });
-            let telling = Telling::new(&dataset, &field);
+            let telling = RangeLocations::new(&dataset, &field);
             let told =
-                |drawn: &Drawn| telling.colors(&drawn.picture(&style, span.clone()).unwrap());
+                |drawn: &PixelValues| telling.colors(&drawn.picture(&style, span.clone()).unwrap());
             assert!(told(&drawn).contains("values from"));
             assert_eq!(told(&drawn), told(&moved));
         }

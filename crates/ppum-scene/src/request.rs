@@ -3,18 +3,18 @@
 //! JSON and for [`command`](crate::command).
 
 use ppum::vec2::Rect;
-use ppum_figure::figure::{BarPlace, Design, Labels};
+use ppum_figure::figure::{BarPlace, FigureStyle, Labels};
 use ppum_render::samples::Samples;
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 #[cfg(feature = "clap")]
 use crate::arguments::layout;
 use crate::engine::{Backend, Precision};
-use crate::look::Look;
-use crate::place::Place;
-use crate::scene::Scene;
+use crate::page_style::PageStyle;
+use crate::place::ViewRegion;
+use crate::scene::SceneRequest;
 
-/// What an image shows, where, and how it is drawn.
+/// The content of an image, its view, and its style.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(default)]
@@ -27,26 +27,26 @@ pub struct Request {
     pub blank: bool,
     /// Size and look of the page.
     #[cfg_attr(feature = "clap", command(flatten))]
-    pub look: Look,
+    pub look: PageStyle,
     /// The texts of a figure that take the place of those of the program.
     #[cfg_attr(feature = "clap", arg(skip))]
-    pub labels: Texts,
+    pub labels: FigureTexts,
     /// Several quantities or parts in one figure.
     #[cfg_attr(feature = "clap", command(flatten))]
     pub panels: Panels,
     /// The part of the plane that is seen.
     #[cfg_attr(feature = "clap", command(flatten))]
-    pub place: Place,
-    /// What it shows.
+    pub place: ViewRegion,
+    /// The shown scene.
     #[cfg_attr(feature = "clap", command(flatten))]
     #[serde(flatten)]
-    pub scene: Scene,
+    pub scene: SceneRequest,
     /// Show in each pixel the mean of N x N values, for smooth edges, in place of that at
     /// its centre
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", default_value = "1"))]
     #[serde(serialize_with = "side", deserialize_with = "samples")]
     pub samples: Samples,
-    /// What computes the values
+    /// Device that computes the values
     #[cfg_attr(feature = "clap", arg(long, value_enum, default_value = "auto"))]
     pub backend: Backend,
     /// Precision of the values [default: f64 on the CPU, f32 on the GPU]
@@ -77,7 +77,7 @@ pub struct Panels {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PanelsError {
-    /// Several parts of a deformed plate.
+    /// Several parts of a deformed body.
     #[error("several parts and the deformed plate do not go together; draw them one by one")]
     Deformed,
     /// A layout of no panels.
@@ -88,10 +88,10 @@ pub enum PanelsError {
     Few {
         /// Columns and rows.
         layout: [u32; 2],
-        /// The number of pictures.
+        /// The number of images.
         count: usize,
     },
-    /// One range for one picture.
+    /// One range for one image.
     #[error("a shared range is for panels; give several quantities or parts")]
     Shared,
     /// Panels of several steps.
@@ -103,8 +103,8 @@ impl Panels {
     /// Refuses what panels do not have of a scene, and what only they have of a single image.
     ///
     /// # Errors
-    /// Several parts of a deformed plate; one range for one image.
-    pub fn check(&self, scene: &Scene) -> Result<(), PanelsError> {
+    /// Several parts of a deformed body; one range for one image.
+    pub fn check(&self, scene: &SceneRequest) -> Result<(), PanelsError> {
         match () {
             () if scene.deformed.is_some() && self.parts.len() > 1 => Err(PanelsError::Deformed),
             () if self.shared_range && !self.are_given() => Err(PanelsError::Shared),
@@ -129,19 +129,19 @@ impl Panels {
 
 impl Default for Request {
     fn default() -> Self {
-        Scene::default().into()
+        SceneRequest::default().into()
     }
 }
 
-impl From<Scene> for Request {
-    fn from(scene: Scene) -> Self {
+impl From<SceneRequest> for Request {
+    fn from(scene: SceneRequest) -> Self {
         Self {
             figure: false,
             blank: false,
-            look: Look::default(),
-            labels: Texts::default(),
+            look: PageStyle::default(),
+            labels: FigureTexts::default(),
             panels: Panels::default(),
-            place: Place::default(),
+            place: ViewRegion::default(),
             scene,
             samples: Samples::CENTER,
             backend: Backend::default(),
@@ -157,7 +157,7 @@ impl Request {
         self.figure || self.panels.are_given()
     }
 
-    /// The same of a step.
+    /// Returns the request for a step.
     #[must_use]
     pub fn at_step(&self, step: usize) -> Self {
         let mut request = self.clone();
@@ -168,16 +168,16 @@ impl Request {
     /// The look of a figure of a box, that of all that is shown, of a size unless another is given,
     /// with so many panels across and down.
     #[must_use]
-    pub fn design(&self, whole: Rect, size: [u32; 2], panels: [u32; 2]) -> Design {
+    pub fn design(&self, whole: Rect, size: [u32; 2], panels: [u32; 2]) -> FigureStyle {
         let design = self.look.design(self.place.aspect(whole), size, panels);
-        if self.blank { Design { bar: BarPlace::None, ..design } } else { design }
+        if self.blank { FigureStyle { bar: BarPlace::None, ..design } } else { design }
     }
 }
 
 /// Texts of a figure; what is empty is left out.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct Texts {
+pub struct FigureTexts {
     /// The title.
     pub title: Option<String>,
     /// Below the x axis.
@@ -188,7 +188,7 @@ pub struct Texts {
     pub bar: Option<String>,
 }
 
-impl Texts {
+impl FigureTexts {
     /// These texts, and others where they have none.
     #[must_use]
     pub fn or(self, other: Self) -> Self {

@@ -1,4 +1,4 @@
-//! All that is chosen for one picture, but for its place: what of the dataset, which quantity,
+//! All that is chosen for one image, except for its place: what of the dataset, which quantity,
 //! which colours, what over them.
 
 use ppum::dataset::Dataset;
@@ -10,19 +10,19 @@ use ppum::text::hint;
 use ppum_render::cells;
 use serde::{Deserialize, Serialize};
 
-use crate::colors::Colors;
-use crate::deformed::Factor;
-use crate::drawing::Shown;
+use crate::colors::ColorOptions;
+use crate::deformed::Magnification;
+use crate::drawing::DisplayedQuantity;
 use crate::mirror::Mirror;
 use crate::overlays::Overlays;
 
-/// What a picture shows. What is left out is chosen by the program: the last step, the whole field,
+/// The content of an image. The program chooses what is left out: the last step, the whole field,
 /// its own functions and weight, von Mises' stress or the potential.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(default)]
-pub struct Scene {
-    /// What of the dataset is looked at; programs read the formulas of its options.
+pub struct SceneRequest {
+    /// The chosen subject of the dataset; programs read the formulas of its options.
     #[cfg_attr(feature = "clap", arg(skip))]
     pub subject: Subject,
     /// A quantity, a formula of quantities, or a value of cells.
@@ -30,8 +30,8 @@ pub struct Scene {
     pub quantity: Option<String>,
     /// The way values become colours.
     #[cfg_attr(feature = "clap", command(flatten))]
-    pub colors: Colors,
-    /// What is drawn over the colours.
+    pub colors: ColorOptions,
+    /// The overlays over the colours.
     #[cfg_attr(feature = "clap", command(flatten))]
     pub overlays: Overlays,
     /// Draw the body deformed by so many times its displacement; with auto the largest displacement
@@ -40,7 +40,7 @@ pub struct Scene {
         feature = "clap",
         arg(long, value_name = "FACTOR|auto", allow_hyphen_values = true)
     )]
-    pub deformed: Option<Factor>,
+    pub deformed: Option<Magnification>,
     /// Draw the border of the undeformed body too, dashed
     #[cfg_attr(feature = "clap", arg(long, requires = "deformed"))]
     pub outline: bool,
@@ -54,9 +54,9 @@ pub struct Scene {
     pub mirror: Option<Mirror>,
 }
 
-impl Scene {
-    /// The same scene without what has no meaning for it: the outline of a plate that is not
-    /// deformed, labels without isolines.
+impl SceneRequest {
+    /// Returns the scene without settings that have no effect in it: the outline of a body that is
+    /// not deformed, labels without isolines.
     #[must_use]
     pub fn settled(&self) -> Self {
         let mut settled = self.clone();
@@ -65,7 +65,7 @@ impl Scene {
         settled
     }
 
-    /// What can be drawn of it: on the deformed plate the overlays that this has.
+    /// Returns the scene without overlays that cannot be drawn: a deformed body has only some.
     #[must_use]
     pub fn drawn(&self) -> Self {
         let overlays = match self.deformed {
@@ -76,7 +76,7 @@ impl Scene {
     }
 }
 
-/// What of a dataset is looked at: a step, a part of its field, functions and the weight replaced.
+/// The chosen part of a dataset: a step, a part of its field, functions and the weight replaced.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Subject {
@@ -192,7 +192,7 @@ impl Subject {
     /// Changes a dataset to what is looked at.
     ///
     /// # Errors
-    /// What the dataset does not have, formulas that are wrong.
+    /// Features that the dataset does not have; formulas that are wrong.
     pub fn apply(&self, dataset: &mut Dataset) -> Result<(), SubjectError> {
         if self.is_whole() {
             return Ok(());
@@ -227,7 +227,7 @@ pub const OF_PATCHES: &str = "patch:";
 /// A text that means nothing that could be shown.
 #[derive(Clone, Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum ShownError {
+pub enum DisplayError {
     /// Cells have no such value.
     #[error("cells have no value `{name}`; there are {known}")]
     Cells {
@@ -258,37 +258,37 @@ pub enum ShownError {
     Quantity(#[from] QuantityError),
 }
 
-/// What a text shows of a field: a quantity or formula; if there is none, or with `patch:` in
-/// front, a value of cells.
+/// Parses the quantity of a field that a text names: a quantity or formula; if there is none, or
+/// with `patch:` in front, a value of cells.
 ///
 /// # Errors
-/// A text that means nothing for the field, with the place of a formula's mistake.
-pub fn shown(text: &str, field: &Field<'_>) -> Result<Shown, ShownError> {
+/// A text that means nothing for the field, with the place of a formula's error.
+pub fn shown(text: &str, field: &Field<'_>) -> Result<DisplayedQuantity, DisplayError> {
     let text = text.trim();
     if let Some(name) = text.strip_prefix(OF_PATCHES) {
         let known = || cells::names(field).join(", ");
         return of_cells(name, field)
-            .unwrap_or_else(|| Err(ShownError::Cells { name: name.into(), known: known() }));
+            .unwrap_or_else(|| Err(DisplayError::Cells { name: name.into(), known: known() }));
     }
     match Quantity::parse(text, field) {
         Ok(quantity) => {
             quantity.check(field)?;
-            Ok(Shown::Quantity(quantity))
+            Ok(DisplayedQuantity::Quantity(quantity))
         }
         Err(error) => of_cells(text, field).unwrap_or_else(|| Err(with_cells(error, field))),
     }
 }
 
 /// The values of cells with a name; none if there is nothing of the name.
-fn of_cells(name: &str, field: &Field<'_>) -> Option<Result<Shown, ShownError>> {
+fn of_cells(name: &str, field: &Field<'_>) -> Option<Result<DisplayedQuantity, DisplayError>> {
     if name == "level" && !cells::exist(field) {
-        return Some(Err(ShownError::NoCells { known: cells::names(field).join(", ") }));
+        return Some(Err(DisplayError::NoCells { known: cells::names(field).join(", ") }));
     }
-    Some(Ok(Shown::Cells(name.into(), cells::values(field, name)?)))
+    Some(Ok(DisplayedQuantity::Cells(name.into(), cells::values(field, name)?)))
 }
 
 /// The error for an unknown quantity, with the names of values of cells.
-fn with_cells(error: QuantityError, field: &Field<'_>) -> ShownError {
+fn with_cells(error: QuantityError, field: &Field<'_>) -> DisplayError {
     let QuantityError::Unknown { name, known, .. } = &error else { return error.into() };
     let cells = cells::names(field);
     if cells.is_empty() {
@@ -297,10 +297,10 @@ fn with_cells(error: QuantityError, field: &Field<'_>) -> ShownError {
     let hint = hint(name, known.split(", ").chain(cells.iter().map(String::as_str)));
     let error = QuantityError::Unknown { name: name.clone(), hint, known: known.clone() };
     let error = Box::new(error);
-    ShownError::Unknown { error, cells: cells.join(", ") }
+    DisplayError::Unknown { error, cells: cells.join(", ") }
 }
 
-/// What is shown where nothing is said: von Mises' stress, of a potential its values.
+/// Returns the default quantity: von Mises' stress, of a potential its values.
 #[must_use]
 pub fn default_quantity<'f>(field: &'f Field<'_>) -> &'f str {
     match field.equation.elastic() {

@@ -1,33 +1,33 @@
-//! One range for several pictures: those of the steps of a series.
+//! One range for several images: those of the steps of a series.
 //!
 //! All are looked at first, which [`ValueStatistics`] keeps in mind; then each has its colours by
-//! the [`Coloring`] of all.
+//! the [`ColorMapping`] of all.
 
 use ppum_render::extrema::Extrema;
-use ppum_render::picture::{Picture, Style};
-use ppum_render::range::{Basis, Range, RangeError, ValueSpan};
+use ppum_render::picture::{ColoredRaster, Style};
+use ppum_render::range::{Basis, ColorRange, RangeChoice, RangeError};
 use ppum_render::scale::Scale;
 
-use crate::drawing::Drawn;
+use crate::drawing::PixelValues;
 
 /// The way values become colours.
 #[derive(Clone, Debug)]
-pub struct Coloring {
+pub struct ColorMapping {
     /// Map and scale.
     pub style: Style,
     /// The range.
-    pub span: ValueSpan,
-    /// Of a series: true if values of some step lie below the range, and above it, so that all bars
-    /// are alike.
+    pub span: ColorRange,
+    /// For a series, whether values of some step lie below the range, and above it, so that all
+    /// bars are alike.
     pub ends: Option<[bool; 2]>,
 }
 
-impl Coloring {
+impl ColorMapping {
     /// The values in colours.
     ///
     /// # Errors
-    /// As [`Drawn::picture`].
-    pub fn picture(&self, drawn: &Drawn) -> Result<Picture, RangeError> {
+    /// As [`PixelValues::picture`].
+    pub fn picture(&self, drawn: &PixelValues) -> Result<ColoredRaster, RangeError> {
         let mut picture = drawn.picture(&self.style, self.span.clone())?;
         if let Some(ends) = self.ends {
             [picture.has_below, picture.has_above] = ends;
@@ -37,22 +37,22 @@ impl Coloring {
     }
 }
 
-/// Ranges of values and undefined pixels of pictures, before colours are chosen.
+/// Ranges of values and undefined pixels of images, before colours are chosen.
 #[derive(Clone, Debug, Default)]
 pub struct ValueStatistics {
-    spans: Vec<ValueSpan>,
+    spans: Vec<ColorRange>,
     /// Those of steps that have one value everywhere.
-    even: Vec<ValueSpan>,
+    even: Vec<ColorRange>,
     /// Smallest and largest value.
     values: Option<[f64; 2]>,
-    /// Number of pixels of the plate without a value, and of all of them.
+    /// Number of pixels of the body without a value, and of all of them.
     pub undefined: [usize; 2],
 }
 
 impl ValueStatistics {
     /// Adds a step. One without values says nothing of the range; one that has one value
     /// everywhere, as before any load, no more than this value.
-    pub fn add(&mut self, mut span: ValueSpan, drawn: &Drawn, scale: Scale) {
+    pub fn add(&mut self, mut span: ColorRange, drawn: &PixelValues, scale: Scale) {
         let [without, all] = drawn.undefined();
         self.undefined = [self.undefined[0] + without, self.undefined[1] + all];
         let found = drawn.values.statistics();
@@ -76,25 +76,25 @@ impl ValueStatistics {
     /// The way the values of all steps become colours: classes have theirs, which `classed` says;
     /// else it follows from the range.
     #[must_use]
-    pub fn coloring(self, classed: Style, style: Style) -> Coloring {
+    pub fn coloring(self, classed: Style, style: Style) -> ColorMapping {
         match classed.range {
-            Range::Fixed(min, max) if !classed.colormap.classes().is_empty() => {
-                let span = ValueSpan { min, max, basis: Basis::Given, values: None };
-                Coloring { style: classed, span, ends: Some([false; 2]) }
+            RangeChoice::Fixed(min, max) if !classed.colormap.classes().is_empty() => {
+                let span = ColorRange { min, max, basis: Basis::Given, values: None };
+                ColorMapping { style: classed, span, ends: Some([false; 2]) }
             }
             _ => self.ranged(style),
         }
     }
 
-    fn ranged(self, style: Style) -> Coloring {
+    fn ranged(self, style: Style) -> ColorMapping {
         let symmetric = style.colormap.diverging;
-        let shared = ValueSpan::shared(&self.spans, symmetric);
-        let is_range = |span: &ValueSpan| span.normalization(style.scale).is_ok();
-        let span = shared.filter(is_range).or_else(|| ValueSpan::shared(&self.even, symmetric));
-        let nothing = ValueSpan { min: 0.1, max: 1.0, basis: Basis::All, values: None };
+        let shared = ColorRange::shared(&self.spans, symmetric);
+        let is_range = |span: &ColorRange| span.normalization(style.scale).is_ok();
+        let span = shared.filter(is_range).or_else(|| ColorRange::shared(&self.even, symmetric));
+        let nothing = ColorRange { min: 0.1, max: 1.0, basis: Basis::All, values: None };
         let span = span.or_else(|| self.spans.into_iter().next()).unwrap_or(nothing);
         let varies = self.values.filter(|[min, max]| min < max);
         let ends = varies.map(|[min, max]| [min < span.min, max > span.max]);
-        Coloring { style, span, ends }
+        ColorMapping { style, span, ends }
     }
 }

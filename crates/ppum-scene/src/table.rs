@@ -32,7 +32,7 @@ impl Column {
 
 /// Numbers in rows and columns.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Table {
+pub struct NumberTable {
     columns: Vec<Column>,
     /// Row by row.
     values: Vec<f64>,
@@ -45,7 +45,7 @@ pub struct Table {
 #[error("there would be two columns `{0}`; leave one out")]
 pub struct SameName(pub String);
 
-impl Table {
+impl NumberTable {
     /// A table of columns, its values row by row.
     #[must_use]
     pub fn new(columns: Vec<Column>, values: Vec<f64>) -> Self {
@@ -53,7 +53,7 @@ impl Table {
         Self { columns, values, shape }
     }
 
-    /// The same with a first column.
+    /// Returns the table with a first column.
     #[must_use]
     pub fn with_first(self, column: Column, first: Vec<f64>) -> Self {
         let rows = first.iter().zip(self.values.chunks(self.columns.len()));
@@ -61,7 +61,7 @@ impl Table {
         Self::new([vec![column], self.columns].concat(), values)
     }
 
-    /// The same as an array of so many rows and columns of places.
+    /// Returns the table as an array of so many rows and columns of places.
     #[must_use]
     pub fn with_shape(self, [rows, columns]: [usize; 2]) -> Self {
         Self { shape: vec![rows, columns], ..self }
@@ -129,7 +129,7 @@ impl Table {
         Ok(())
     }
 
-    /// The same as a text.
+    /// Writes the table as text.
     #[must_use]
     pub fn csv(&self) -> String {
         let mut out = Vec::new();
@@ -181,9 +181,9 @@ fn quoted(text: &str) -> String {
 mod tests {
     use super::*;
 
-    fn table() -> Table {
+    fn table() -> NumberTable {
         let columns = vec![Column::new("x", ""), Column::new("max(ux, 1)", "mm")];
-        Table::new(columns, vec![0.1, f64::NAN, 1e300, f64::NEG_INFINITY])
+        NumberTable::new(columns, vec![0.1, f64::NAN, 1e300, f64::NEG_INFINITY])
     }
 
     #[test]

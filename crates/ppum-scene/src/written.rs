@@ -20,7 +20,7 @@ where
     String::deserialize(deserializer)?.parse().map_err(de::Error::custom)
 }
 
-/// The same of values that may be missing.
+/// Serialisation of values that may be missing.
 pub(crate) mod optional {
     use std::fmt::Display;
     use std::str::FromStr;

@@ -19,10 +19,11 @@
 //! assembly        norms                            cells and border → K u = f; energies, errors
 //! basis                                            stable basis
 //! space                                            local spaces of a cover, enriched
-//! refine                                           covers
-//! corner          triangulation   terms            singular points of the border; triangles; what features add
-//! equilibrium     problem         smoothness       watched
-//! geometry        law             quadrature       report
+//! refine          triangulation                    covers; triangles between segments
+//! corner          equilibrium                      singular points; pieces of the body
+//! smoothness      terms                            kinks of integrands; what features add
+//! law                                              stresses
+//! quadrature      report          watched
 //! ```
 
 pub mod adapt;

@@ -1,7 +1,7 @@
 //! Norms of a field and of its error, integrated with the solver's own cells.
 
 use crate::law::{Law, LawAt};
-use crate::space::Space;
+use crate::space::TrialSpace;
 use ppum::crack::Side;
 use ppum::field::Field;
 use ppum::jet::Jet;
@@ -13,14 +13,14 @@ const EXTRA: usize = 2;
 
 /// Squares of norms over the domain.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Norms {
+pub struct DomainNorms {
     /// ∫ σ(u):∇u, twice the strain energy; for Poisson ∫ κ |∇u|².
     pub energy: f64,
     /// ∫ |u|²
     pub l2: f64,
 }
 
-impl Norms {
+impl DomainNorms {
     /// Norm of `self` relative to that of `reference`: (energy norm, L² norm).
     #[must_use]
     pub fn relative_to(&self, reference: &Self) -> (f64, f64) {
@@ -36,13 +36,13 @@ pub type Exact<'a> = &'a (dyn Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync);
 /// # Panics
 /// If the field is not of the step of `space`.
 #[must_use]
-pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 3] {
+pub fn norms(field: &Field<'_>, space: &TrialSpace<'_>, exact: Exact<'_>) -> [DomainNorms; 3] {
     let parts = over_cells(
         field,
         space,
         &all_cells(space),
         EXTRA,
-        |sums: &mut [Norms; 3], at, u, weight| {
+        |sums: &mut [DomainNorms; 3], at, u, weight| {
             let e = exact(at.anchor, at.offset);
             let difference = [u[0].minus::<1>(e[0]), u[1].minus::<1>(e[1])];
             for (sum, v) in sums.iter_mut().zip([*u, e, difference]) {
@@ -50,8 +50,11 @@ pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 
             }
         },
     );
-    parts.into_iter().fold([Norms::default(); 3], |a, b| {
-        std::array::from_fn(|k| Norms { energy: a[k].energy + b[k].energy, l2: a[k].l2 + b[k].l2 })
+    parts.into_iter().fold([DomainNorms::default(); 3], |a, b| {
+        std::array::from_fn(|k| DomainNorms {
+            energy: a[k].energy + b[k].energy,
+            l2: a[k].l2 + b[k].l2,
+        })
     })
 }
 
@@ -61,13 +64,13 @@ pub fn norms(field: &Field<'_>, space: &Space<'_>, exact: Exact<'_>) -> [Norms; 
 /// # Panics
 /// If the field is not of the step of `space`.
 #[must_use]
-pub fn energy(field: &Field<'_>, space: &Space<'_>) -> f64 {
+pub fn energy(field: &Field<'_>, space: &TrialSpace<'_>) -> f64 {
     energy_of(field, space, &all_cells(space))
 }
 
 /// The part of the [`energy`] in some cells, by their indices.
-pub fn energy_of(field: &Field<'_>, space: &Space<'_>, cells: &[usize]) -> f64 {
-    let add = |sum: &mut Norms, at: &QuadraturePoint, u: &[Jet<f64>; 2], weight| {
+pub fn energy_of(field: &Field<'_>, space: &TrialSpace<'_>, cells: &[usize]) -> f64 {
+    let add = |sum: &mut DomainNorms, at: &QuadraturePoint, u: &[Jet<f64>; 2], weight| {
         sum.add(&at.law, u, weight)
     };
     let parts = over_cells(field, space, cells, 0, add);
@@ -80,7 +83,7 @@ pub fn energy_of(field: &Field<'_>, space: &Space<'_>, cells: &[usize]) -> f64 {
 /// # Panics
 /// If the field is not of the step of `space`.
 #[must_use]
-pub fn fluctuation(field: &Field<'_>, space: &Space<'_>) -> f64 {
+pub fn fluctuation(field: &Field<'_>, space: &TrialSpace<'_>) -> f64 {
     let add = |sum: &mut Volume, at: &QuadraturePoint, u: &[Jet<f64>; 2], weight| {
         sum.norms.add(&at.law, u, weight);
         let (lambda, d) = (weight * at.law.lambda(), u[0].x + u[1].y);
@@ -99,13 +102,13 @@ pub fn fluctuation(field: &Field<'_>, space: &Space<'_>) -> f64 {
 /// Sums over a cell of λ, λ div u and λ (div u)².
 #[derive(Default)]
 struct Volume {
-    norms: Norms,
+    norms: DomainNorms,
     lambda: f64,
     mean: f64,
     square: f64,
 }
 
-fn all_cells(space: &Space<'_>) -> Vec<usize> {
+fn all_cells(space: &TrialSpace<'_>) -> Vec<usize> {
     (0..space.partition().len()).collect()
 }
 
@@ -119,7 +122,7 @@ struct QuadraturePoint {
 /// Sums over the points of each of some cells, cell by cell.
 fn over_cells<S: Default + Send>(
     field: &Field<'_>,
-    space: &Space<'_>,
+    space: &TrialSpace<'_>,
     cells: &[usize],
     extra: usize,
     add: impl Fn(&mut S, &QuadraturePoint, &[Jet<f64>; 2], f64) + Sync,
@@ -127,7 +130,7 @@ fn over_cells<S: Default + Send>(
     let (law, quadrature) = (Law::new(field.equation), space.quadrature(extra));
     let rules = |c: usize| match extra {
         0 => space.rules(&quadrature, c),
-        _ => quadrature.cell(&space.partition().cell[c], &space.coverers[c]).into(),
+        _ => quadrature.cell(&space.partition().cell[c], &space.covering_patches[c]).into(),
     };
     let cell = |&c: &usize| {
         let mut sum = S::default();
@@ -146,7 +149,7 @@ fn over_cells<S: Default + Send>(
     cells.par_iter().map(cell).collect()
 }
 
-impl Norms {
+impl DomainNorms {
     fn add(&mut self, law: &LawAt, u: &[Jet<f64>; 2], weight: f64) {
         let g = u.map(|jet| vec2(jet.x, jet.y));
         let s = law.linear_stress(&g);

@@ -15,7 +15,7 @@ use ppum::vec2::Vec2;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SolverReport {
     /// Number of patches that hold several runs of one crack or rim, and so glue two parts of the
-    /// plate together: smaller cells are needed there.
+    /// body together: smaller cells are needed there.
     pub crossed_twice: Option<u64>,
     /// Unknowns before the cut-off.
     pub unknowns: Option<u64>,
@@ -41,7 +41,7 @@ pub struct SolverReport {
     /// Largest penalty β of Nitsche's method in a cell, in units of stiffness over cell width: 3 to
     /// 36 in whole cells and more in slivers.
     pub nitsche: Option<f64>,
-    /// Pieces that cracks and holes cut the plate into.
+    /// Pieces that cracks and holes cut the body into.
     pub pieces: Option<u64>,
     /// Rigid-body modes of the pieces that nothing holds.
     pub free_modes: Option<u64>,
@@ -59,7 +59,7 @@ pub struct SolverReport {
     pub quadrature_points: Option<u64>,
     /// Energy of the solution, ½ ∫ σ:ε or ½ ∫ κ |∇u|²; infinite with forces at points.
     pub energy: Option<f64>,
-    /// Energy of the whole of which the plate with a crack on an edge is a half or a quarter.
+    /// Energy of the whole body, of which one with a crack on an edge is a half or a quarter.
     pub whole_energy: Option<f64>,
     /// Estimated error of the solution in the energy norm, as a part of the norm of the solution.
     pub estimated_error: Option<f64>,
@@ -166,7 +166,7 @@ impl StopReason {
 }
 
 /// A value of the report as the number of a record.
-trait Recorded {
+trait HistoryNumber {
     /// The number; none if there is no record.
     fn number(&self) -> Option<f64>;
 
@@ -174,7 +174,7 @@ trait Recorded {
     fn take_up(&mut self, number: f64);
 }
 
-impl Recorded for Option<f64> {
+impl HistoryNumber for Option<f64> {
     fn number(&self) -> Option<f64> {
         *self
     }
@@ -184,7 +184,7 @@ impl Recorded for Option<f64> {
     }
 }
 
-impl Recorded for Option<u64> {
+impl HistoryNumber for Option<u64> {
     fn number(&self) -> Option<f64> {
         self.map(|count| count as f64)
     }
@@ -194,7 +194,7 @@ impl Recorded for Option<u64> {
     }
 }
 
-impl Recorded for bool {
+impl HistoryNumber for bool {
     fn number(&self) -> Option<f64> {
         self.then_some(1.0)
     }
@@ -206,7 +206,7 @@ impl Recorded for bool {
 
 macro_rules! recorded {
     ($($kind:ty: $($value:ident),*;)*) => {
-        $(impl Recorded for Option<$kind> {
+        $(impl HistoryNumber for Option<$kind> {
             fn number(&self) -> Option<f64> {
                 self.map(|kind| f64::from(kind as u8))
             }
@@ -291,7 +291,7 @@ pub const ASSEMBLY_SECONDS: &str = "assembly-seconds";
 
 /// True for names of records of the course of iterations, of which there are many.
 #[must_use]
-pub fn is_of_course(name: &str) -> bool {
+pub fn is_convergence_record(name: &str) -> bool {
     course_place(name).is_some()
 }
 
@@ -311,7 +311,7 @@ pub fn is_of_phase(record: &Record) -> bool {
 
 /// Removes the seconds from a step: all else is the same whenever and on however many threads it
 /// is solved.
-pub fn forget_times(step: &mut Step) {
+pub fn strip_timings(step: &mut Step) {
     step.history.retain(|record| record.unit != SECOND);
     step.attributes.retain(|attribute| attribute.name != ASSEMBLY_SECONDS);
 }
@@ -344,7 +344,7 @@ fn phase_of(record: &Record) -> Option<Phase> {
 }
 
 impl SolverReport {
-    /// The report in a step's history. Of several records of one name the first counts; those of
+    /// The report in a step's history. If several records have one name, the first counts; those of
     /// other names are left out.
     #[must_use]
     pub fn of(history: &[Record]) -> Self {
@@ -439,7 +439,7 @@ impl SolverReport {
 
 /// An integrand that quadrature does not resolve.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Unresolved {
+pub struct UnresolvedIntegrand {
     /// The load that it is, in words; none for functions of the space and coefficients.
     pub load: Option<String>,
     /// Estimated error: of a load that of its resultant as a part of its magnitude, of functions
@@ -531,7 +531,7 @@ mod tests {
         assert_eq!(records.len(), ENTRIES.len() + PHASES.len() + 4 + 8 + 6);
         assert_eq!(records.iter().filter(|record| is_of_phase(record)).count(), PHASES.len() + 4);
         assert_eq!(records.iter().filter(|record| is_of_level(record)).count(), 8);
-        assert_eq!(records.iter().filter(|record| is_of_course(&record.name)).count(), 6);
+        assert_eq!(records.iter().filter(|record| is_convergence_record(&record.name)).count(), 6);
         for (record, (name, value)) in records.iter().zip(NUMBERS) {
             assert_eq!((record.name.as_str(), record.value), (name, value));
         }
@@ -572,7 +572,7 @@ mod tests {
             ..SolverReport::default()
         };
         step.history = report.records();
-        forget_times(&mut step);
+        strip_timings(&mut step);
         assert_eq!(step.attributes, [attribute("order")]);
         let left = SolverReport { seconds: Vec::new(), ..report };
         assert_eq!(step.history, left.records());

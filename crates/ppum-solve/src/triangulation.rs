@@ -31,16 +31,16 @@ pub struct NotFinite;
 /// # Errors
 /// [`NotFinite`].
 pub fn triangulate(segments: &[[Vec2; 2]], points: &[Vec2]) -> Result<Triangulation, NotFinite> {
-    let scale = Scale::new(segments.iter().flatten().chain(points));
+    let scale = CoordinateScale::new(segments.iter().flatten().chain(points));
     let mut mesh = SegmentMesh::new();
     insert(&mut mesh, scale, segments, points).map_err(|_| NotFinite)
 }
 
 /// The power of two that brings all coordinates into [−1, 1].
 #[derive(Clone, Copy)]
-struct Scale(f64);
+struct CoordinateScale(f64);
 
-impl Scale {
+impl CoordinateScale {
     fn new<'p>(points: impl Iterator<Item = &'p Vec2>) -> Self {
         let largest = points.fold(f64::MIN_POSITIVE, |most, p| most.max(p.x.abs()).max(p.y.abs()));
         Self(largest.log2().ceil().exp2())
@@ -58,7 +58,7 @@ impl Scale {
 /// Edges are asked for last: nothing divides them any more.
 fn insert(
     mesh: &mut SegmentMesh,
-    scale: Scale,
+    scale: CoordinateScale,
     segments: &[[Vec2; 2]],
     points: &[Vec2],
 ) -> Result<Triangulation, InsertionError> {
@@ -83,7 +83,7 @@ fn insert(
 
 fn chain(
     mesh: &mut SegmentMesh,
-    scale: Scale,
+    scale: CoordinateScale,
     ends: [Vec2; 2],
 ) -> Result<Vec<[u32; 2]>, InsertionError> {
     let [from, to] = ends.map(|p| mesh.insert(scale.unit(p)));

@@ -6,21 +6,21 @@
 
 use ppum::progress::{Cancelled, Phase, Progress, Verdict, Watcher};
 use ppum::vec2::Rect;
-use ppum_problem::geometry::Around;
+use ppum_problem::geometry::Vicinity;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 
-/// A watcher of one step, which it tells the number of.
-pub struct InStep<'w> {
-    /// What hears of the progress.
+/// A watcher for one step, which adds the number of the step to all progress.
+pub struct CycleWatcher<'w> {
+    /// Called with the progress.
     pub watcher: &'w dyn Watcher,
     /// The number of the step.
     pub step: usize,
 }
 
-impl Watcher for InStep<'_> {
-    fn hear(&self, progress: Progress) -> Verdict {
-        self.watcher.hear(progress.in_step(self.step))
+impl Watcher for CycleWatcher<'_> {
+    fn on_progress(&self, progress: Progress) -> Verdict {
+        self.watcher.on_progress(progress.in_step(self.step))
     }
 }
 
@@ -30,7 +30,7 @@ const LEAST_BATCH: usize = 32;
 const BATCH_OF_THREAD: usize = 8;
 
 /// Work in one phase, as a watcher sees it.
-pub struct Stage<'w> {
+pub struct WorkPhase<'w> {
     watcher: &'w dyn Watcher,
     phase: Phase,
     /// Parts of the phase, where they are known.
@@ -40,7 +40,7 @@ pub struct Stage<'w> {
     is_stopped: AtomicBool,
 }
 
-impl<'w> Stage<'w> {
+impl<'w> WorkPhase<'w> {
     /// The beginning of a phase of so many parts.
     ///
     /// # Errors
@@ -49,7 +49,7 @@ impl<'w> Stage<'w> {
         Self::start(watcher, phase, Some(total.max(1)))
     }
 
-    /// The same of a phase whose parts nobody has counted: it stays at none of one.
+    /// Starts a phase whose parts are not counted: it has one part, which is never done.
     ///
     /// # Errors
     /// The watcher wants the work to stop.
@@ -88,7 +88,7 @@ impl<'w> Stage<'w> {
     }
 }
 
-/// The end of work over the plate before it is done.
+/// The reason why work over the body ends before it is complete.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum Halt {
     /// The watcher wants it.
@@ -96,7 +96,7 @@ pub enum Halt {
     Cancelled(#[from] Cancelled),
     /// Something there is not finite.
     #[error("something is not finite {0}")]
-    NotFinite(Around),
+    NotFinite(Vicinity),
 }
 
 impl Halt {
@@ -111,7 +111,7 @@ impl Halt {
 /// # Errors
 /// The first one in the order of the items; the watcher of `stage` wants the work to stop.
 pub(crate) fn each<T: Send>(
-    stage: &Stage<'_>,
+    stage: &WorkPhase<'_>,
     n: usize,
     work: impl Fn(usize) -> Result<T, Halt> + Sync,
 ) -> Result<Vec<T>, Halt> {
@@ -130,7 +130,7 @@ pub(crate) fn each<T: Send>(
 /// # Errors
 /// The first one in the order of the items; the watcher of `stage` wants the work to stop.
 pub(crate) fn in_batches<S, T: Send>(
-    stage: &Stage<'_>,
+    stage: &WorkPhase<'_>,
     n: usize,
     state: impl Fn() -> S + Sync,
     work: impl Fn(&mut S, usize) -> Result<T, Halt> + Sync,
@@ -169,7 +169,7 @@ mod tests {
     use std::sync::Mutex;
 
     fn sum(watcher: &dyn Watcher, n: usize) -> Result<f64, Halt> {
-        let (stage, mut sum) = (Stage::new(watcher, Phase::Assembly, n)?, 0.0);
+        let (stage, mut sum) = (WorkPhase::new(watcher, Phase::Assembly, n)?, 0.0);
         in_batches(
             &stage,
             n,
@@ -190,14 +190,14 @@ mod tests {
         assert_eq!(on(1), on(3));
     }
 
-    /// Of several errors it is the first in order, however the threads run.
+    /// If several errors occur, the first in order is returned, however the threads run.
     #[test]
     fn the_first_error_counts() {
         let at = |item: usize| {
             let p = ppum::vec2::vec2(item as f64, 0.0);
             Halt::at(Rect::new(p, p))
         };
-        let stage = Stage::new(unwatched(), Phase::Basis, 300).expect("nobody stops it");
+        let stage = WorkPhase::new(unwatched(), Phase::Basis, 300).expect("nobody stops it");
         let work = |(): &mut (), item: usize| if item % 50 == 49 { Err(at(item)) } else { Ok(()) };
         let mut added = 0;
         let found = in_batches(&stage, 300, || (), work, |_, ()| added += 1);

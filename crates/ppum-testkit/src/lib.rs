@@ -3,7 +3,7 @@
 //! - [`synthetic`] makes datasets that no solver has to make, [`costly`] small ones that ask for
 //!   much.
 //! - [`exact`] holds exact solutions of fracture mechanics, [`extended`] evaluates with 31 digits.
-//! - [`corpus`] are the cases that every back end of formulas is held to, [`fields`] the pictures
+//! - [`corpus`] are the cases that every back end of formulas is held to, [`fields`] the images
 //!   that every renderer is held to; `wgsl`, a feature, runs shaders without a device.
 //! - [`meshes`] makes elements with fields that are known.
 //! - [`random`] numbers are the same on every machine; [`processor`] measures processor time.

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::extended::Double;
+use crate::extended::DoubleDouble;
 use crate::random::Random;
 use ppum::dataset::{Dataset, Equation, FieldData, Step};
 use ppum::function::FunctionKind;
@@ -12,9 +12,9 @@ use ppum::vec2::{Rect, Vec2, vec2};
 
 /// A polynomial in two variables: the coefficients of x^a y^b.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Polynomial(pub BTreeMap<(i32, i32), f64>);
+pub struct BivariatePolynomial(pub BTreeMap<(i32, i32), f64>);
 
-impl Polynomial {
+impl BivariatePolynomial {
     /// The polynomial of coefficients in the order of a space.
     #[must_use]
     pub fn new(space: PolynomialSpace, degree: usize, coefficients: &[f64]) -> Self {
@@ -72,10 +72,12 @@ impl Polynomial {
 
     /// The value, with 31 digits.
     #[must_use]
-    pub fn at(&self, [x, y]: [Double; 2]) -> Double {
-        let power = |z: Double, n: i32| (0..n).fold(Double::from(1.0), |all, _| all * z);
-        let terms = self.0.iter().map(|((a, b), c)| Double::from(*c) * power(x, *a) * power(y, *b));
-        terms.fold(Double::from(0.0), |sum, term| sum + term)
+    pub fn at(&self, [x, y]: [DoubleDouble; 2]) -> DoubleDouble {
+        let power =
+            |z: DoubleDouble, n: i32| (0..n).fold(DoubleDouble::from(1.0), |all, _| all * z);
+        let terms =
+            self.0.iter().map(|((a, b), c)| DoubleDouble::from(*c) * power(x, *a) * power(y, *b));
+        terms.fold(DoubleDouble::from(0.0), |sum, term| sum + term)
     }
 
     /// Σ |c x^a y^b|: what rounding is relative to.
@@ -94,7 +96,7 @@ impl Polynomial {
 
 /// A square or a triangle of the plane: (s, t) = origin + scale ξ, component by component.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ElementPart {
+pub struct AffineElement {
     /// The reference shape.
     pub shape: Shape,
     /// The point of ξ = 0.
@@ -103,7 +105,7 @@ pub struct ElementPart {
     pub scale: Vec2,
 }
 
-impl ElementPart {
+impl AffineElement {
     /// A cell as a whole, or cut into two triangles.
     fn of_cell(cell: &Rect, is_cut: bool) -> Vec<Self> {
         let (middle, half) = (cell.center(), cell.size() * 0.5);
@@ -121,7 +123,7 @@ impl ElementPart {
 
     /// ξ of a point (s, t), with 31 digits.
     #[must_use]
-    pub fn xi(&self, [s, t]: [Double; 2]) -> [Double; 2] {
+    pub fn xi(&self, [s, t]: [DoubleDouble; 2]) -> [DoubleDouble; 2] {
         [(s - self.origin.x) / self.scale.x, (t - self.origin.y) / self.scale.y]
     }
 
@@ -137,16 +139,22 @@ impl ElementPart {
 
 /// A mesh in the making, with a field of polynomials.
 #[derive(Clone, Debug, Default)]
-pub struct Elements {
+pub struct MeshBuilder {
     /// The elements.
     pub mesh: Mesh,
     /// Each patch's map with its constant, for x and for y.
-    pub maps: Vec<[Polynomial; 2]>,
+    pub maps: Vec<[BivariatePolynomial; 2]>,
 }
 
-impl Elements {
+impl MeshBuilder {
     /// Adds an element with a map.
-    pub fn push(&mut self, shape: Shape, space: PolynomialSpace, degree: u8, map: [Polynomial; 2]) {
+    pub fn push(
+        &mut self,
+        shape: Shape,
+        space: PolynomialSpace,
+        degree: u8,
+        map: [BivariatePolynomial; 2],
+    ) {
         let mesh = &mut self.mesh;
         mesh.element.push(mesh.shape.len() as u32);
         mesh.shape.push(shape);
@@ -164,16 +172,16 @@ impl Elements {
     /// A grid of squares over the unit square, every other one cut into two triangles, under a
     /// polynomial map of the plane.
     #[must_use]
-    pub fn grid(cells: [i32; 2], degree: u8, plane: &[Polynomial; 2]) -> Self {
+    pub fn grid(cells: [i32; 2], degree: u8, plane: &[BivariatePolynomial; 2]) -> Self {
         Self::tiles(cells, degree, plane, |i, j| (i + j) % 2 != 0)
     }
 
-    /// The same, of which some squares are cut into two triangles.
+    /// Makes them with some squares cut into two triangles.
     #[must_use]
     pub fn tiles(
         [nx, ny]: [i32; 2],
         degree: u8,
-        plane: &[Polynomial; 2],
+        plane: &[BivariatePolynomial; 2],
         is_cut: impl Fn(i32, i32) -> bool,
     ) -> Self {
         let mut all = Self::default();
@@ -181,7 +189,7 @@ impl Elements {
         for (i, j) in (0..ny).flat_map(|j| (0..nx).map(move |i| (i, j))) {
             let (x, y) = (f64::from(2 * i + 1) * hx, f64::from(2 * j + 1) * hy);
             let half = vec2(hx, hy);
-            for part in ElementPart::of_cell(&Rect::around(vec2(x, y), half), is_cut(i, j)) {
+            for part in AffineElement::of_cell(&Rect::around(vec2(x, y), half), is_cut(i, j)) {
                 all.push_part(&part, degree, plane);
             }
         }
@@ -195,8 +203,8 @@ impl Elements {
         random: &mut Random,
         levels: u32,
         degree: u8,
-        plane: &[Polynomial; 2],
-    ) -> (Self, Vec<ElementPart>) {
+        plane: &[BivariatePolynomial; 2],
+    ) -> (Self, Vec<AffineElement>) {
         let (mut all, mut parts) = (Self::default(), Vec::new());
         let mut work = vec![(Rect::new(Vec2::ZERO, vec2(1.0, 1.0)), 0)];
         while let Some((cell, level)) = work.pop() {
@@ -207,15 +215,15 @@ impl Elements {
                 work.extend(corners.map(|at| (Rect::around(child(at), quarter), level + 1)));
                 continue;
             }
-            parts.extend(ElementPart::of_cell(&cell, random.unit() < 0.5));
+            parts.extend(AffineElement::of_cell(&cell, random.unit() < 0.5));
         }
         parts.iter().for_each(|part| all.push_part(part, degree, plane));
         (all, parts)
     }
 
-    fn push_part(&mut self, part: &ElementPart, degree: u8, plane: &[Polynomial; 2]) {
-        let s = Polynomial::linear(part.origin.x, part.scale.x, 0.0);
-        let t = Polynomial::linear(part.origin.y, 0.0, part.scale.y);
+    fn push_part(&mut self, part: &AffineElement, degree: u8, plane: &[BivariatePolynomial; 2]) {
+        let s = BivariatePolynomial::linear(part.origin.x, part.scale.x, 0.0);
+        let t = BivariatePolynomial::linear(part.origin.y, 0.0, part.scale.y);
         self.push(part.shape, part.space(), degree, plane.each_ref().map(|p| p.of(&s, &t)));
     }
 
@@ -229,9 +237,9 @@ impl Elements {
     /// The point of a patch at ξ, as the nearest one and what is missing.
     #[must_use]
     pub fn point(&self, patch: usize, xi: [f64; 2]) -> [Vec2; 2] {
-        let exact = self.maps[patch].each_ref().map(|p| p.at(xi.map(Double::from)));
-        let near = exact.map(Double::to_f64);
-        let rest = [0, 1].map(|k| (exact[k] - Double::from(near[k])).to_f64());
+        let exact = self.maps[patch].each_ref().map(|p| p.at(xi.map(DoubleDouble::from)));
+        let near = exact.map(DoubleDouble::to_f64);
+        let rest = [0, 1].map(|k| (exact[k] - DoubleDouble::from(near[k])).to_f64());
         [near.into(), rest.into()]
     }
 
@@ -247,7 +255,7 @@ impl Elements {
 
 /// A field that is a polynomial on each patch.
 #[must_use]
-pub fn field(name: &str, parts: &[(PolynomialSpace, u8, Polynomial)]) -> FieldData {
+pub fn field(name: &str, parts: &[(PolynomialSpace, u8, BivariatePolynomial)]) -> FieldData {
     let mut data = FieldData::new(name, &["v"]);
     for (space, degree, polynomial) in parts {
         data.block_function.push(0);
@@ -264,10 +272,14 @@ pub fn field(name: &str, parts: &[(PolynomialSpace, u8, Polynomial)]) -> FieldDa
 }
 
 /// A polynomial with coefficients between −1 and 1.
-pub fn random_polynomial(random: &mut Random, space: PolynomialSpace, degree: usize) -> Polynomial {
+pub fn random_polynomial(
+    random: &mut Random,
+    space: PolynomialSpace,
+    degree: usize,
+) -> BivariatePolynomial {
     let coefficients: Vec<f64> =
         (0..space.size(degree)).map(|_| random.between(-1.0, 1.0)).collect();
-    Polynomial::new(space, degree, &coefficients)
+    BivariatePolynomial::new(space, degree, &coefficients)
 }
 
 /// A point of a shape.
@@ -287,12 +299,12 @@ pub fn random_map(
     (shape, space, degree): (Shape, PolynomialSpace, usize),
     aspect: f64,
     ratio: f64,
-) -> [Polynomial; 2] {
+) -> [BivariatePolynomial; 2] {
     let (u, v) = (random.direction(), random.direction());
     let (u, v) = if u.cross(v) > 0.3 { (u, v) } else { (u, u.left()) };
     let base = [
-        Polynomial::linear(random.between(-1.0, 1.0), u.x, v.x * aspect),
-        Polynomial::linear(random.between(-1.0, 1.0), u.y, v.y * aspect),
+        BivariatePolynomial::linear(random.between(-1.0, 1.0), u.x, v.x * aspect),
+        BivariatePolynomial::linear(random.between(-1.0, 1.0), u.y, v.y * aspect),
     ];
     let bend = [(), ()].map(|()| {
         let mut p = random_polynomial(random, space, degree);
@@ -301,7 +313,9 @@ pub fn random_map(
     });
     let with = |s: f64| {
         let part = |k: usize| {
-            let scaled = |p: &Polynomial, s: f64| p.times(&Polynomial::linear(s, 0.0, 0.0));
+            let scaled = |p: &BivariatePolynomial, s: f64| {
+                p.times(&BivariatePolynomial::linear(s, 0.0, 0.0))
+            };
             let (x, y) = (scaled(&bend[0], s), scaled(&bend[1], s * aspect));
             // bent in the directions of the linear part, so that thin elements stay thin
             let (a, b) = if k == 0 { (u.x, v.x) } else { (u.y, v.y) };
@@ -318,12 +332,12 @@ pub fn random_map(
 }
 
 /// Smallest determinant of a map over the largest one, on a fine lattice.
-fn det_ratio(shape: Shape, map: &[Polynomial; 2]) -> f64 {
+fn det_ratio(shape: Shape, map: &[BivariatePolynomial; 2]) -> f64 {
     let partials = map.each_ref().map(|p| [p.derivative([1, 0]), p.derivative([0, 1])]);
     let det = |xi: [f64; 2]| {
         let [[a, b], [c, d]] = partials
             .each_ref()
-            .map(|row| row.each_ref().map(|p| p.at(xi.map(Double::from)).to_f64()));
+            .map(|row| row.each_ref().map(|p| p.at(xi.map(DoubleDouble::from)).to_f64()));
         a * d - b * c
     };
     let dets = shape.samples(20).map(det);

@@ -10,7 +10,7 @@ use ppum::progress::unwatched;
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
 use ppum_scene::request::Request;
-use ppum_viewer::export::{ExportKind, Order, PageSize};
+use ppum_viewer::export::{ExportKind, ImageExport, PageSize};
 use ppum_viewer::field::OwnedField;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -24,7 +24,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let size = request.look.size.ok_or("a request without a size")?;
     let center = request.place.center.map(Vec2::from).ok_or("a request without a centre")?;
     let width = request.place.width.ok_or("a request without a width")?;
-    let order = Order {
+    let order = ImageExport {
         field: Arc::new(OwnedField::new(Arc::new(dataset), step)?),
         file: Some(file),
         left: None,

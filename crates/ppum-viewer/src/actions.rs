@@ -1,5 +1,5 @@
-//! What a person can do, by a key, a menu or the palette: one list for all three, and for the
-//! help sheet.
+//! Actions of the user, by a key, a menu or the palette: one list for all three, and for the help
+//! sheet.
 
 use egui::{Event, Key, KeyboardShortcut, Modifiers, RawInput};
 
@@ -10,7 +10,7 @@ use crate::session::DrawerPage;
 /// Something a person can do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
-    /// Show the whole plate.
+    /// Show the whole body.
     Fit,
     /// Fly to a tip, by its number from 0.
     Tip(usize),
@@ -42,9 +42,9 @@ pub enum Action {
     Overlays,
     /// Isolines on and off.
     Isolines,
-    /// The deformed plate on and off.
+    /// The deformed body on and off.
     Deform,
-    /// The deformed plate in motion.
+    /// The deformed body in motion.
     Swing,
     /// The whole of a half or quarter model, on and off.
     Mirror,
@@ -60,7 +60,7 @@ pub enum Action {
     Extrema,
     /// A page of the drawer, opened or closed.
     Drawer(DrawerPage),
-    /// Save a picture of what is seen.
+    /// Save an image of what is seen.
     Save(ExportChoice),
     /// Copy the command that draws it.
     CopyCommand,
@@ -70,13 +70,13 @@ pub enum Action {
     Play,
     /// Choose a file and open it.
     Open,
-    /// The same, in a second view on the right.
+    /// Choose a file and open it in a second view on the right.
     OpenBeside,
     /// Close the dataset.
     Close,
     /// Write the dataset to a file that is chosen.
     SaveDataset,
-    /// The same of a view, by its number.
+    /// Write the dataset of a view, by its number.
     SaveDatasetOf(usize),
     /// Write a page of what is seen to a file that is chosen.
     ExportPage,
@@ -127,7 +127,7 @@ pub enum Action {
 /// An action with its name and key.
 #[derive(Clone, Copy, Debug)]
 pub struct ActionEntry {
-    /// What is done.
+    /// The action.
     pub action: Action,
     /// Its name in menus and the palette.
     pub name: &'static str,
@@ -326,8 +326,8 @@ pub const ALL: &[ActionEntry] = &[
     entry(Action::Quit, "Quit", control(Key::Q), "Window"),
 ];
 
-/// What the mouse does, and keys that are no actions: what is done by hand, what comes of it, and
-/// the heading that it stands below on the help sheet.
+/// The gestures of the mouse, and keys that are no actions: what is done by hand, what comes of it,
+/// and the heading that it stands below on the help sheet.
 pub const GESTURES: &[(&str, &str, &str)] = &[
     ("Drag", "Move the plate", "Moving"),
     ("Wheel", "Zoom at the pointer", "Moving"),

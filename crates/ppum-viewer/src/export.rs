@@ -1,25 +1,26 @@
-//! What is taken out of the window: pictures, figures, moving pictures, and the command that
-//! draws them.
+//! Exports from the window: images, figures, animations, and the command that draws them.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use ppum::progress::Watcher;
-use ppum_figure::figure::{BarPlace, Design, hugging, plot_area};
+use ppum_figure::figure::{BarPlace, FigureStyle, hugging, plot_area};
 use ppum_figure::form::PageFormat;
 use ppum_render::view::View;
 use ppum_scene::command;
-use ppum_scene::drawing::Shown;
+use ppum_scene::difference::DifferenceSide;
+use ppum_scene::drawing::DisplayedQuantity;
 use ppum_scene::engine::Engine;
-use ppum_scene::look::Look;
-use ppum_scene::minus::Side;
-use ppum_scene::moving::{AnimationFormat as Animation, Film, Frames, InMemory, Moving, Work};
+use ppum_scene::moving::{
+    AnimationFormat as Animation, FrameSource, InMemory, MotionKind, SeriesAnimation, Work,
+};
 use ppum_scene::notice::Notice;
 use ppum_scene::overlays::Overlay;
-use ppum_scene::place::Place;
+use ppum_scene::page_style::PageStyle;
+use ppum_scene::place::ViewRegion;
 use ppum_scene::request::Request;
-use ppum_scene::scene::Scene;
+use ppum_scene::scene::SceneRequest;
 use ppum_scene::shot::{FieldSource, page, reshaped, title, view_in};
 
 use crate::field::OwnedField;
@@ -27,24 +28,24 @@ use crate::field::OwnedField;
 /// An image, a figure or an animation to export.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExportKind {
-    /// The picture alone, as it is seen.
+    /// The image alone, as it is seen.
     Picture,
     /// With axes, colour bar and title.
     Figure,
     /// Several, one after the other, so many a second.
-    Moving(Moving, f64),
+    Moving(MotionKind, f64),
 }
 
 /// The kinds of files that can be chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExportChoice {
-    /// The picture alone.
+    /// The image alone.
     Picture,
     /// With axes, colour bar and title.
     Figure,
     /// The steps of a series.
     Steps,
-    /// The deformed plate, its factor growing and falling.
+    /// The deformed body, its factor growing and falling.
     Deformation,
 }
 
@@ -63,7 +64,7 @@ impl ExportChoice {
         }
     }
 
-    /// What the names of its files may end in, the usual one first.
+    /// Returns the endings of its file names, the usual one first.
     #[must_use]
     pub fn ends(self) -> &'static [&'static str] {
         match self {
@@ -129,7 +130,7 @@ impl PageSize {
         Self { unit: LengthUnit::Pixel, width, height: Some(height), ..Self::COLUMN }
     }
 
-    /// The same page in another unit.
+    /// Returns the page in another unit.
     #[must_use]
     pub fn in_unit(self, unit: LengthUnit) -> Self {
         let factor = unit.words().1 / self.unit.words().1;
@@ -142,32 +143,32 @@ impl PageSize {
     }
 
     /// The look of a figure; where no height is given with any.
-    fn design(&self) -> Design {
+    fn design(&self) -> FigureStyle {
         let sides = [self.width, self.height.unwrap_or(self.width)];
         if self.unit == LengthUnit::Pixel {
-            return Design::pixels(sides.map(|side| side.round() as u32));
+            return FigureStyle::pixels(sides.map(|side| side.round() as u32));
         }
         let inches = sides.map(|side| side / self.unit.words().1);
-        Design { font_size: self.font_size, ..Design::inches(inches, self.dpi) }
+        FigureStyle { font_size: self.font_size, ..FigureStyle::inches(inches, self.dpi) }
     }
 }
 
-/// A picture that is to be written.
+/// An image that is to be written.
 #[derive(Clone, Debug)]
-pub struct Order {
+pub struct ImageExport {
     /// The field that is looked at, with what is replaced in it.
     pub field: Arc<OwnedField>,
     /// The file of its dataset.
     pub file: Option<PathBuf>,
-    /// What is subtracted: a field, and what is shown of it.
-    pub left: Option<(Arc<OwnedField>, Arc<Shown>)>,
-    /// What is shown, and how.
-    pub scene: Scene,
+    /// The subtrahend: a field, and what is shown of it.
+    pub left: Option<(Arc<OwnedField>, Arc<DisplayedQuantity>)>,
+    /// The shown scene.
+    pub scene: SceneRequest,
     /// Where.
     pub view: View,
     /// The page.
     pub page: PageSize,
-    /// What is written.
+    /// The kind of the file.
     pub kind: ExportKind,
 }
 
@@ -177,9 +178,9 @@ const NOT_MOVING: &str =
 /// Why there is no command of a difference.
 pub const NO_COMMAND: &str = "no command draws the difference of two views; a session does: ppum view --session … --screenshot …";
 
-impl Order {
-    /// The look of a figure, none of a bare picture; in words why there is none.
-    fn design(&self, request: &Request) -> Result<Option<Design>, String> {
+impl ImageExport {
+    /// The look of a figure, none of a bare image; in words why there is none.
+    fn design(&self, request: &Request) -> Result<Option<FigureStyle>, String> {
         if self.kind == ExportKind::Picture {
             return Ok(None);
         }
@@ -188,17 +189,17 @@ impl Order {
             return Ok(Some(design));
         }
         let title = title(self.source(), request).map_err(|e| e.to_string())?;
-        let room = |design: &Design| plot_area(&title, design).map_err(|e| e.to_string());
+        let room = |design: &FigureStyle| plot_area(&title, design).map_err(|e| e.to_string());
         let aspect = self.view.width / self.view.height();
         hugging(&design, aspect, [1, 1], &BarPlace::ANYWHERE, room).map(Some)
     }
 
-    /// The file's bytes, in the form that its name ends in, and what is to be said of them. Of an
-    /// animation `done` counts the pictures, those of the search for the range and those that are
+    /// The file's bytes, in the form that its name ends in, and what is to be said of them. For an
+    /// animation, `done` counts the images, those of the search for the range and those that are
     /// drawn.
     ///
     /// # Errors
-    /// What keeps the picture from being drawn, or from being encoded, in words.
+    /// The reason, in words, why the image cannot be drawn or encoded.
     pub fn bytes(
         &self,
         path: &Path,
@@ -215,7 +216,7 @@ impl Order {
     }
 
     /// The view on the pixels of the page; that of a figure gets the shape of its plot later.
-    fn shaped(&self, design: Option<&Design>) -> Result<View, String> {
+    fn shaped(&self, design: Option<&FigureStyle>) -> Result<View, String> {
         match design {
             Some(_) => Ok(self.view),
             None => reshaped(&self.view, self.page.design().size).map_err(|e| e.to_string()),
@@ -224,11 +225,11 @@ impl Order {
 
     fn source(&self) -> FieldSource<'_> {
         let left = self.left.as_ref();
-        let left = left.map(|(field, shown)| Side { field: field.field(), shown });
+        let left = left.map(|(field, shown)| DifferenceSide { field: field.field(), shown });
         FieldSource { dataset: self.field.dataset(), field: self.field.field(), left }
     }
 
-    /// What is drawn; a page shows the cracks where the window does.
+    /// Returns the request of the image; a page shows the cracks where the window does.
     fn request(&self) -> Request {
         let mut scene = self.scene.clone();
         let is_page = self.kind != ExportKind::Picture;
@@ -261,7 +262,7 @@ impl Order {
 
     fn moving(
         &self,
-        (moving, rate): (&Moving, f64),
+        (moving, rate): (&MotionKind, f64),
         path: &Path,
         engine: &Engine<'_>,
         done: &AtomicUsize,
@@ -275,7 +276,8 @@ impl Order {
         let room = design.as_ref().map_or(Ok(view.pixels), room)?;
         let view = reshaped(&view, room).map_err(|e| e.to_string())?;
         done.store(0, Ordering::Relaxed);
-        let film = Film::new(&frames, &view, design.as_ref(), engine).map_err(|e| e.to_string())?;
+        let film = SeriesAnimation::new(&frames, &view, design.as_ref(), engine)
+            .map_err(|e| e.to_string())?;
         let milliseconds = (1000.0 / rate).round().clamp(10.0, 60_000.0) as u16;
         let is_gif = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("gif"));
         let (form, mut bytes) = (if is_gif { Animation::Gif } else { Animation::Apng }, Vec::new());
@@ -302,11 +304,11 @@ impl Order {
         request.look.size = Some(view.pixels);
         if let Some(design) = &design {
             view = view_in(source, &request, &view, design).map_err(|e| e.to_string())?;
-            (request.figure, request.look) = (true, Look::of(design));
+            (request.figure, request.look) = (true, PageStyle::of(design));
         }
-        request.place = Place::of(&view);
+        request.place = ViewRegion::of(&view);
         let mut words = command::render(&request, file, output);
-        if let ExportKind::Moving(Moving::Steps(_), rate) = self.kind {
+        if let ExportKind::Moving(MotionKind::Steps(_), rate) = self.kind {
             words.retain(|word| !word.starts_with("--step="));
             words.extend(["--steps=all".to_owned(), format!("--fps={rate:?}")]);
         }
@@ -323,7 +325,7 @@ struct CountedFrames<'a, F> {
     done: &'a AtomicUsize,
 }
 
-impl<F: Frames> Frames for CountedFrames<'_, F> {
+impl<F: FrameSource> FrameSource for CountedFrames<'_, F> {
     type Error = F::Error;
 
     fn count(&self) -> usize {

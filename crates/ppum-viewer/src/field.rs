@@ -8,7 +8,7 @@ use ppum::field::{Field, FieldError};
 use self_cell::self_cell;
 
 self_cell!(
-    struct Both {
+    struct FieldAndDataset {
         owner: Arc<Dataset>,
         #[covariant]
         dependent: Field,
@@ -16,7 +16,7 @@ self_cell!(
 );
 
 /// A dataset's field at one step, with the dataset.
-pub struct OwnedField(Both);
+pub struct OwnedField(FieldAndDataset);
 
 impl OwnedField {
     /// The first field of a step, ready to be evaluated.
@@ -24,7 +24,7 @@ impl OwnedField {
     /// # Errors
     /// No such step; functions that cannot be compiled.
     pub fn new(dataset: Arc<Dataset>, step: usize) -> Result<Self, FieldError> {
-        Both::try_new(dataset, |dataset| Field::new(dataset, step)).map(Self)
+        FieldAndDataset::try_new(dataset, |dataset| Field::new(dataset, step)).map(Self)
     }
 
     /// The dataset.

@@ -8,9 +8,9 @@ use std::sync::mpsc::{self, Receiver, TryRecvError};
 
 use ppum::progress::{Progress, Verdict, Watcher};
 
-/// Work on a thread of its own. Who drops it no longer wants it, and it stops as soon as it can.
+/// Work on a thread of its own. Dropping it cancels the job, which stops as soon as it can.
 #[derive(Debug)]
-pub struct Job<T> {
+pub struct BackgroundJob<T> {
     receiver: Receiver<Result<T, String>>,
     stop: CancelToken,
 }
@@ -29,12 +29,12 @@ impl CancelToken {
 
 /// Work without a report of its own ends where it is no longer wanted.
 impl Watcher for CancelToken {
-    fn hear(&self, _: Progress) -> Verdict {
+    fn on_progress(&self, _: Progress) -> Verdict {
         Verdict::go_on_unless(self.is_set())
     }
 }
 
-impl<T: Send + 'static> Job<T> {
+impl<T: Send + 'static> BackgroundJob<T> {
     /// Starts work, and wakes the window when it is done. A panic of the work becomes an error
     /// in words.
     pub fn start(
@@ -74,13 +74,13 @@ impl<T: Send + 'static> Job<T> {
     }
 }
 
-impl<T> Drop for Job<T> {
+impl<T> Drop for BackgroundJob<T> {
     fn drop(&mut self) {
         self.stop.0.store(true, Ordering::Relaxed);
     }
 }
 
-/// What a panic says.
+/// Returns the message of a panic.
 fn words(panic: &(dyn Any + Send)) -> String {
     let said = panic.downcast_ref::<&str>().copied();
     let said = said.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
@@ -94,7 +94,7 @@ mod tests {
 
     use super::*;
 
-    fn wait<T: Send + 'static>(job: &Job<T>) -> Result<T, String> {
+    fn wait<T: Send + 'static>(job: &BackgroundJob<T>) -> Result<T, String> {
         loop {
             if let Some(outcome) = job.poll() {
                 return outcome;
@@ -105,14 +105,15 @@ mod tests {
 
     #[test]
     fn a_panic_becomes_an_error() {
-        let job: Job<()> = Job::start(&egui::Context::default(), |_| panic!("seven"));
+        let job: BackgroundJob<()> =
+            BackgroundJob::start(&egui::Context::default(), |_| panic!("seven"));
         let error = wait(&job).expect_err("it has panicked");
         assert!(error.contains("seven") && error.contains("report"), "{error}");
     }
 
     #[test]
     fn who_is_told_to_stop_hears_of_it() {
-        let job = Job::start(&egui::Context::default(), |stop| {
+        let job = BackgroundJob::start(&egui::Context::default(), |stop| {
             while !stop.is_set() {
                 thread::yield_now();
             }

@@ -1,8 +1,8 @@
 //! The window: explore datasets interactively, exactly at every pixel, down to the tip.
 //!
-//! What a person chooses is a [`Session`](session::Session), plain data. Each frame of the window
-//! the session says what is wanted of each [`Pane`](session::Pane), [`Frames`](frames::Frames)
-//! computes it in the background by `ppum-scene`, and the [`stage`] shows the newest picture there
+//! The user's choices are a [`Session`](session::Session), plain data. Each frame of the window the
+//! session says what is wanted of each [`Pane`](session::Pane), [`PaneFrames`](frames::PaneFrames)
+//! computes it in the background by `ppum-scene`, and the [`stage`] shows the newest image there
 //! is. Panels change the session and nothing else; what a key, a menu or the palette does is one
 //! [`Action`](actions::Action). Nothing here draws a field: the window is a loop around what
 //! `ppum render` does.
@@ -10,7 +10,6 @@
 pub mod actions;
 pub mod app;
 pub mod controls;
-pub mod desk;
 pub mod export;
 pub mod field;
 pub mod files;
@@ -19,11 +18,12 @@ pub mod frames;
 pub mod job;
 pub mod offscreen;
 mod page;
+pub mod panel_context;
 pub mod panels;
 pub mod plate;
 pub mod player;
 pub mod reading;
-pub mod replacing;
+pub mod replaced_file;
 pub mod session;
 pub mod shapes;
 pub mod solving;

@@ -1,4 +1,4 @@
-//! The window without a display: shown until it is at rest, and kept as a picture.
+//! The window without a display: shown until it is at rest, and kept as an image.
 
 use std::sync::mpsc;
 use std::thread;
@@ -10,9 +10,9 @@ use ppum_render::image::Image;
 
 use crate::app::Viewer;
 use crate::surface::{Surface, SurfaceError};
-use crate::window::{NO_DRIVER, SIZE, Start};
+use crate::window::{NO_DRIVER, SIZE, WindowStart};
 
-/// A picture of the window that cannot be made.
+/// An image of the window that cannot be made.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScreenshotError {
@@ -22,7 +22,7 @@ pub enum ScreenshotError {
     /// A file that cannot be shown.
     #[error("{0}")]
     File(String),
-    /// A plate that cannot be drawn as it was chosen.
+    /// An image that cannot be drawn as it was chosen.
     #[error("{0}")]
     Picture(String),
     /// It does not come to rest.
@@ -39,11 +39,11 @@ pub enum ScreenshotError {
 /// The time after which nobody waits for a window any more.
 const PATIENCE: Duration = Duration::from_secs(600);
 
-/// The picture of a window that begins so, once everything in it is drawn.
+/// The image of a window that begins so, once everything in it is drawn.
 ///
 /// # Errors
 /// Files that cannot be shown; no graphics driver, not even one that computes in software.
-pub fn screenshot(start: Start) -> Result<Image, ScreenshotError> {
+pub fn screenshot(start: WindowStart) -> Result<Image, ScreenshotError> {
     let size = start.size.unwrap_or(SIZE).map(|n| n.round().max(1.0));
     let pixels = size.map(|n| n as u32);
     let ctx = Context::default();
@@ -99,11 +99,11 @@ fn at_rest(
     }
 }
 
-/// Pictures of a window at rest after which no panel moves any more: they fold and fade for a
+/// Images of a window at rest after which no panel moves any more: they fold and fade for a
 /// quarter of a second.
 const SETTLED: u32 = 20;
 
-/// The colour around the plate, as the window has it.
+/// The colour around the image, as the window has it.
 fn ground(ctx: &Context) -> wgpu::Color {
     let color = crate::widgets::ground(&ctx.style_of(ctx.theme()).visuals);
     let [r, g, b, a] = color.to_normalized_gamma_f32().map(f64::from);

@@ -4,19 +4,19 @@ use std::path::Path;
 use std::sync::Arc;
 
 use ppum::dataset::Dataset;
-use ppum_page::{LARGEST, Start, View, html};
+use ppum_page::{LARGEST, PageStart, PageView, html};
 use ppum_scene::overlays::Overlay;
 use ppum_scene::scene::Subject;
 use ppum_scene::shot::FieldSource;
 
-use crate::files::kept::replace;
+use crate::files::window_state::replace;
 use crate::session::Pane;
-use crate::stage::Stage;
+use crate::stage::ViewPane;
 
 /// A page that is to be written: the same as `ppum export` writes.
 pub(crate) struct PageOrder {
     dataset: Arc<Dataset>,
-    start: Start,
+    start: PageStart,
 }
 
 const NO_PICTURE: &str = "there is no picture yet";
@@ -28,8 +28,8 @@ impl PageOrder {
     /// The page of what a pane shows.
     ///
     /// # Errors
-    /// What pages do not have, in words.
-    pub(crate) fn new(pane: &Pane, stage: &Stage) -> Result<Self, String> {
+    /// The features, in words, that pages do not have.
+    pub(crate) fn new(pane: &Pane, stage: &ViewPane) -> Result<Self, String> {
         let frame = stage.frame().ok_or(NO_PICTURE)?;
         if frame.left().is_some() {
             return Err(NO_DIFFERENCE.into());
@@ -40,11 +40,11 @@ impl PageOrder {
         }
         scene.overlays.no_cracks = !scene.overlays.shown.contains(&Overlay::Cracks);
         let view = stage.view.filter(|_| pane.place.is_some());
-        let view = view.map(View::from);
+        let view = view.map(PageView::from);
         let path = stage.opened.as_ref().and_then(|opened| opened.path.as_deref());
         let file = path.map_or("dataset.h5".to_owned(), crate::files::name);
         let source = FieldSource::of(frame.field.dataset(), frame.field.field());
-        let start = Start::new(scene, source, view, file);
+        let start = PageStart::new(scene, source, view, file);
         let start = start.map_err(|error| error.to_string())?;
         Ok(Self { dataset: Arc::clone(&frame.wanted.dataset), start })
     }

@@ -1,19 +1,19 @@
-//! Where a plate is in the window: all of it, or a place that can be shown.
+//! Where a body is in the window: all of it, or a place that can be shown.
 
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::view::View;
 
 use crate::session::VisibleRegion;
 
-/// Room around the whole plate, in parts of its size.
+/// Room around the whole body, in parts of its size.
 const ROOM: f64 = 0.03;
-/// The largest and the smallest width, in parts of the plate's size.
+/// The largest and the smallest width, in parts of the body's size.
 const WIDEST: f64 = 20.0;
 const NARROWEST: f64 = 1e-12;
-/// Doubles in the narrowest view of a plate that lies far from the origin: about one a pixel.
+/// Doubles in the narrowest view of a body that lies far from the origin: about one a pixel.
 const COARSEST: f64 = 2048.0;
 
-/// The view of a place, or of the whole plate beside the last `taken` columns; none of a plate
+/// The view of a place, or of the whole body beside the last `taken` columns; none of a body
 /// without size.
 #[must_use]
 pub fn view(
@@ -38,8 +38,8 @@ pub fn view(
     View::new(center, f64::from(pixels[0]) * pixel, pixels).ok()
 }
 
-/// A place that can be shown: no wider than the plate many times, no narrower than doubles tell
-/// pixels apart, never beside the plate.
+/// A place that can be shown: no wider than the body many times, no narrower than doubles tell
+/// pixels apart, never beside the body.
 #[must_use]
 pub fn bounded(place: VisibleRegion, bounds: &Rect) -> VisibleRegion {
     let size = bounds.size().x.max(bounds.size().y);
@@ -51,8 +51,8 @@ pub fn bounded(place: VisibleRegion, bounds: &Rect) -> VisibleRegion {
     VisibleRegion { center: center.into(), width }
 }
 
-/// True if a place is one of this plate: something of it may be seen there, and pixels are
-/// told apart.
+/// True if a place is one of this body: something of it may be seen there, and pixels are told
+/// apart.
 #[must_use]
 pub fn is_of(place: VisibleRegion, bounds: &Rect) -> bool {
     let nearest = bounded(place, bounds);
@@ -61,7 +61,7 @@ pub fn is_of(place: VisibleRegion, bounds: &Rect) -> bool {
     is_near && is_wide
 }
 
-/// How far beyond what can be shown a width may lie: the plate may have been written anew, a
+/// How far beyond what can be shown a width may lie: the body may have been written again, a
 /// little larger.
 const SLACK: f64 = 100.0;
 
@@ -102,7 +102,7 @@ mod tests {
                 clipped[usize::from(down > 0.0)] += usize::from(refused);
                 let after = super::view(Some(place), bounds, view.pixels, 0).expect("a place");
                 let shift = below - (after.center + after.offset_at(pixel));
-                // only the plate's border may hold the middle back
+                // only the body's border may hold the middle back
                 let is_free = bounds.contains(below + offset * (-after.width / view.width));
                 if is_free {
                     assert!(shift.length() <= 1.1 * after.pixel_size(), "{shift:?} {place:?}");

@@ -5,16 +5,16 @@ use std::time::{Duration, Instant};
 use ppum::dataset::Dataset;
 
 use crate::session::Pane;
-use crate::stage::Stage;
+use crate::stage::ViewPane;
 
-/// What plays the steps.
+/// The player of the steps.
 #[derive(Clone, Debug)]
 pub struct Player {
     /// True while it plays.
     pub is_playing: bool,
     /// Steps in a second.
     pub speed: f64,
-    /// True if it begins anew after the last step.
+    /// True if it begins again after the last step.
     pub is_looping: bool,
     shown: Option<Instant>,
 }
@@ -40,9 +40,9 @@ impl Player {
     }
 
     /// Goes on to the next step when it is time, and the one before was seen.
-    pub fn advance(&mut self, ctx: &egui::Context, pane: &mut Pane, stage: &Stage) {
+    pub fn advance(&mut self, ctx: &egui::Context, pane: &mut Pane, stage: &ViewPane) {
         let Some(opened) = stage.opened.as_ref().filter(|_| self.is_playing) else { return };
-        // a picture that is ready wakes the window
+        // an image that is ready wakes the window
         if stage.frames.is_working() {
             return;
         }

@@ -5,14 +5,14 @@ use std::path::{Path, PathBuf};
 
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::view::{View, ViewError};
-use ppum_scene::colors::Colors;
+use ppum_scene::colors::ColorOptions;
 use ppum_scene::compare::Compare;
 use ppum_scene::overlays::Overlay;
-use ppum_scene::profile::{Along, COUNT};
-use ppum_scene::scene::Scene;
+use ppum_scene::profile::{COUNT, ProfileCurve};
+use ppum_scene::scene::SceneRequest;
 use serde::{Deserialize, Serialize};
 
-use ppum_scene::spot::Spot;
+use ppum_scene::location::Location;
 
 /// The state of the window.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -25,13 +25,13 @@ pub struct Session {
     /// True if both panes show the same place.
     pub linked: bool,
     /// The difference of the two.
-    pub minus: Minus,
+    pub minus: DifferenceChoice,
     /// True if the panels on the right are open.
     pub panels: bool,
     /// The page of the drawer below, if it is open.
     pub drawer: Option<DrawerPage>,
     /// Colours of the window.
-    pub theme: Theme,
+    pub theme: WindowTheme,
     /// The problem whose text is open.
     pub draft: Option<ProblemDraft>,
 }
@@ -39,12 +39,12 @@ pub struct Session {
 /// The difference of two views, which the second one shows: its values minus those of the first.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Minus {
+pub struct DifferenceChoice {
     /// True if it is shown.
     pub is_shown: bool,
     /// The colours of the second view when it shows the other of the two, its own values or
     /// the difference.
-    pub colors: Colors,
+    pub colors: ColorOptions,
 }
 
 /// The text of a problem while it is written.
@@ -95,7 +95,7 @@ impl ProblemDraft {
     }
 }
 
-/// The title that the text of a problem gives, whatever mistakes are in it.
+/// The title that the text of a problem gives, whatever errors are in it.
 #[must_use]
 pub fn title(text: &str) -> Option<&str> {
     let value = |line| str::trim_start(line).strip_prefix("title")?.trim_start().strip_prefix('=');
@@ -109,20 +109,20 @@ pub fn title(text: &str) -> Option<&str> {
 pub struct Pane {
     /// The dataset's file.
     pub file: Option<PathBuf>,
-    /// What is shown of it.
-    pub scene: Scene,
-    /// Where; the whole plate if nothing is said.
+    /// The shown scene.
+    pub scene: SceneRequest,
+    /// The visible region; the whole body if there is none.
     pub place: Option<VisibleRegion>,
-    /// What resampling gives beside it, if that is looked at.
+    /// The resampling beside it, if that is shown.
     pub compare: Option<Compare>,
     /// How that is looked at.
-    pub against: Against,
+    pub against: SplitChoice,
     /// Points whose values are kept in sight.
-    pub probes: Vec<Spot>,
+    pub probes: Vec<Location>,
     /// The curve that values are plotted along.
-    pub curve: Option<Along>,
+    pub curve: Option<ProfileCurve>,
     /// How they are plotted.
-    pub plot: Plotting,
+    pub plot: PlotChoice,
     /// True if the extrema of the view are marked.
     pub extrema: bool,
 }
@@ -131,43 +131,42 @@ impl Default for Pane {
     /// The whole of a dataset that is still to be chosen, with its cracks and rims, which dark
     /// maps hide.
     fn default() -> Self {
-        let mut scene = Scene::default();
+        let mut scene = SceneRequest::default();
         scene.overlays.shown.push(Overlay::Cracks);
         Self {
             file: None,
             scene,
             place: None,
             compare: None,
-            against: Against::default(),
+            against: SplitChoice::default(),
             probes: Vec::new(),
             curve: None,
-            plot: Plotting::default(),
+            plot: PlotChoice::default(),
             extrema: false,
         }
     }
 }
 
-/// How the direct picture is seen beside what resampling gives of it: that on the right of
-/// a divider.
+/// How the direct image is seen beside what resampling gives of it: that on the right of a divider.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Against {
-    /// Place of the divider, in parts of the picture's width.
+pub struct SplitChoice {
+    /// Place of the divider, in parts of the image's width.
     pub divider: f64,
-    /// True if the difference is shown, not the resampled picture.
+    /// True if the difference is shown, not the resampled image.
     pub difference: bool,
 }
 
-impl Default for Against {
+impl Default for SplitChoice {
     fn default() -> Self {
         Self { divider: 0.5, difference: false }
     }
 }
 
-/// What is plotted along a curve, and how.
+/// The plot along a curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Plotting {
+pub struct PlotChoice {
     /// Quantities or formulas in a list; those that suit if nothing is said.
     pub quantities: Option<String>,
     /// True for a logarithmic axis: the horizontal one, the vertical one.
@@ -176,7 +175,7 @@ pub struct Plotting {
     pub count: usize,
 }
 
-impl Default for Plotting {
+impl Default for PlotChoice {
     fn default() -> Self {
         Self { quantities: None, log: [false; 2], count: COUNT }
     }
@@ -187,7 +186,7 @@ impl Default for Plotting {
 pub struct VisibleRegion {
     /// The middle.
     pub center: [f64; 2],
-    /// The width of the picture.
+    /// The width of the image.
     pub width: f64,
 }
 
@@ -215,7 +214,7 @@ impl DrawerPage {
 /// Colours of the window.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Theme {
+pub enum WindowTheme {
     /// As the system has it.
     #[default]
     System,
@@ -231,10 +230,10 @@ impl Default for Session {
             panes: vec![Pane::default()],
             active: 0,
             linked: true,
-            minus: Minus::default(),
+            minus: DifferenceChoice::default(),
             panels: true,
             drawer: None,
-            theme: Theme::default(),
+            theme: WindowTheme::default(),
             draft: None,
         }
     }
@@ -247,7 +246,7 @@ impl Session {
         &self.panes[self.active]
     }
 
-    /// The same, to be changed.
+    /// Returns the pane, to be changed.
     pub fn pane_mut(&mut self) -> &mut Pane {
         &mut self.panes[self.active]
     }
@@ -295,7 +294,7 @@ impl Session {
 
     /// Mends what a file may say and the window cannot show: no pane, more than two, one active
     /// that is not there.
-    pub fn mend(&mut self) {
+    pub fn repair(&mut self) {
         self.panes.truncate(2);
         if self.panes.is_empty() {
             self.panes.push(Pane::default());

@@ -1,28 +1,28 @@
-//! What is drawn over pictures, as shapes of the window: sharp at any magnification of the display.
+//! Overlays of images, as shapes of the window: sharp at any magnification of the display.
 
 use egui::{Color32, FontId, Mesh, Pos2, Rect, Shape, Stroke, pos2, vec2};
-use ppum_figure::canvas::{Align, Item, Lettering, Path, Pen};
+use ppum_figure::canvas::{Align, CanvasItem, CanvasPath, StrokeStyle, TextItem};
 use ppum_render::image::{Image, Rgba};
 
-/// Where the pixels of a picture lie in the window.
+/// Where the pixels of an image lie in the window.
 #[derive(Clone, Copy, Debug)]
-pub struct Placed {
-    /// The picture's upper left corner.
+pub struct ImagePlacement {
+    /// The image's upper left corner.
     pub corner: Pos2,
-    /// Points of the window per pixel of the picture.
+    /// Points of the window per pixel of the image.
     pub scale: f32,
-    /// The same of widths of lines and sizes of letters.
+    /// The scale of the widths of lines and sizes of letters.
     pub pen: f32,
 }
 
-impl Placed {
+impl ImagePlacement {
     /// Pixels with all that is drawn in them.
     #[must_use]
     pub fn new(corner: Pos2, scale: f32) -> Self {
         Self { corner, scale, pen: scale }
     }
 
-    /// A position in pixels of the picture.
+    /// A position in pixels of the image.
     #[must_use]
     pub fn at(&self, point: ppum::vec2::Vec2) -> Pos2 {
         self.corner + vec2(point.x as f32, point.y as f32) * self.scale
@@ -33,12 +33,12 @@ impl Placed {
     }
 }
 
-/// Longest side of what is a sign and no line of the plate \[pixels\].
+/// Longest side of what is a sign and no line of the body \[pixels\].
 const SIGN: f64 = 64.0;
 
 /// Draws the long lines of items that were made for quite another magnification: signs would be as
 /// large as the window, or specks.
-pub fn draw_lines(painter: &egui::Painter, placed: Placed, items: &[Item]) {
+pub fn draw_lines(painter: &egui::Painter, placed: ImagePlacement, items: &[CanvasItem]) {
     let is_long = |piece: &Vec<ppum::vec2::Vec2>| {
         let extent = |of: fn(&ppum::vec2::Vec2) -> f64| {
             let [lo, hi] = piece
@@ -50,24 +50,24 @@ pub fn draw_lines(painter: &egui::Painter, placed: Placed, items: &[Item]) {
         extent(|p| p.x).max(extent(|p| p.y)) > SIGN
     };
     for item in items {
-        if let Item::Line { path, pen } = item {
+        if let CanvasItem::Line { path, pen } = item {
             let pieces = path.pieces.iter().filter(|piece| is_long(piece)).cloned().collect();
-            lines(painter, placed, &Path { pieces }, pen);
+            lines(painter, placed, &CanvasPath { pieces }, pen);
         }
     }
 }
 
 /// Draws items.
-pub fn draw(painter: &egui::Painter, placed: Placed, items: &[Item]) {
+pub fn draw(painter: &egui::Painter, placed: ImagePlacement, items: &[CanvasItem]) {
     for item in items {
         match item {
-            Item::Line { path, pen } => lines(painter, placed, path, pen),
-            Item::Fill { outline, color } => fill(painter, placed, outline, *color),
-            Item::Text(lettering) => text(painter, placed, lettering),
-            Item::Picture { image, corner } => picture(painter, placed, image, *corner),
-            Item::Inset { corner, canvas } => {
+            CanvasItem::Line { path, pen } => lines(painter, placed, path, pen),
+            CanvasItem::Fill { outline, color } => fill(painter, placed, outline, *color),
+            CanvasItem::Text(lettering) => text(painter, placed, lettering),
+            CanvasItem::Picture { image, corner } => picture(painter, placed, image, *corner),
+            CanvasItem::Inset { corner, canvas } => {
                 let corner = placed.at(corner.map(f64::from).into());
-                let inner = Placed { corner, ..placed };
+                let inner = ImagePlacement { corner, ..placed };
                 let size = canvas.size.map(|n| n as f32 * placed.scale);
                 let clip = Rect::from_min_size(corner, vec2(size[0], size[1]));
                 draw(
@@ -81,9 +81,9 @@ pub fn draw(painter: &egui::Painter, placed: Placed, items: &[Item]) {
     }
 }
 
-/// A picture of few colours, as that of a bar is: what is equal in a row is one rectangle, and so
+/// An image of few colours, as that of a bar is: what is equal in a row is one rectangle, and so
 /// are equal rows.
-fn picture(painter: &egui::Painter, placed: Placed, image: &Image, corner: [u32; 2]) {
+fn picture(painter: &egui::Painter, placed: ImagePlacement, image: &Image, corner: [u32; 2]) {
     let columns = image.size[0].max(1) as usize;
     let mut mesh = Mesh::default();
     let rows: Vec<&[Rgba]> = image.rgba.as_chunks().0.chunks(columns).collect();
@@ -113,7 +113,7 @@ pub fn color([r, g, b, a]: Rgba) -> Color32 {
     Color32::from_rgba_unmultiplied(r, g, b, a)
 }
 
-fn lines(painter: &egui::Painter, placed: Placed, path: &Path, pen: &Pen) {
+fn lines(painter: &egui::Painter, placed: ImagePlacement, path: &CanvasPath, pen: &StrokeStyle) {
     let pieces = || path.pieces.iter().map(|piece| apart(piece.iter().map(|p| placed.at(*p))));
     if let Some(halo) = pen.halo {
         let stroke = Stroke::new(placed.length(pen.width + 2.0 * halo.width), color(halo.color));
@@ -139,7 +139,7 @@ fn lines(painter: &egui::Painter, placed: Placed, path: &Path, pen: &Pen) {
     }
 }
 
-fn fill(painter: &egui::Painter, placed: Placed, outline: &Path, fill: Rgba) {
+fn fill(painter: &egui::Painter, placed: ImagePlacement, outline: &CanvasPath, fill: Rgba) {
     for piece in &outline.pieces {
         let points = corners(piece.iter().map(|p| placed.at(*p)));
         if can_be_filled(&points) {
@@ -165,7 +165,7 @@ fn is_apart(p: Pos2, q: Pos2) -> bool {
     p.distance(q) > nothing(p)
 }
 
-/// What is smaller is not seen, or rounding of single precision \[points\].
+/// Size below which shapes are not visible, or rounding of single precision \[points\].
 fn nothing(at: Pos2) -> f32 {
     NOTHING.max(16.0 * f32::EPSILON * at.x.abs().max(at.y.abs()))
 }
@@ -191,10 +191,10 @@ fn can_be_filled(points: &[Pos2]) -> bool {
     points.first().is_some_and(|first| area.abs() > nothing(*first) * extent)
 }
 
-/// What is smaller is not seen \[points\].
+/// Size below which shapes are not visible \[points\].
 const NOTHING: f32 = 1e-3;
 
-fn text(painter: &egui::Painter, placed: Placed, lettering: &Lettering) {
+fn text(painter: &egui::Painter, placed: ImagePlacement, lettering: &TextItem) {
     let font = FontId::proportional(placed.length(lettering.size).max(1.0));
     let galley = painter.layout_no_wrap(plain(&lettering.text), font, color(lettering.color));
     let width = galley.size().x;
@@ -227,11 +227,11 @@ mod tests {
 
     use super::*;
 
-    /// What is drawn of items.
+    /// Converts items to shapes.
     fn drawn(
-        placed: Placed,
-        items: &[Item],
-        how: fn(&egui::Painter, Placed, &[Item]),
+        placed: ImagePlacement,
+        items: &[CanvasItem],
+        how: fn(&egui::Painter, ImagePlacement, &[CanvasItem]),
     ) -> Vec<Shape> {
         let mut shapes = Vec::new();
         egui::__run_test_ui(|ui| {
@@ -269,12 +269,15 @@ mod tests {
                 let (sin, cos) = (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
                 corner + vec2(cos, flat * sin) * size
             };
-            let outline = Path { pieces: vec![(0..count).map(point).collect()] };
-            let mut pen = Pen::new([0, 0, 0, 255], 1.5);
+            let outline = CanvasPath { pieces: vec![(0..count).map(point).collect()] };
+            let mut pen = StrokeStyle::new([0, 0, 0, 255], 1.5);
             pen.dashes = (random.below(2) == 0).then_some([4.0, 2.0]);
             let path = outline.clone();
-            let items = [Item::Fill { outline, color: [0, 0, 0, 255] }, Item::Line { path, pen }];
-            let placed = Placed { corner: pos2(0.0, 0.0), scale: 1.0, pen: 1.0 };
+            let items = [
+                CanvasItem::Fill { outline, color: [0, 0, 0, 255] },
+                CanvasItem::Line { path, pen },
+            ];
+            let placed = ImagePlacement { corner: pos2(0.0, 0.0), scale: 1.0, pen: 1.0 };
             let mut mesh = Mesh::default();
             let options = egui::epaint::TessellationOptions::default();
             let mut tessellator = egui::epaint::Tessellator::new(1.0, options, [1, 1], Vec::new());
@@ -291,16 +294,17 @@ mod tests {
     #[test]
     fn lines_are_no_wider_where_a_picture_is_enlarged_and_signs_are_left_out() {
         let line = |length: f64| vec![vec2(3.0, 5.0), vec2(3.0 + length, 5.0)];
-        let path = Path { pieces: vec![line(400.0), line(10.0)] };
-        let head = Path { pieces: vec![vec![vec2(0.0, 0.0), vec2(8.0, 0.0), vec2(4.0, 8.0)]] };
+        let path = CanvasPath { pieces: vec![line(400.0), line(10.0)] };
+        let head =
+            CanvasPath { pieces: vec![vec![vec2(0.0, 0.0), vec2(8.0, 0.0), vec2(4.0, 8.0)]] };
         let items = [
-            Item::Line { path, pen: Pen::new([0, 0, 0, 255], 1.5) },
-            Item::Fill { outline: head, color: [0, 0, 0, 255] },
+            CanvasItem::Line { path, pen: StrokeStyle::new([0, 0, 0, 255], 1.5) },
+            CanvasItem::Fill { outline: head, color: [0, 0, 0, 255] },
         ];
-        let near = Placed { corner: pos2(0.0, 0.0), scale: 1.8, pen: 1.0 };
+        let near = ImagePlacement { corner: pos2(0.0, 0.0), scale: 1.8, pen: 1.0 };
         let shapes = drawn(near, &items, draw);
         assert_eq!((widths(&shapes), shapes.len()), (vec![1.5, 1.5], 3));
-        let far = Placed { scale: 50.0, ..near };
+        let far = ImagePlacement { scale: 50.0, ..near };
         let shapes = drawn(far, &items, draw_lines);
         assert_eq!((widths(&shapes), shapes.len()), (vec![1.5], 1));
     }

@@ -1,4 +1,4 @@
-//! What egui shows, drawn on a texture: the window without a display.
+//! The output of egui, drawn on a texture: the window without a display.
 
 use eframe::egui_wgpu::{
     self, RenderState, RendererOptions, ScreenDescriptor, WgpuError, WgpuSetup, WgpuSetupCreateNew,
@@ -14,13 +14,13 @@ use crate::stage::pixels;
 pub struct Surface {
     /// The device.
     pub state: RenderState,
-    /// What is drawn on.
+    /// The target of drawing.
     pub texture: wgpu::Texture,
     size: [u32; 2],
 }
 
 /// Shapes on the device, ready to be drawn.
-pub struct Handed {
+pub struct DeviceShapes {
     shapes: Vec<ClippedPrimitive>,
     screen: ScreenDescriptor,
     encoder: wgpu::CommandEncoder,
@@ -40,7 +40,7 @@ pub enum SurfaceError {
 pub const PATIENCE: Duration = Duration::from_secs(120);
 
 impl Surface {
-    /// A surface for what a context shows, whose pictures are drawn by our shader as in the window.
+    /// A surface for what a context shows, whose images are drawn by our shader as in the window.
     ///
     /// # Errors
     /// No driver; more pixels than the device draws.
@@ -73,7 +73,7 @@ impl Surface {
     }
 
     /// Makes triangles of an output's shapes and hands them over.
-    pub fn hand_over(&self, ctx: &Context, output: FullOutput) -> Handed {
+    pub fn hand_over(&self, ctx: &Context, output: FullOutput) -> DeviceShapes {
         let RenderState { device, queue, renderer, .. } = &self.state;
         let pixels_per_point = output.pixels_per_point;
         let shapes = ctx.tessellate(output.shapes, pixels_per_point);
@@ -81,12 +81,12 @@ impl Surface {
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         let mut renderer = renderer.write();
         let buffers = renderer.update_buffers(device, queue, &mut encoder, &shapes, &screen);
-        Handed { shapes, screen, encoder, buffers }
+        DeviceShapes { shapes, screen, encoder, buffers }
     }
 
     /// Draws them on a ground.
-    pub fn draw(&self, handed: Handed, ground: wgpu::Color) {
-        let Handed { shapes, screen, mut encoder, buffers } = handed;
+    pub fn draw(&self, handed: DeviceShapes, ground: wgpu::Color) {
+        let DeviceShapes { shapes, screen, mut encoder, buffers } = handed;
         let view = &self.texture.create_view(&wgpu::TextureViewDescriptor::default());
         let ops =
             wgpu::Operations { load: wgpu::LoadOp::Clear(ground), store: wgpu::StoreOp::Store };

@@ -66,12 +66,12 @@ const PAUSE: f64 = 0.4;
 /// Tells when something that changes has come to rest, so that a drag or a word is one step and
 /// not many.
 #[derive(Clone, Debug)]
-pub struct Rest<T> {
+pub struct RestDetector<T> {
     last: T,
     since: f64,
 }
 
-impl<T: Clone + PartialEq> Rest<T> {
+impl<T: Clone + PartialEq> RestDetector<T> {
     /// Begins with a state.
     pub fn new(last: T) -> Self {
         Self { last, since: f64::NEG_INFINITY }
@@ -111,7 +111,7 @@ mod tests {
 
     #[test]
     fn what_changes_is_not_at_rest() {
-        let mut rest = Rest::new(0);
+        let mut rest = RestDetector::new(0);
         assert_eq!(rest.until(&0, 5.0), None);
         assert_eq!(rest.until(&1, 6.0), Some(PAUSE));
         assert!(rest.until(&1, 6.0 + 0.5 * PAUSE).is_some_and(|left| left < PAUSE));

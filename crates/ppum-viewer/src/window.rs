@@ -8,17 +8,16 @@ use std::time::Duration;
 use eframe::egui_wgpu::wgpu;
 use ppum::dataset::Dataset;
 
-use crate::app::{Viewer, parting};
-use crate::files::{Files, kept};
+use crate::app::{Viewer, closing};
+use crate::files::{WindowFiles, window_state};
 use crate::frames::Backend;
 use crate::session::Session;
 use crate::stage::pixels;
 
 /// How the window begins.
 #[derive(Debug, Default)]
-pub struct Start {
-    /// What is chosen; without it and without files, what was chosen when the last window
-    /// was closed.
+pub struct WindowStart {
+    /// The session; without it and without files, what was chosen when the last window was closed.
     pub session: Option<Session>,
     /// Files to open: one, or two side by side.
     pub files: Vec<PathBuf>,
@@ -30,7 +29,7 @@ pub struct Start {
     pub folder: Option<PathBuf>,
     /// Memory that is free \[bytes\], for solutions.
     pub memory: Option<fn() -> Option<u64>>,
-    /// What computes the values.
+    /// The backend that computes the values.
     pub backend: Backend,
 }
 
@@ -80,15 +79,15 @@ impl From<eframe::Error> for WindowError {
     }
 }
 
-impl Start {
+impl WindowStart {
     /// The window before it is shown for the first time.
     #[must_use]
     pub fn viewer(self, ctx: &egui::Context) -> Viewer {
         let is_given =
             self.session.is_some() || !self.files.is_empty() || !self.datasets.is_empty();
-        let last = self.folder.as_deref().map(kept::last_session);
+        let last = self.folder.as_deref().map(window_state::last_session);
         let mut viewer = Viewer::with_backend(ctx, Session::default(), self.backend);
-        viewer.files = Files::new(ctx, self.folder.clone());
+        viewer.files = WindowFiles::new(ctx, self.folder.clone());
         viewer.solving.memory = self.memory.unwrap_or(|| None);
         let last = match last {
             Some(Ok(last)) => last,
@@ -128,8 +127,8 @@ impl Start {
 ///
 /// # Errors
 /// No display, no graphics device and no driver that computes in software.
-pub fn run(start: Start) -> Result<(), WindowError> {
-    let kept = start.folder.as_deref().map(kept::WindowState::read).unwrap_or_default();
+pub fn run(start: WindowStart) -> Result<(), WindowError> {
+    let kept = start.folder.as_deref().map(window_state::WindowState::read).unwrap_or_default();
     let size = start.size.or(kept.size).unwrap_or(SIZE);
     let viewport = egui::ViewportBuilder::default()
         .with_title("ppum")
@@ -138,7 +137,7 @@ pub fn run(start: Start) -> Result<(), WindowError> {
         .with_min_inner_size([480.0, 320.0])
         .with_drag_and_drop(true);
     let options = eframe::NativeOptions { viewport, ..Default::default() };
-    let failure = Failure::default();
+    let failure = DeviceFailure::default();
     let heard = failure.clone();
     let create = move |cc: &eframe::CreationContext<'_>| {
         if let Some(state) = &cc.wgpu_render_state {
@@ -158,7 +157,7 @@ pub fn run(start: Start) -> Result<(), WindowError> {
     }
 }
 
-/// Of a device that tells nothing.
+/// The reason for a device that gives none.
 const SILENT: &str = "it has no memory any more";
 
 /// A device that answers no sooner has failed.
@@ -166,12 +165,12 @@ const PATIENCE: Duration = Duration::from_secs(2);
 
 /// Why the device draws no more.
 #[derive(Clone, Default)]
-struct Failure {
+struct DeviceFailure {
     reason: Arc<Mutex<Option<String>>>,
     device: Arc<OnceLock<wgpu::Device>>,
 }
 
-impl Failure {
+impl DeviceFailure {
     /// Closes the window when its device fails, which would end the program otherwise.
     fn listen(&self, ctx: &egui::Context, device: &wgpu::Device) {
         self.device.get_or_init(|| device.clone());
@@ -193,7 +192,7 @@ impl Failure {
         let mut reason = self.reason.lock().unwrap_or_else(PoisonError::into_inner);
         let words = words.split_whitespace().collect::<Vec<_>>().join(" ");
         reason.get_or_insert(words);
-        parting::let_go(ctx);
+        closing::let_go(ctx);
     }
 
     /// True if the device still gives memory: one that was lost may tell nothing at all.

@@ -1,4 +1,4 @@
-//! Straight lines of the border, on which cracks of half models lie, and at which bodies are
+//! Straight lines of the boundary, on which cracks of half models lie, and at which bodies are
 //! mirrored.
 
 use crate::crack::Side;
@@ -18,7 +18,7 @@ pub fn touch(bounds: &Rect) -> f64 {
 }
 
 /// True for a side on one of the lines x = a and y = b at which a body is mirrored: there it has no
-/// border.
+/// boundary.
 #[must_use]
 pub fn is_mirrored_side([a, b]: Segment, [x, y]: [Option<f64>; 2], touch: f64) -> bool {
     let is_at = |line: Option<f64>, ends: [f64; 2]| {
@@ -27,7 +27,7 @@ pub fn is_mirrored_side([a, b]: Segment, [x, y]: [Option<f64>; 2], touch: f64) -
     is_at(x, [a.x, b.x]) || is_at(y, [a.y, b.y])
 }
 
-/// A straight line of the border from corner to corner: an edge of the box, or sides of a polygon
+/// A straight line of the boundary from corner to corner: an edge of the box, or sides of a polygon
 /// that go straight on. The body lies on its left.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BorderLine {
@@ -89,7 +89,7 @@ impl BorderLine {
 }
 
 impl Domain {
-    /// The straight lines of the border: edges of the box, and sides of polygons.
+    /// The straight lines of the boundary: edges of the box, and sides of polygons.
     pub fn border_lines(&self) -> impl Iterator<Item = BorderLine> + '_ {
         let of_rim = |(k, hole): (usize, &Hole)| {
             let line = move |ends| BorderLine { ends, hole: Some(k) };
@@ -103,7 +103,7 @@ impl Domain {
         (0..4).map(move |k| BorderLine { ends: [corners[k], corners[(k + 1) % 4]], hole: None })
     }
 
-    /// The straight line of the border that holds all points of a crack.
+    /// The straight line of the boundary that holds all points of a crack.
     #[must_use]
     pub fn line_along(&self, points: &[Vec2]) -> Option<BorderLine> {
         let touch = touch(&self.bounds);
@@ -116,7 +116,7 @@ impl Domain {
         self.edge_lines().find(holds).or_else(|| holes.find_map(on_rim))
     }
 
-    /// The side of a segment on the border that lies outside of the body: of a crack on a line of
+    /// The side of a segment on the boundary that lies outside of the body: of a crack on a line of
     /// symmetry one face is in the body.
     #[must_use]
     pub fn outer_side(&self, ends: Segment) -> Option<Side> {

@@ -17,7 +17,7 @@ const GROUP: usize = 8;
 ///
 /// Built in O(N), or O(N log N) if the boxes have to be sorted; a query costs O(log N + k) for k
 /// boxes found when the boxes overlap a bounded number of others, as the patches of a cover do. A
-/// query takes no memory but for what it finds.
+/// query takes no memory except for its results.
 #[derive(Clone, Debug)]
 pub struct BoxTree {
     /// The boxes, then the bounds of their groups, then those of the groups of these, and so on.
@@ -46,7 +46,7 @@ impl BoxTree {
     }
 
     /// Appends, in ascending order, the indices of the boxes that [overlap](Rect::overlaps)
-    /// `query`: touching along a border is not enough.
+    /// `query`: touching along a boundary is not enough.
     pub fn query_box(&self, query: &Rect, out: &mut Vec<u32>) {
         let Rect { min, max } = *query;
         let overlaps = |b: &Rect| {
@@ -118,7 +118,7 @@ const NOWHERE: Rect = Rect {
     max: vec2(f64::NEG_INFINITY, f64::NEG_INFINITY),
 };
 
-/// False for boxes with their borders in the wrong order, or undefined.
+/// False for boxes with bounds in the wrong order, or undefined.
 fn is_a_box(b: &Rect) -> bool {
     b.min.x <= b.max.x && b.min.y <= b.max.y
 }
@@ -138,7 +138,7 @@ fn bounds(boxes: &[Rect]) -> Rect {
     boxes.iter().fold(NOWHERE, |all, b| all.union(b))
 }
 
-/// True if the borders of all groups together are no longer than those of the boxes. Those of n
+/// True if the perimeters of all groups together are no longer than those of the boxes. Those of n
 /// cells in Morton order are some n · (8^−½ + 8^−1 + …), half as long; groups of far boxes have
 /// longer ones.
 fn is_compact(levels: &[Vec<Rect>]) -> bool {
@@ -178,7 +178,8 @@ mod tests {
         assert_eq!(found, [1, 1]);
     }
 
-    /// Boxes of very different sizes; every fourth is on a coarse lattice so that borders coincide.
+    /// Boxes of very different sizes; every fourth is on a coarse lattice so that boundaries
+    /// coincide.
     fn random_boxes(n: usize, random: &mut Random) -> Vec<Rect> {
         let lattice = |v: Vec2| vec2((v.x * 8.0).floor() / 8.0, (v.y * 8.0).floor() / 8.0);
         (0..n)

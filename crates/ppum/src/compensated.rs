@@ -4,7 +4,7 @@ use crate::vec2::Vec2;
 use ppum_formula::real::Real;
 
 /// A number as the sum of a rounded value and its rounding error.
-pub(crate) type Pair = (f64, f64);
+pub(crate) type RoundedSum = (f64, f64);
 
 /// a − b.
 #[inline(always)]
@@ -23,29 +23,29 @@ pub(crate) fn exact_product<R: Real>(u: R, v: R) -> (R, R) {
 
 #[inline(always)]
 fn halves<R: Real>(u: R) -> (R, R) {
-    let wide = u.lit(134_217_729.0) * u;
+    let wide = u.broadcast(134_217_729.0) * u;
     let high = wide - (wide - u);
     (high, u - high)
 }
 
 /// u v.
-pub(crate) fn product(u: Pair, v: Pair) -> Pair {
+pub(crate) fn product(u: RoundedSum, v: RoundedSum) -> RoundedSum {
     let (high, low) = exact_product(u.0, v.0);
     (high, low + (u.0 * v.1 + u.1 * v.0))
 }
 
 /// a + b of pairs.
-pub(crate) fn plus(a: Pair, b: Pair) -> Pair {
+pub(crate) fn plus(a: RoundedSum, b: RoundedSum) -> RoundedSum {
     minus(a, (-b.0, -b.1))
 }
 
 /// a − b of pairs.
-pub(crate) fn minus(a: Pair, b: Pair) -> Pair {
+pub(crate) fn minus(a: RoundedSum, b: RoundedSum) -> RoundedSum {
     let (high, low) = difference(a.0, b.0);
     (high, low + (a.1 - b.1))
 }
 
-/// (b − a) × (p − a), correctly rounded but for a last bit.
+/// (b − a) × (p − a), correctly rounded except for a last bit.
 pub(crate) fn cross(a: Vec2, b: Vec2, p: Vec2) -> f64 {
     let (ux, uy) = (difference(b.x, a.x), difference(b.y, a.y));
     let (vx, vy) = (difference(p.x, a.x), difference(p.y, a.y));
@@ -53,7 +53,7 @@ pub(crate) fn cross(a: Vec2, b: Vec2, p: Vec2) -> f64 {
     high + low
 }
 
-/// |p − center|² − radius², correctly rounded but for a last bit.
+/// |p − center|² − radius², correctly rounded except for a last bit.
 pub(crate) fn circle(center: Vec2, radius: f64, p: Vec2) -> f64 {
     let (dx, dy) = (difference(p.x, center.x), difference(p.y, center.y));
     let (yy, rr) = (product(dy, dy), product((radius, 0.0), (radius, 0.0)));

@@ -19,7 +19,7 @@ use crate::text::hint;
 
 /// A part of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum FieldPart {
     /// Blocks of the function 1.
     Smooth,
     /// Blocks of the sides of cracks, and of components.
@@ -33,7 +33,8 @@ pub enum Part {
 }
 
 /// The kinds of blocks; every block is of exactly one.
-pub const KINDS: [Part; 4] = [Part::Smooth, Part::Jump, Part::Tip, Part::Other];
+pub const KINDS: [FieldPart; 4] =
+    [FieldPart::Smooth, FieldPart::Jump, FieldPart::Tip, FieldPart::Other];
 
 /// A part that a field does not have.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -53,21 +54,21 @@ pub enum PartError {
         /// Name of the field.
         field: String,
         /// The part asked for.
-        part: Part,
+        part: FieldPart,
         /// The kinds of blocks that there are.
         known: String,
     },
 }
 
-/// A text that names no [`Part`].
+/// A text that names no [`FieldPart`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "there is no part `{0}`{hint}; there are smooth, jump, tip, other, and patch:N with the number of a patch",
-    hint = hint(.0, KINDS.map(Part::name))
+    hint = hint(.0, KINDS.map(FieldPart::name))
 )]
 pub struct UnknownPart(String);
 
-impl Part {
+impl FieldPart {
     /// The word for it; that for a patch is followed by the patch's number.
     fn name(self) -> &'static str {
         match self {
@@ -102,21 +103,22 @@ impl FieldData {
     ///
     /// # Errors
     /// No such patch; no block of that part.
-    pub fn part(&self, part: Part, functions: &[Function]) -> Result<Self, PartError> {
+    pub fn part(&self, part: FieldPart, functions: &[Function]) -> Result<Self, PartError> {
         let count = self.patch_blocks.len().saturating_sub(1);
-        if let Part::Patch(patch) = part
+        if let FieldPart::Patch(patch) = part
             && patch as usize >= count
         {
             return Err(PartError::NoPatch { patch, count });
         }
-        let kind = |block: usize| Part::of(&functions[self.block_function[block] as usize].kind);
+        let kind =
+            |block: usize| FieldPart::of(&functions[self.block_function[block] as usize].kind);
         let found = self.with_blocks(|patch, block| match part {
-            Part::Patch(only) => patch == only as usize,
+            FieldPart::Patch(only) => patch == only as usize,
             _ => kind(block) == part,
         });
         if found.block_function.is_empty() {
-            let has = |known: &Part| (0..self.block_function.len()).any(|b| kind(b) == *known);
-            let known: Vec<_> = KINDS.iter().filter(|k| has(k)).map(Part::to_string).collect();
+            let has = |known: &FieldPart| (0..self.block_function.len()).any(|b| kind(b) == *known);
+            let known: Vec<_> = KINDS.iter().filter(|k| has(k)).map(FieldPart::to_string).collect();
             let (field, known) = (self.name.clone(), known.join(", "));
             return Err(PartError::Empty { field, part, known });
         }
@@ -145,7 +147,7 @@ impl FieldData {
     }
 }
 
-impl fmt::Display for Part {
+impl fmt::Display for FieldPart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Patch(patch) => write!(f, "patch:{patch}"),
@@ -154,7 +156,7 @@ impl fmt::Display for Part {
     }
 }
 
-impl FromStr for Part {
+impl FromStr for FieldPart {
     type Err = UnknownPart;
 
     fn from_str(text: &str) -> Result<Self, UnknownPart> {

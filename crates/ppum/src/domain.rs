@@ -1,8 +1,8 @@
 //! The domain: a box minus holes.
 //!
-//! Holes are open sets: their rims belong to the domain, as the box's border does. They may overlap
-//! each other and the border, which makes notches and quarter models. A body of any outline is a
-//! box minus the outside of a polygon.
+//! Holes are open sets: their rims belong to the domain, as the box's boundary does. They may
+//! overlap each other and the boundary, which makes notches and quarter models. A body of any
+//! outline is a box minus the outside of a polygon.
 //!
 //! As everywhere points are `anchor + offset`, and what the anchor has to do with a rim is formed
 //! once, without cancellation: a rim in a view 10⁻¹² of the domain wide has no noise.
@@ -44,9 +44,9 @@ pub enum Hole {
 /// A side of a closed polygon.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PolygonSide {
-    /// What it encloses: a hole of the body.
+    /// The region that the polygon encloses: a hole of the body.
     Inside,
-    /// All else: the polygon is the body's outline.
+    /// The rest of the plane: the polygon is the body's outline.
     Outside,
 }
 
@@ -191,8 +191,8 @@ pub struct LocalDomain {
 }
 
 impl LocalDomain {
-    /// The same with a hole taken as a part of the domain: for points that lie on its rim, wherever
-    /// rounding has put them.
+    /// Returns the domain without a hole, which then belongs to it: for points that lie on the rim
+    /// of the hole, wherever rounding has put them.
     #[must_use]
     pub(crate) fn without_hole(mut self, hole: Option<usize>) -> Self {
         hole.into_iter().for_each(|hole| drop(self.holes.remove(hole)));
@@ -392,8 +392,8 @@ mod tests {
         }
     }
 
-    /// Along a line through the rim the border lies between the same two of 10⁶ steps of 10⁻¹⁸ that
-    /// the rational equation says: anchors are exact points of the rims.
+    /// Along a line through the rim the boundary lies between the same two of 10⁶ steps of 10⁻¹⁸
+    /// that the rational equation says: anchors are exact points of the rims.
     #[test]
     fn rims_are_sharp_at_a_width_of_1e_12() {
         let round = Hole::Circle { center: vec2(0.5, 0.25), radius: 0.625 };

@@ -185,9 +185,8 @@ impl Equation {
         }
     }
 
-    /// The mistake in the constants, if there is one: the name of the first that is impossible and
-    /// why. Constants are looked at once, formulas at the points of a grid
-    /// that lie in the domain.
+    /// The error in the constants, if there is one: the name of the first impossible one, and the
+    /// reason. Constants are checked once, formulas at the points of a grid that lie in the domain.
     #[must_use]
     pub fn mistake(&self, domain: &Domain) -> Option<(&'static str, String)> {
         if self.is_uniform() {
@@ -269,11 +268,11 @@ impl Equation {
                 }
             }
             Self::Poisson { conductivity } => {
-                let zero = offset[0].lit(0.0);
+                let zero = offset[0].broadcast(0.0);
                 let conductivity = conductivity.values(anchor, offset);
                 Moduli { conductivity, ..Moduli::zero(zero) }
             }
-            Self::None => Moduli::zero(offset[0].lit(0.0)),
+            Self::None => Moduli::zero(offset[0].broadcast(0.0)),
         }
     }
 }
@@ -307,10 +306,12 @@ impl<R: Real> Moduli<R> {
     #[inline(always)]
     #[must_use]
     pub fn new(young: R, poisson: R, state: StressState) -> Self {
-        let (zero, one) = (young.lit(0.0), young.lit(1.0));
-        let mu = young / (one.lit(2.0) * (one + poisson));
+        let (zero, one) = (young.broadcast(0.0), young.broadcast(1.0));
+        let mu = young / (one.broadcast(2.0) * (one + poisson));
         let (denominator, out_of_plane) = match state {
-            StressState::PlaneStrain => ((one + poisson) * (one - one.lit(2.0) * poisson), poisson),
+            StressState::PlaneStrain => {
+                ((one + poisson) * (one - one.broadcast(2.0) * poisson), poisson)
+            }
             StressState::PlaneStress => (one - poisson * poisson, zero),
         };
         let lambda = young * poisson / denominator;
@@ -336,7 +337,7 @@ impl<R: Real> Moduli<R> {
     fn in_state(self, state: StressState) -> Self {
         let [xx, yy, xy, zz] = self.eigenstrain;
         let (zz, out) = match state {
-            StressState::PlaneStress => (zz.lit(0.0), zz.lit(0.0)),
+            StressState::PlaneStress => (zz.broadcast(0.0), zz.broadcast(0.0)),
             StressState::PlaneStrain => (zz, self.expansion),
         };
         Self { eigenstrain: [xx, yy, xy, zz], expansion_out: out, ..self }

@@ -78,7 +78,7 @@ impl Expression {
     #[inline(always)]
     pub fn values<R: Real>(&self, anchor: Vec2, offset: [R; 2]) -> R {
         match self.constant {
-            Some(value) => offset[0].lit(value),
+            Some(value) => offset[0].broadcast(value),
             None => self.formula_values(anchor, offset),
         }
     }

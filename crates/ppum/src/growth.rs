@@ -7,29 +7,29 @@
 use crate::crack::TipId;
 use crate::vec2::Vec2;
 
-/// What the cracks of a step do next.
+/// The growth that follows a step: the next increment of each tip, and the end of the series.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct Growth {
     /// Load cycles up to this step; none where growth has no time.
     pub cycles: Option<f64>,
     /// The tips, in the order of cracks and ends.
-    pub tips: Vec<Advance>,
-    /// What ends the series with this step; none if it goes on.
+    pub tips: Vec<TipIncrement>,
+    /// The reason why the series ends with this step; none if it goes on.
     pub stop: Option<GrowthStop>,
 }
 
-/// What one tip does next: it stays, or goes on along an arc of a circle.
+/// The next increment of one tip: it stays, or goes on along an arc of a circle.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Advance {
+pub struct TipIncrement {
     /// The tip.
     pub tip: TipId,
-    /// What it does, and why.
-    pub fate: Fate,
+    /// Whether the tip grows or stays, and why.
+    pub fate: TipStatus,
     /// The factor that is compared with the toughness: K_I of a crack that grows in the direction
     /// of its criterion under the loads of the problem \[stress·length^½\]; NaN where there
     /// is none.
-    pub strength: f64,
+    pub k_eq: f64,
     /// Direction of the arc at the tip, the angle to the x axis \[rad\]; without growth that of
     /// the crack.
     pub direction: f64,
@@ -46,14 +46,14 @@ pub struct Advance {
     pub extension: f64,
 }
 
-impl Advance {
+impl TipIncrement {
     /// A tip that stays where it is, of which nothing else is known.
     #[must_use]
-    pub fn staying(tip: TipId, fate: Fate) -> Self {
+    pub fn staying(tip: TipId, fate: TipStatus) -> Self {
         Self {
             tip,
             fate,
-            strength: f64::NAN,
+            k_eq: f64::NAN,
             direction: 0.0,
             curvature: 0.0,
             path: Vec::new(),
@@ -64,13 +64,13 @@ impl Advance {
     }
 }
 
-/// What a tip does.
+/// Whether a tip grows or stays, and why.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Fate {
+pub enum TipStatus {
     /// It goes on, and is a tip again.
     Grows,
-    /// It goes on to the border of the plate, where it ends.
+    /// It goes on to the boundary of the body, where it ends.
     LeavesPlate,
     /// It goes on to the rim of a hole, where it ends.
     MeetsHole(u32),
@@ -91,7 +91,7 @@ pub enum Fate {
     Joined,
 }
 
-impl Fate {
+impl TipStatus {
     /// True if the tip goes on.
     #[must_use]
     pub fn goes_on(self) -> bool {
@@ -116,7 +116,7 @@ impl Fate {
     }
 }
 
-/// What ends a series.
+/// The reason why a series ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum GrowthStop {

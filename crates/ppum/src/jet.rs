@@ -59,7 +59,7 @@ impl<R: Real> Jet<R> {
     #[inline(always)]
     #[must_use]
     pub fn constant(v: R) -> Self {
-        let zero = v.lit(0.0);
+        let zero = v.broadcast(0.0);
         Self { v, x: zero, y: zero, xx: zero, xy: zero, yy: zero }
     }
 
@@ -85,7 +85,7 @@ impl<R: Real> Jet<R> {
     #[inline(always)]
     #[must_use]
     pub fn over<const D: usize>(self, b: Self) -> Self {
-        let inverse = b.v.lit(1.0) / b.v;
+        let inverse = b.v.broadcast(1.0) / b.v;
         let mut out = Self::constant(self.v * inverse);
         if D >= 1 {
             out.x = (self.x - out.v * b.x) * inverse;
@@ -125,7 +125,7 @@ impl<R: Real> Jet<R> {
     #[inline(always)]
     #[must_use]
     pub fn only<const D: usize>(self, mask: R::Mask) -> Self {
-        let zero = self.v.lit(0.0);
+        let zero = self.v.broadcast(0.0);
         self.zip::<D>(self, |p, _| R::select(mask, p, zero))
     }
 

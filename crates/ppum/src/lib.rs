@@ -121,10 +121,10 @@
 //! - Two dimensions, boxes as patches, even functions of |ξ| as weights, polynomials up to degree
 //!   [`MAX_DEGREE`](dataset::MAX_DEGREE). The domain is a box minus
 //!   circles and polygons.
-//! - This crate only represents and evaluates: no files (`ppum-format`), no solver (`ppum-solve`),
-//!   no pictures (`ppum-render`), no threads.
-//! - Borders of cells and patches belong to the right and upper side; on a crack the left side of
-//!   its direction is taken unless the other is asked for. Outside the domain scalar evaluation
+//! - This crate only represents and evaluates: no files (`ppum-format`), no solver
+//!   (`ppum-fracture`), no images (`ppum-render`), no threads.
+//! - Boundaries of cells and patches belong to the right and upper side; on a crack the left side
+//!   of its direction is taken unless the other is asked for. Outside the domain scalar evaluation
 //!   returns false or `None`, evaluation of many points and quantities NaN.
 //! - At a tip values are finite and gradients do not exist; quantities of the gradient are
 //!   +∞ there.

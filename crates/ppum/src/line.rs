@@ -29,7 +29,7 @@ impl Line {
         Self { from: normal * -distance, along: normal.left() }
     }
 
-    /// The same line with t as a length.
+    /// Returns the line with arc length as its parameter t.
     #[must_use]
     pub fn unit(self) -> Self {
         Self { along: self.along.unit(), ..self }
@@ -105,7 +105,7 @@ mod tests {
     use crate::vec2::vec2;
     use ppum_testkit::random::Random;
 
-    /// What is common to a line and another thing lies on both, for lines of every length.
+    /// Common points of a line and another curve lie on both, for lines of every length.
     #[test]
     fn common_points_lie_on_both() {
         let mut random = Random(9);

@@ -1,7 +1,7 @@
 //! Bivariate polynomials in the order of the dataset: by total degree, then descending power of ξ.
 
 use crate::jet::Jet;
-use ppum_formula::real::{Real, Scalar};
+use ppum_formula::real::{LaneNumber, Real};
 
 /// Highest polynomial degree of a block.
 pub const MAX_DEGREE: usize = 8;
@@ -39,7 +39,7 @@ impl PolynomialSpace {
 /// by nested Horner schemes: inner in ξ, outer in η.
 #[inline(always)]
 pub fn polynomial<R: Real, const D: usize>(
-    coefficients: &[impl Scalar],
+    coefficients: &[impl LaneNumber],
     degree: usize,
     xi: [R; 2],
 ) -> Jet<R> {
@@ -51,7 +51,7 @@ pub fn polynomial<R: Real, const D: usize>(
 #[inline(always)]
 pub fn polynomial_in<R: Real, const D: usize>(
     space: PolynomialSpace,
-    coefficients: &[impl Scalar],
+    coefficients: &[impl LaneNumber],
     degree: usize,
     xi: [R; 2],
 ) -> Jet<R> {
@@ -69,11 +69,11 @@ pub fn polynomial_in<R: Real, const D: usize>(
 
 #[inline(always)]
 fn nested<R: Real, const D: usize, const TENSOR: bool>(
-    coefficients: &[impl Scalar],
+    coefficients: &[impl LaneNumber],
     degree: usize,
     xi: [R; 2],
 ) -> Jet<R> {
-    let mut jet = Jet::constant(xi[0].lit(0.0));
+    let mut jet = Jet::constant(xi[0].broadcast(0.0));
     let mut power = degree + 1;
     while power > 0 {
         power -= 1;
@@ -87,12 +87,12 @@ fn nested<R: Real, const D: usize, const TENSOR: bool>(
 /// The factor of η^`power`: Σ_a c ξ^a with its first two derivatives.
 #[inline(always)]
 fn inner<R: Real, const D: usize, const TENSOR: bool>(
-    c: &[impl Scalar],
+    c: &[impl LaneNumber],
     degree: usize,
     power: usize,
     xi: R,
 ) -> [R; 3] {
-    let zero = xi.lit(0.0);
+    let zero = xi.broadcast(0.0);
     let (mut p, mut px, mut pxx) = (zero, zero, zero);
     let mut a = if TENSOR { degree + 1 } else { degree - power + 1 };
     while a > 0 {
@@ -104,7 +104,7 @@ fn inner<R: Real, const D: usize, const TENSOR: bool>(
         if D >= 1 {
             px = px.mul_add(xi, p);
         }
-        p = p.mul_add(xi, zero.lit(c[index].to_f64()));
+        p = p.mul_add(xi, zero.broadcast(c[index].to_f64()));
     }
     [p, px, pxx]
 }

@@ -45,7 +45,7 @@ impl Progress {
         Self { phase, done, total, step: 0 }
     }
 
-    /// The same of another solution.
+    /// Assigns the progress to a solution of the series, see [`Progress::step`].
     #[must_use]
     pub fn in_step(self, step: usize) -> Self {
         Self { step, ..self }
@@ -115,11 +115,11 @@ impl Verdict {
 pub trait Watcher: Sync {
     /// Hears of progress, and says whether to go on. Called from the threads that work: it should
     /// be quick.
-    fn hear(&self, progress: Progress) -> Verdict;
+    fn on_progress(&self, progress: Progress) -> Verdict;
 }
 
 impl<F: Fn(Progress) -> Verdict + Sync> Watcher for F {
-    fn hear(&self, progress: Progress) -> Verdict {
+    fn on_progress(&self, progress: Progress) -> Verdict {
         self(progress)
     }
 }
@@ -130,7 +130,7 @@ impl dyn Watcher + '_ {
     /// # Errors
     /// The watcher wants the call to stop.
     pub fn report(&self, progress: Progress) -> Result<(), Cancelled> {
-        match self.hear(progress) {
+        match self.on_progress(progress) {
             Verdict::GoOn => Ok(()),
             Verdict::Stop => Err(Cancelled),
         }

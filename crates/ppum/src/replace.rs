@@ -1,15 +1,15 @@
 //! Functions and weights replaced while looking.
 //!
 //! A dataset keeps its coefficients and gets another function: what would the field be with it? The
-//! functions of a step are texts, so a field is compiled anew in no time. [`Replacements`] are all
+//! functions of a step are texts, so a field is compiled again in no time. [`Replacements`] are all
 //! changes of one look: a part that is chosen, functions and the weight that are replaced.
 
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::dataset::{Dataset, Step};
-use crate::decompose::{Part, PartError};
-use crate::function::{Declared, Frame, Function, FunctionKind, Role, function_scope};
+use crate::decompose::{FieldPart, PartError};
+use crate::function::{Frame, Function, FunctionKind, NonsmoothPoints, Role, function_scope};
 use crate::library::WEIGHTS;
 use crate::text::hint;
 use crate::weight::{WeightError, WeightFunction};
@@ -58,11 +58,11 @@ pub enum ReplaceError {
 /// apart by the functions of the dataset, not by those that replace them.
 ///
 /// ```
-/// use ppum::decompose::Part;
+/// use ppum::decompose::FieldPart;
 /// use ppum::replace::Replacements;
 ///
 /// let what_if = Replacements {
-///     part: Some(Part::Smooth),
+///     part: Some(FieldPart::Smooth),
 ///     functions: vec![("westergaard 1".into(), "r".into())],
 ///     weight: Some("bump".into()),
 /// };
@@ -73,7 +73,7 @@ pub struct Replacements {
     /// The part of the step's first field that takes its place,
     /// see [`FieldData::part`](crate::dataset::FieldData::part). Given strains belong to the smooth
     /// part, so that the stresses of the parts of all kinds add up to those of the field.
-    pub part: Option<Part>,
+    pub part: Option<FieldPart>,
     /// Functions by name or number, and formulas in their place, see [`Step::replace_function`].
     pub functions: Vec<(String, String)>,
     /// The weight, see [`Step::replace_weight`].
@@ -114,7 +114,7 @@ impl Replacements {
         if let (Some(part), Some(field)) = (self.part, step.fields.first_mut()) {
             *field = field.part(part, &step.functions).map_err(ReplacementsError::Part)?;
             // σ = C ε − C ε⁰, and the constant must occur once in the sum of the parts
-            if part != Part::Smooth {
+            if part != FieldPart::Smooth {
                 equation.clear_eigenstrains();
             }
         }
@@ -256,12 +256,12 @@ impl FunctionKind {
         }
     }
 
-    /// Changes the text of a formula. What the old one stood for and declared holds no more.
+    /// Changes the text of a formula, and drops the role and the declarations of the old one.
     fn set_formula(&mut self, new: &str) {
         match self {
             Self::Formula { text, declared, role, .. } => {
                 new.clone_into(text);
-                (*declared, *role) = (Declared::default(), Role::User);
+                (*declared, *role) = (NonsmoothPoints::default(), Role::User);
             }
             _ => {
                 *self = Self::formula(new, Frame::World);

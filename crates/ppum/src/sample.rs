@@ -1,10 +1,11 @@
 //! Sampling: quantities at many places, along lines and cracks, on grids, at points.
 //!
-//! A [`Place`] is a point with the side of a crack that is meant. [`line()`], [`grid`], [`points`]
-//! and [`Stations`] choose places, [`evaluate`] finds the values there. A point on a crack has two
-//! sides and two places. Who has threads takes the [`batches`] one by one, in any order: values do
-//! not depend on it. [`Seats`] and [`evaluate_each`] are for lists of points that come from
-//! anywhere: there a value depends on its place alone.
+//! A [`SidedPoint`], here called a place, is a point with the side of a crack that is meant.
+//! [`line()`], [`grid`], [`points`] and [`SamplePoints`] choose places, [`evaluate`] finds the
+//! values there. A point on a crack has two sides and two places. Callers with threads take the
+//! [`batches`] one by one, in any order: values do not depend on it. [`AnchorMap`] and
+//! [`evaluate_each`] are for lists of points that come from anywhere: there a value depends on its
+//! place alone.
 //!
 //! ```
 //! # use ppum::dataset::Dataset;
@@ -27,10 +28,10 @@
 //! # }
 //! ```
 
+mod anchors;
 mod crossings;
 mod each;
 mod place;
-mod seats;
 
 use std::f64::consts::PI;
 
@@ -40,10 +41,10 @@ use crate::progress::{Cancelled, Phase, Progress, Watcher};
 use crate::quantity::Quantity;
 use crate::sides::Segments;
 use crate::vec2::{Rect, Vec2, vec2};
+pub use anchors::AnchorMap;
 pub use crossings::{Curve, Passage, passages_from};
-pub use each::{Wanted, evaluate_each};
-pub use place::{Place, settle};
-pub use seats::Seats;
+pub use each::{SampledQuantity, evaluate_each};
+pub use place::{SidedPoint, settle};
 
 /// Points that share an anchor: near each other, and few enough to be work for one thread.
 const BLOCK: usize = 256;
@@ -53,15 +54,19 @@ const BATCH: usize = 4 * BLOCK;
 
 /// Groups of consecutive places that can be evaluated at once, in their order. They are non-empty,
 /// no longer than some thousand places, and together they are all of them.
-pub fn batches(places: &[Place]) -> impl Iterator<Item = &[Place]> {
-    let seat = |place: &Place| (place.anchor, place.on, place.side);
+pub fn batches(places: &[SidedPoint]) -> impl Iterator<Item = &[SidedPoint]> {
+    let seat = |place: &SidedPoint| (place.anchor, place.on, place.side);
     places.chunk_by(move |a, b| seat(a) == seat(b)).flat_map(|run| run.chunks(BATCH))
 }
 
 /// The quantities at the places of one of the [`batches`], one row for each place; NaN outside the
 /// domain and where a quantity has no value.
 #[must_use]
-pub fn evaluate_batch(field: &Field<'_>, quantities: &[Quantity], batch: &[Place]) -> Vec<f64> {
+pub fn evaluate_batch(
+    field: &Field<'_>,
+    quantities: &[Quantity],
+    batch: &[SidedPoint],
+) -> Vec<f64> {
     let Some(first) = batch.first() else { return Vec::new() };
     let offsets: Vec<Vec2> = batch.iter().map(|place| place.offset).collect();
     Quantity::at_many(quantities, &mut first.seen(field), &offsets, first.side)
@@ -76,7 +81,7 @@ pub fn evaluate_batch(field: &Field<'_>, quantities: &[Quantity], batch: &[Place
 pub fn evaluate(
     field: &Field<'_>,
     quantities: &[Quantity],
-    places: &[Place],
+    places: &[SidedPoint],
     watcher: &dyn Watcher,
 ) -> Result<Vec<f64>, Cancelled> {
     let total = places.len();
@@ -92,7 +97,7 @@ pub fn evaluate(
 
 /// Places at points, on both sides where one lies on a crack: above, then below.
 #[must_use]
-pub fn points(cracks: &[Crack], points: &[Vec2]) -> Vec<Place> {
+pub fn points(cracks: &[Crack], points: &[Vec2]) -> Vec<SidedPoint> {
     sided(&Segments::new(cracks), points).flatten().collect()
 }
 
@@ -129,24 +134,30 @@ pub fn crowded(count: usize, at: &[f64]) -> Vec<f64> {
 /// Places at parts of the line from a to b, see [`evenly`]; both are met exactly. On both sides
 /// where one lies on a crack.
 #[must_use]
-pub fn line(cracks: &[Crack], ends: [Vec2; 2], parts: &[f64]) -> Vec<Place> {
+pub fn line(cracks: &[Crack], ends: [Vec2; 2], parts: &[f64]) -> Vec<SidedPoint> {
     let all: Vec<Vec2> = parts.iter().map(|&part| between(ends, part)).collect();
     points(cracks, &all)
 }
 
-/// The same from `anchor + a` to `anchor + b`: near the anchor no digit of them is lost, and points
-/// mean what they say.
+/// Returns the points from `anchor + a` to `anchor + b`: near the anchor no digit of the points is
+/// lost.
 #[must_use]
-pub fn line_from(cracks: &[Crack], anchor: Vec2, ends: [Vec2; 2], parts: &[f64]) -> Vec<Place> {
+pub fn line_from(
+    cracks: &[Crack],
+    anchor: Vec2,
+    ends: [Vec2; 2],
+    parts: &[f64],
+) -> Vec<SidedPoint> {
     let segments = Segments::new(cracks);
     let offsets = parts.iter().map(|&part| between(ends, part));
-    offsets.flat_map(|offset| Place::sides(&segments, anchor, offset)).collect()
+    offsets.flat_map(|offset| SidedPoint::sides(&segments, anchor, offset)).collect()
 }
 
-/// Places at the points of a grid of nx columns and ny rows that includes the borders of the
-/// window, in rows of constant y, the lowest first. Of points on cracks the upper side alone.
+/// Places at the points of a grid of nx columns and ny rows that includes the boundaries of the
+/// window, in rows of constant y, the lowest first. Points on cracks are taken on the upper side
+/// alone.
 #[must_use]
-pub fn grid(cracks: &[Crack], window: Rect, [nx, ny]: [u32; 2]) -> Vec<Place> {
+pub fn grid(cracks: &[Crack], window: Rect, [nx, ny]: [u32; 2]) -> Vec<SidedPoint> {
     let (Rect { min, max }, segments) = (window, Segments::new(cracks));
     let [columns, rows] = [nx, ny].map(|count| evenly(count as usize));
     let row = |part: f64| {
@@ -161,10 +172,11 @@ pub fn grid(cracks: &[Crack], window: Rect, [nx, ny]: [u32; 2]) -> Vec<Place> {
 /// Places on a circle at `count` equal steps of the angle from −π to π about the x axis, both
 /// included. On both sides where one lies on a crack.
 #[must_use]
-pub fn circle(cracks: &[Crack], center: Vec2, radius: f64, count: usize) -> Vec<(f64, Place)> {
+pub fn circle(cracks: &[Crack], center: Vec2, radius: f64, count: usize) -> Vec<(f64, SidedPoint)> {
     let segments = Segments::new(cracks);
     let at = |angle: f64| {
-        let places = Place::sides(&segments, center, direction(vec2(1.0, 0.0), angle) * radius);
+        let places =
+            SidedPoint::sides(&segments, center, direction(vec2(1.0, 0.0), angle) * radius);
         places.into_iter().map(move |place| (angle, place))
     };
     angles(count).flat_map(at).collect()
@@ -179,8 +191,8 @@ pub fn around(
     tip: TipId,
     radius: f64,
     count: usize,
-) -> Option<Vec<(f64, Place)>> {
-    let frame = TipFrame::new(cracks, tip)?;
+) -> Option<Vec<(f64, SidedPoint)>> {
+    let frame = TipAxes::new(cracks, tip)?;
     Some(angles(count).map(|t| (t, frame.place(radius, t))).collect())
 }
 
@@ -193,8 +205,8 @@ pub fn ray(
     angle: f64,
     [near, far]: [f64; 2],
     count: usize,
-) -> Option<Vec<(f64, Place)>> {
-    let frame = TipFrame::new(cracks, tip)?;
+) -> Option<Vec<(f64, SidedPoint)>> {
+    let frame = TipAxes::new(cracks, tip)?;
     let part = |k: usize| k as f64 / count.saturating_sub(1).max(1) as f64;
     let distance = |k: usize| near * (far / near).powf(part(k));
     Some((0..count).map(distance).map(|r| (r, frame.place(r, angle))).collect())
@@ -215,7 +227,7 @@ fn direction(axis: Vec2, angle: f64) -> Vec2 {
 }
 
 /// The frame of a tip, for places near it.
-struct TipFrame {
+struct TipAxes {
     tip: Vec2,
     /// Unit direction of growth.
     axis: Vec2,
@@ -226,7 +238,7 @@ struct TipFrame {
     positive: Side,
 }
 
-impl TipFrame {
+impl TipAxes {
     fn new(cracks: &[Crack], tip: TipId) -> Option<Self> {
         let crack = cracks.get(tip.crack as usize)?;
         let last = crack.points.len().checked_sub(2)?;
@@ -240,11 +252,11 @@ impl TipFrame {
         Some(Self { tip: end, axis, segment, length, positive })
     }
 
-    fn place(&self, radius: f64, angle: f64) -> Place {
+    fn place(&self, radius: f64, angle: f64) -> SidedPoint {
         let offset = direction(self.axis, angle) * radius;
         let is_on = angle.abs() == PI && radius < self.length;
         let other = if self.positive == Side::Above { Side::Below } else { Side::Above };
-        Place {
+        SidedPoint {
             point: self.tip + offset,
             anchor: self.tip,
             offset,
@@ -259,16 +271,16 @@ impl TipFrame {
 }
 
 /// One place for each point, two on a crack.
-fn sided(segments: &Segments<'_>, points: &[Vec2]) -> impl Iterator<Item = Vec<Place>> {
+fn sided(segments: &Segments<'_>, points: &[Vec2]) -> impl Iterator<Item = Vec<SidedPoint>> {
     points
         .chunks(BLOCK)
         .flat_map(|block| block.iter().map(|&point| places(segments, block[0], point)))
 }
 
 /// The places of a point; seen from the anchor unless it lies on a crack.
-fn places(segments: &Segments<'_>, anchor: Vec2, point: Vec2) -> Vec<Place> {
-    let mut places = Place::sides(segments, point, Vec2::ZERO);
-    if let [Place { on: None, anchor: seat, offset, .. }] = &mut places[..] {
+fn places(segments: &Segments<'_>, anchor: Vec2, point: Vec2) -> Vec<SidedPoint> {
+    let mut places = SidedPoint::sides(segments, point, Vec2::ZERO);
+    if let [SidedPoint { on: None, anchor: seat, offset, .. }] = &mut places[..] {
         (*seat, *offset) = (anchor, point - anchor);
     }
     places
@@ -283,11 +295,11 @@ fn between([a, b]: [Vec2; 2], part: f64) -> Vec2 {
 ///
 /// Each is seen from the nearer end of its segment, so that what is near a tip keeps its digits.
 #[derive(Clone, Debug)]
-pub struct Stations(Vec<Station>);
+pub struct SamplePoints(Vec<SamplePoint>);
 
 /// A point of a crack.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Station {
+pub struct SamplePoint {
     /// Arc length from the crack's start.
     pub s: f64,
     /// Unit direction of the segment.
@@ -297,7 +309,7 @@ pub struct Station {
     segment: SegmentId,
 }
 
-impl Stations {
+impl SamplePoints {
     /// The points at parts of the length of the crack of this index, see [`evenly`]. None if there
     /// is no such crack.
     #[must_use]
@@ -308,25 +320,25 @@ impl Stations {
             starts.push(starts[starts.len() - 1] + (p[1] - p[0]).length());
         }
         let total = starts[starts.len() - 1];
-        let at = |part: &f64| Station::new(crack, index, &starts, total * part);
+        let at = |part: &f64| SamplePoint::new(crack, index, &starts, total * part);
         Some(Self(parts.iter().map(at).collect()))
     }
 
     /// The points, from the crack's start.
     #[must_use]
-    pub fn all(&self) -> &[Station] {
+    pub fn all(&self) -> &[SamplePoint] {
         &self.0
     }
 
     /// The places above at all points, then those below.
     #[must_use]
-    pub fn places(&self) -> Vec<Place> {
+    pub fn places(&self) -> Vec<SidedPoint> {
         let on = |side| self.0.iter().map(move |station| station.place(side));
         on(Side::Above).chain(on(Side::Below)).collect()
     }
 }
 
-impl Station {
+impl SamplePoint {
     /// The point at arc length s; `starts` are those of the vertices.
     fn new(crack: &Crack, index: u32, starts: &[f64], s: f64) -> Self {
         let last = crack.points.len() - 2;
@@ -347,9 +359,9 @@ impl Station {
 
     /// The point on a side.
     #[must_use]
-    pub fn place(&self, side: Side) -> Place {
+    pub fn place(&self, side: Side) -> SidedPoint {
         let Self { anchor, offset, segment, .. } = *self;
-        Place { point: self.point(), anchor, offset, on: Some(segment), side }
+        SidedPoint { point: self.point(), anchor, offset, on: Some(segment), side }
     }
 
     /// Opening and sliding: a jump \[u\] = u above − u below, normal to the crack and along it.
@@ -379,7 +391,7 @@ mod tests {
         assert_eq!((corners[0].point, corners[62].point), (bounds.min, bounds.max));
     }
 
-    /// Points of a rim by their rounded coordinates, and of the border, are of the plate; those
+    /// Points of a rim by their rounded coordinates, and of the boundary, are of the body; those
     /// that lie inside by more than rounding are not, and those given by tiny offsets mean what
     /// they say.
     #[test]
@@ -392,8 +404,8 @@ mod tests {
             let points: Vec<Vec2> = (0..5).map(|n| on(1.1 * f64::from(n), radius)).collect();
             let round = Hole::Circle { center, radius };
             let cornered = Hole::polygon(points.clone());
-            let is_in = |domain: &Domain, p: Place| domain.at(p.anchor).contains(p.offset);
-            let settled = |domain: &Domain, mut places: Vec<Place>| {
+            let is_in = |domain: &Domain, p: SidedPoint| domain.at(p.anchor).contains(p.offset);
+            let settled = |domain: &Domain, mut places: Vec<SidedPoint>| {
                 settle(domain, &mut places);
                 places.into_iter().map(|p| is_in(domain, p)).collect::<Vec<_>>()
             };

@@ -1,4 +1,4 @@
-//! Segments of cracks, rims and borders.
+//! Segments of cracks, rims and boundaries.
 
 use crate::vec2::{Rect, Vec2};
 

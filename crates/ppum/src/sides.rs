@@ -83,7 +83,7 @@ fn touches([a, b]: [Vec2; 2], is_tip: [bool; 2], anchor: Vec2, offset: Vec2) -> 
     let near = if (anchor - a).length() < (anchor - b).length() { a } else { b };
     let tangent = (b - a).unit();
     let from_near = (anchor - near) + offset;
-    // What is left of the segment before and behind the point.
+    // The remainder of the segment before and behind the point.
     let inner = tangent.dot(from_near);
     let length = (b - a).length();
     let rest = if near == a { [inner, length - inner] } else { [length + inner, -inner] };

@@ -91,16 +91,16 @@ pub fn apart(a: f64, b: f64) -> [String; 2] {
     (DIGITS..=17).map(shown).find(differ).unwrap_or_else(|| shown(DIGITS))
 }
 
-/// Writes locations in a plate, with enough digits to distinguish the vertices of its cracks.
-/// Coordinates that are rounding errors of the plate's are written as zero.
+/// Writes locations in a body, with enough digits to distinguish the vertices of its cracks.
+/// Coordinates within the rounding errors of the body's are written as zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Places {
+pub struct LocationText {
     /// Size of coordinates.
     size: Vec2,
     digits: usize,
 }
 
-impl Places {
+impl LocationText {
     /// Places of a box with cracks.
     #[must_use]
     pub fn new(bounds: &Rect, cracks: &[Crack]) -> Self {
@@ -142,8 +142,10 @@ mod tests {
     fn places(size: f64, xs: &[f64]) -> Vec<String> {
         let bounds = Rect::new(vec2(-size, -size), vec2(size, size));
         let points: Vec<_> = xs.iter().map(|&x| vec2(x, 0.0)).collect();
-        let places =
-            Places::new(&bounds, &[Crack { points: points.clone(), ends: [CrackEnd::Tip; 2] }]);
+        let places = LocationText::new(
+            &bounds,
+            &[Crack { points: points.clone(), ends: [CrackEnd::Tip; 2] }],
+        );
         points.into_iter().map(|p| places.show(p)).collect()
     }
 
@@ -209,9 +211,9 @@ mod tests {
     #[test]
     fn places_far_from_the_origin_have_more_digits() {
         let bounds = Rect::new(vec2(1e6, 1e6), vec2(1e6 + 1.0, 1e6 + 1.0));
-        let places = Places::new(&bounds, &[]);
+        let places = LocationText::new(&bounds, &[]);
         assert_eq!(places.show(vec2(1e6 + 0.3, 1e6 + 0.512345)), "(1000000.3, 1000000.512345)");
         let near = Rect::new(vec2(-1.0, 0.0), vec2(1.0, 50.0));
-        assert_eq!(Places::new(&near, &[]).show(vec2(0.123_456_7, 1.0)), "(0.123457, 1)");
+        assert_eq!(LocationText::new(&near, &[]).show(vec2(0.123_456_7, 1.0)), "(0.123457, 1)");
     }
 }

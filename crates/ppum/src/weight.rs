@@ -5,7 +5,9 @@ use std::sync::Arc;
 use crate::jet::Jet;
 use crate::library;
 use ppum_formula::real::Real;
-use ppum_formula::{Block, DerivativeError, Formula, FormulaError, FormulaJets, Scope, Scratch};
+use ppum_formula::{
+    Block, BlockScratch, DerivativeError, Formula, FormulaError, FormulaJets, Scope,
+};
 
 /// A one-dimensional even function with support \[−1, 1\]. Its scale cancels in φ_i = W_i / Σ W.
 /// The B-splines have w(0) = 1.
@@ -87,11 +89,11 @@ impl WeightFunction {
 
     /// w, dw/dξ, d²w/dξ² at ξ, zero outside \[−1, 1).
     ///
-    /// Where a derivative jumps, this is the one from the right, so that a border belongs to the
+    /// Where a derivative jumps, this is the one from the right, so that a boundary belongs to the
     /// patch on its right or upper side.
     #[inline(always)]
     pub fn spline<R: Real>(&self, xi: R) -> [R; 3] {
-        let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
+        let (zero, one) = (xi.broadcast(0.0), xi.broadcast(1.0));
         let t = xi.abs();
         let jet = match self {
             Self::Linear => [one - t, -one, zero],
@@ -125,7 +127,7 @@ impl WeightFunction {
     pub fn tensor<R: Real, const D: usize>(&self, xi: [R; 2], inverse: [f64; 2]) -> Jet<R> {
         let [a, ax, axx] = self.spline(xi[0]);
         let [b, by, byy] = self.spline(xi[1]);
-        let (ix, iy) = (a.lit(inverse[0]), a.lit(inverse[1]));
+        let (ix, iy) = (a.broadcast(inverse[0]), a.broadcast(inverse[1]));
         let mut w = Jet::constant(a * b);
         if D >= 1 {
             w.x = ax * ix * b;
@@ -279,9 +281,9 @@ impl WeightFormula {
         })
     }
 
-    /// The same at t = |ξ| for many ξ, in blocks.
+    /// Evaluates w and its derivatives at t = |ξ| for many ξ, in blocks.
     fn evaluate_many(&self, xis: &[f64]) -> Vec<[f64; 3]> {
-        let (mut scratch, mut jets) = (Scratch::default(), Vec::with_capacity(xis.len()));
+        let (mut scratch, mut jets) = (BlockScratch::default(), Vec::with_capacity(xis.len()));
         let mut block = self.jets.block(&mut scratch);
         for xis in xis.chunks(Block::<f64>::POINTS) {
             let ts = || xis.iter().map(|xi| xi.abs().min(1.0));
@@ -302,7 +304,7 @@ fn limited(t: f64, jet: [f64; 3]) -> [f64; 3] {
 /// w, dw/dξ, d²w/dξ² from those by t = |ξ|, zero outside \[−1, 1).
 #[inline(always)]
 fn even<R: Real>(xi: R, [w, slope, curvature]: [R; 3]) -> [R; 3] {
-    let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
+    let (zero, one) = (xi.broadcast(0.0), xi.broadcast(1.0));
     let s = R::sign(xi.ge(zero), one);
     [w.max(zero), inside(xi, s * slope), inside(xi, curvature)]
 }
@@ -310,18 +312,18 @@ fn even<R: Real>(xi: R, [w, slope, curvature]: [R; 3]) -> [R; 3] {
 /// `v` for ξ in \[−1, 1), else zero.
 #[inline(always)]
 fn inside<R: Real>(xi: R, v: R) -> R {
-    let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
+    let (zero, one) = (xi.broadcast(0.0), xi.broadcast(1.0));
     R::select(one.gt(xi), R::select(xi.ge(-one), v, zero), zero)
 }
 
 /// Quadratic spline and its derivatives by t; the knots ±1/3 belong to the piece on their right.
 #[inline(always)]
 fn quadratic<R: Real>(xi: R, t: R) -> [R; 3] {
-    let (one, third) = (t.lit(1.0), t.lit(1.0 / 3.0));
-    let u = (one - t).max(t.lit(0.0));
+    let (one, third) = (t.broadcast(1.0), t.broadcast(1.0 / 3.0));
+    let u = (one - t).max(t.broadcast(0.0));
     let (right, left) = (xi.ge(-third), third.gt(xi));
-    let core = [one - t.lit(3.0) * t * t, t.lit(-6.0) * t, t.lit(-6.0)];
-    let flank = [t.lit(1.5) * u * u, t.lit(-3.0) * u, t.lit(3.0)];
+    let core = [one - t.broadcast(3.0) * t * t, t.broadcast(-6.0) * t, t.broadcast(-6.0)];
+    let flank = [t.broadcast(1.5) * u * u, t.broadcast(-3.0) * u, t.broadcast(3.0)];
     let mut out = flank;
     let mut k = 0;
     while k < 3 {
@@ -334,13 +336,13 @@ fn quadratic<R: Real>(xi: R, t: R) -> [R; 3] {
 /// Cubic spline and its derivatives by t; its second derivative is continuous.
 #[inline(always)]
 fn cubic<R: Real>(t: R) -> [R; 3] {
-    let (one, six) = (t.lit(1.0), t.lit(6.0));
-    let u = (one - t).max(t.lit(0.0));
-    let near = t.lit(0.5).gt(t);
+    let (one, six) = (t.broadcast(1.0), t.broadcast(6.0));
+    let u = (one - t).max(t.broadcast(0.0));
+    let near = t.broadcast(0.5).gt(t);
     [
-        R::select(near, one - six * t * t * u, t.lit(2.0) * u * u * u),
-        R::select(near, t * (t.lit(18.0) * t - t.lit(12.0)), -six * u * u),
-        R::select(near, t.lit(36.0) * t - t.lit(12.0), t.lit(12.0) * u),
+        R::select(near, one - six * t * t * u, t.broadcast(2.0) * u * u * u),
+        R::select(near, t * (t.broadcast(18.0) * t - t.broadcast(12.0)), -six * u * u),
+        R::select(near, t.broadcast(36.0) * t - t.broadcast(12.0), t.broadcast(12.0) * u),
     ]
 }
 

@@ -10,9 +10,9 @@ use crate::studies::support::solved;
 use anyhow::Context as _;
 use ppum_figure::form::PageFormat;
 use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve, plot};
-use ppum_problem::{AdaptKind, Adaptivity, Cells, ProblemData};
+use ppum_problem::{AdaptKind, Adaptivity, BaseCells, ProblemData};
 
-/// What `tests/random/estimates.py` writes.
+/// The output of `tests/random/estimates.py`.
 const ESTIMATES: &str = include_str!("../../../../tests/random/estimates.md");
 
 pub(crate) fn write(page: &mut Page) -> anyhow::Result<()> {
@@ -64,7 +64,7 @@ fn accuracies(page: &mut Page) {
 /// The largest error over the accuracy, and the unknowns it took.
 fn reached(plate: &Plate, accuracy: f64) -> (f64, usize) {
     let mut problem = plate.problem.clone().with_adaptivity(Adaptivity::to(accuracy));
-    problem.discretization.cells = Cells::Level(2);
+    problem.discretization.cells = BaseCells::Level(2);
     let dataset = solved(&problem);
     let errors = errors_of_factors(plate, &dataset).into_iter().map(|[size, e, _]| e / size);
     (errors.fold(0.0, f64::max) / accuracy, dataset.steps[0].unknowns())

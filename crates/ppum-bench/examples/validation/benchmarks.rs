@@ -1,4 +1,4 @@
-//! One sheet a benchmark: reference, source, our values on three covers, errors, a picture.
+//! One sheet a benchmark: reference, source, our values on three covers, errors, an image.
 
 use crate::page::{Page, error};
 use crate::studies::exact_fields::{SLIT_SQUARES, TipPlate, slit_plate, tip_energies, tip_points};
@@ -103,7 +103,7 @@ struct Sheet {
     name: &'static str,
     reference: &'static str,
     source: &'static str,
-    /// The plate of the picture, and the window it shows.
+    /// The plate of the image, and the window it shows.
     shown: usize,
     window: [[f64; 2]; 2],
     plates: Vec<Plate>,

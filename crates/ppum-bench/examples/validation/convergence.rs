@@ -4,7 +4,7 @@ use crate::page::{Page, error, rated};
 use crate::studies::exact_fields::{OBLIQUE, STUDY, Strip, smooth};
 use crate::studies::plates::oblique_crack;
 use crate::studies::release::kinked_crack;
-use ppum_problem::Cells;
+use ppum_problem::BaseCells;
 
 pub(crate) fn write(page: &mut Page) {
     smooth_field(page);
@@ -40,7 +40,7 @@ fn enriched_everywhere(page: &mut Page) {
     );
     page.head(&["p", "level 1", "level 2", "level 3"]);
     for order in 1..=3 {
-        let e = |level| OBLIQUE.pure(Cells::Level(level), order, 10.0).energy;
+        let e = |level| OBLIQUE.pure(BaseCells::Level(level), order, 10.0).energy;
         page.row(&[order.to_string(), error(e(1)), error(e(2)), error(e(3))]);
     }
 }
@@ -64,7 +64,7 @@ fn zones(page: &mut Page) {
     page.head(&["p", "R", "level 3", "level 4", "level 5"]);
     for order in 1..=3 {
         for radius in [0.4, 0.7] {
-            let e = [3, 4, 5].map(|n| OBLIQUE.pure(Cells::Level(n), order, radius).energy);
+            let e = [3, 4, 5].map(|n| OBLIQUE.pure(BaseCells::Level(n), order, radius).energy);
             page.row(&[vec![order.to_string(), radius.to_string()], rated(&e)].concat());
         }
     }

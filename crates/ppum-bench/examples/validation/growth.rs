@@ -4,7 +4,7 @@ use crate::page::{Page, error};
 use crate::series::{course, example, place};
 use crate::studies::support::solved;
 use ppum::crack::{End, TipId};
-use ppum::dataset::{Dataset, Fate, Step, TipIntensity};
+use ppum::dataset::{Dataset, Step, TipIntensity, TipStatus};
 use ppum::segment::distance;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_format::Series;
@@ -254,11 +254,11 @@ fn told(steps: &[Step]) -> Vec<String> {
     let fates = steps.iter().filter_map(|step| step.growth.as_ref()?.tips.first());
     let met = fates
         .map(|row| row.fate)
-        .find(|fate| matches!(fate, Fate::MeetsHole(_) | Fate::LeavesPlate));
+        .find(|fate| matches!(fate, TipStatus::MeetsHole(_) | TipStatus::LeavesPlate));
     let end = met.map_or("goes on upwards".into(), |fate| match fate {
-        Fate::MeetsHole(0) => "upper hole".into(),
-        Fate::MeetsHole(1) => "middle hole".into(),
-        Fate::MeetsHole(_) => "lowest hole".into(),
+        TipStatus::MeetsHole(0) => "upper hole".into(),
+        TipStatus::MeetsHole(1) => "middle hole".into(),
+        TipStatus::MeetsHole(_) => "lowest hole".into(),
         other => other.words(),
     });
     vec![passed(-1.25), passed(-0.25), passed(0.75), rim(-1.25), rim(0.75), end]
@@ -267,20 +267,20 @@ fn told(steps: &[Step]) -> Vec<String> {
 fn network(page: &mut Page) -> anyhow::Result<()> {
     page.add("### A network");
     let (steps, last) = course("network-growth", &example("network-growth", &[]))?;
-    let fates: Vec<Fate> = steps
+    let fates: Vec<TipStatus> = steps
         .iter()
         .filter_map(|step| step.growth.as_ref())
         .flat_map(|g| g.tips.iter().map(|row| row.fate))
         .collect();
-    let count = |of: fn(&Fate) -> bool| fates.iter().filter(|fate| of(fate)).count();
+    let count = |of: fn(&TipStatus) -> bool| fates.iter().filter(|fate| of(fate)).count();
     let length = |step: &Step| step.cracks.iter().map(ppum::crack::Crack::length).sum::<f64>();
     let stop = last.steps[0].growth.as_ref().and_then(|growth| growth.stop);
     page.add(&format!(
         "[network-growth.toml](../examples/network-growth.toml): ten cracks with a total length of {:.2} grow to {:.2} in {}\n\
          increments; {} ends meet other cracks, {} leave the plate. The series ends because {}.",
         length(&steps[0]), length(&last.steps[0]), steps.len() - 1,
-        count(|fate| matches!(fate, Fate::MeetsCrack(_))),
-        count(|fate| *fate == Fate::LeavesPlate),
+        count(|fate| matches!(fate, TipStatus::MeetsCrack(_))),
+        count(|fate| *fate == TipStatus::LeavesPlate),
         stop.map_or("all increments are made", |stop| stop.words()),
     ));
     page.picture("network-growth", &last, last.domain.bounds)

@@ -1,4 +1,4 @@
-//! Computes `docs/validation.md` and its pictures, in some minutes:
+//! Computes `docs/validation.md` and its images, in some minutes:
 //!
 //! ```text
 //! cargo run --release -p ppum-bench --example validation

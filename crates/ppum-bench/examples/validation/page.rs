@@ -1,4 +1,4 @@
-//! The page in Markdown, and the folder of its pictures.
+//! The page in Markdown, and the folder of its images.
 
 use crate::picture::draw;
 use crate::studies::support::unknowns;
@@ -46,7 +46,7 @@ impl Page {
         let _ = writeln!(self.text, "| {} |", cells.join(" | "));
     }
 
-    /// A picture of a solution in a window.
+    /// An image of a solution in a window.
     pub(crate) fn picture(
         &mut self,
         name: &str,
@@ -61,7 +61,7 @@ impl Page {
         Ok(())
     }
 
-    /// The path of a picture.
+    /// The path of an image.
     pub(crate) fn image(&self, name: &str) -> PathBuf {
         self.docs.join("images/validation").join(name)
     }

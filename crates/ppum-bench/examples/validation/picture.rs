@@ -1,13 +1,13 @@
-//! Pictures of solutions.
+//! Images of solutions.
 
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::Rect;
-use ppum_figure::figure::{Design, Labels, Panel, figure, plot_area};
+use ppum_figure::figure::{FigureStyle, Labels, Panel, figure, plot_area};
 use ppum_figure::overlay;
-use ppum_render::picture::{Picture, Style};
+use ppum_render::picture::{ColoredRaster, Style};
 use ppum_render::png;
 use ppum_render::scale::Scale;
 use ppum_render::scatter::render;
@@ -22,11 +22,11 @@ pub(crate) fn draw(path: &Path, dataset: &Dataset, window: Rect) -> anyhow::Resu
     let field = Field::new(dataset, 0)?;
     let name = if field.components() == 2 { "von-mises" } else { "gradient" };
     let quantity = Quantity::parse(name, &field)?;
-    let design = Design::pixels(SIZE);
+    let design = FigureStyle::pixels(SIZE);
     let view = View::hug(window, plot_area(&dataset.title, &design)?)?;
     let style = Style { scale: Scale::Log, ..Style::default() };
     let picture =
-        Picture::bare(&render::<f64>(&field, &view, &quantity, unwatched())?, &view, &style)?;
+        ColoredRaster::bare(&render::<f64>(&field, &view, &quantity, unwatched())?, &view, &style)?;
     let labels = Labels {
         title: dataset.title.clone(),
         quantity: quantity.symbol(&field.data.components),

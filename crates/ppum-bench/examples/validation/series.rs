@@ -4,7 +4,7 @@ use anyhow::Context as _;
 use ppum::dataset::{Dataset, Step};
 use ppum::progress::unwatched;
 use ppum_format::{Series, SeriesWriter};
-use ppum_fracture::growth::{Last, grow, is_same_series};
+use ppum_fracture::growth::{ResumePoint, grow, is_same_series};
 use ppum_problem::Problem;
 use std::path::{Path, PathBuf};
 
@@ -57,7 +57,7 @@ fn solve(path: &Path, problem: &Problem) -> anyhow::Result<()> {
     let last =
         there.map(|series| anyhow::Ok((series.len() - 1, series.results(series.len() - 1)?)));
     let last = last.transpose()?;
-    let last = last.as_ref().map(|(number, step)| Last { number: *number, step });
+    let last = last.as_ref().map(|(number, step)| ResumePoint { number: *number, step });
     let keep = |dataset: Dataset| -> anyhow::Result<()> {
         match &mut writer {
             None => writer = Some(SeriesWriter::begin(path, &dataset)?),

@@ -1,4 +1,4 @@
-//! What is measured must be right: frames are compared with the evaluation point by point in f64.
+//! Measured images must be right: frames are compared with the evaluation point by point in f64.
 //!
 //! A band of rows through the crack is drawn, of pixels as large as those of the frames, so that
 //! the same paths are taken. Differences are told in units of the local scale, the largest value of
@@ -23,13 +23,13 @@ use ppum_render::reference::reference;
 use ppum_render::view::View;
 use serde::Serialize;
 
-use crate::cards::Cards;
-use crate::frames::{QuantityRenderer, WAYS, Way};
+use crate::cards::BenchDevice;
+use crate::frames::{DrawingDevice, QuantityRenderer, WAYS};
 
-/// A weight with a wrong derivative: value and slope of 1 − t, but for a ripple of size 1e-5.
+/// A weight with a wrong derivative: value and slope of 1 − t, except for a ripple of size 1e-5.
 pub(super) const WRONG: &str = "(1 - t)*(1 + 1e-5*sin(1e5*t))";
 
-/// Largest difference in f64 on coarse covers: what tests hold pictures to.
+/// Largest difference in f64 on coarse covers: what tests hold images to.
 const IN_F64: f64 = 1e-12;
 
 /// Difference of 99 % of the pixels in f32, likewise.
@@ -82,11 +82,12 @@ pub(super) fn agreements(
     subject: &QuantityRenderer<'_>,
     wrong: Option<&Field<'_>>,
     view: &View,
-    mut cards: Option<&mut Cards>,
+    mut cards: Option<&mut BenchDevice>,
 ) -> anyhow::Result<[Option<Agreement>; 4]> {
     let view = band(view)?;
-    let truth = Truth::new(subject.field, &view, &subject.quantity)?;
-    let wrong = wrong.map(|field| Truth::new(field, &view, &subject.quantity)).transpose()?;
+    let truth = ReferenceValues::new(subject.field, &view, &subject.quantity)?;
+    let wrong =
+        wrong.map(|field| ReferenceValues::new(field, &view, &subject.quantity)).transpose()?;
     let patches = subject.field.step.partition.len();
     let mut all = [None; 4];
     for (slot, way) in all.iter_mut().zip(WAYS) {
@@ -103,12 +104,12 @@ fn band(view: &View) -> anyhow::Result<View> {
 }
 
 fn agreement(
-    (way, patches): (Way, usize),
+    (way, patches): (DrawingDevice, usize),
     values: &[f64],
-    truth: &Truth,
-    wrong: Option<&Truth>,
+    truth: &ReferenceValues,
+    wrong: Option<&ReferenceValues>,
 ) -> Agreement {
-    let is_double = way == Way::CpuF64;
+    let is_double = way == DrawingDevice::CpuF64;
     let on_coarse = if is_double { IN_F64 } else { IN_F32 };
     let limit = on_coarse * ((patches as f64).sqrt() / ACROSS).max(1.0);
     let is_within = |difference: Difference| {
@@ -125,12 +126,12 @@ fn agreement(
 }
 
 /// The values of the reference, and their scale.
-struct Truth {
+struct ReferenceValues {
     values: Vec<f64>,
     scale: Vec<f64>,
 }
 
-impl Truth {
+impl ReferenceValues {
     fn new(field: &Field<'_>, view: &View, quantity: &Quantity) -> anyhow::Result<Self> {
         let raster = reference(field, view, quantity, unwatched())?;
         let scale = scales(&raster);

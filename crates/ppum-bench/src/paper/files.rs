@@ -1,4 +1,4 @@
-//! From a file to the first picture.
+//! From a file to the first image.
 
 use std::time::Instant;
 
@@ -9,43 +9,44 @@ use ppum_format::Series;
 use ppum_render::view::View;
 use serde::Serialize;
 
-use crate::cards::Cards;
-use crate::frames::{QuantityRenderer, Way, moved, style};
-use crate::synthetic::{DOMAIN, Recipe};
+use crate::cards::BenchDevice;
+use crate::frames::{DrawingDevice, QuantityRenderer, moved, style};
+use crate::synthetic::{CrackRecipe, DOMAIN};
 
 /// Times each is opened, of which the fastest counts; the file is in the system's memory.
 const REPETITIONS: u32 = 3;
 
-/// What opening a dataset takes, in milliseconds.
+/// The time to open a dataset, in milliseconds.
 #[derive(Debug, Serialize)]
-pub(super) struct Opening {
+pub(super) struct OpeningTime {
     pub(super) patches: usize,
     pub(super) bytes: u64,
     /// Reading and checking.
     pub(super) open_ms: f64,
-    /// From opening to the first picture by the CPU in f32.
+    /// From opening to the first image by the CPU in f32.
     pub(super) first_ms: f64,
     /// Putting it on a graphics device.
     pub(super) upload_ms: Option<f64>,
 }
 
-impl Opening {
+impl OpeningTime {
     /// Measures the datasets of a small and a large cover.
     pub(super) fn all(
         quick: bool,
         pixels: [u32; 2],
-        mut cards: Option<&mut Cards>,
+        mut cards: Option<&mut BenchDevice>,
     ) -> anyhow::Result<Vec<Self>> {
         let levels: &[u8] = if quick { &[3, 4] } else { &[7, 10] };
-        let one =
-            |&level| Self::new(&Recipe::new(level, level).dataset()?, pixels, cards.as_deref_mut());
+        let one = |&level| {
+            Self::new(&CrackRecipe::new(level, level).dataset()?, pixels, cards.as_deref_mut())
+        };
         levels.iter().map(one).collect()
     }
 
     fn new(
         dataset: &Dataset,
         pixels: [u32; 2],
-        mut cards: Option<&mut Cards>,
+        mut cards: Option<&mut BenchDevice>,
     ) -> anyhow::Result<Self> {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("plate.h5");
@@ -62,7 +63,7 @@ impl Opening {
             let quantity = Quantity::VonMises;
             let view = moved(View::fit(DOMAIN, pixels)?, frame)?;
             QuantityRenderer::new(&field, (quantity, style(1.0)), None, false)?.draw(
-                Way::CpuF32,
+                DrawingDevice::CpuF32,
                 &view,
                 None,
             )?;

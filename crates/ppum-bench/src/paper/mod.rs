@@ -24,19 +24,19 @@ use ppum::quantity::Quantity;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 
-use crate::cards::Cards;
-use crate::frames::{QuantityRenderer, Way, moved, style};
+use crate::cards::BenchDevice;
+use crate::frames::{DrawingDevice, QuantityRenderer, moved, style};
 use crate::machine::Machine;
-use crate::synthetic::{DOMAIN, Recipe};
-use crate::table::Table;
+use crate::synthetic::{CrackRecipe, DOMAIN};
+use crate::table::ReportTable;
 use agreement::{Agreement, WRONG, agreements};
-use files::Opening;
-pub use report::Report;
-use report::{Row, pixels_of};
+use files::OpeningTime;
+pub use report::PaperReport;
+use report::{SceneRow, pixels_of};
 pub use scenes::SceneGroup;
 use scenes::{PaperScene, scenes};
 pub use single::Single;
-use turns::{Pools, Timed, Turns};
+use turns::{FrameTiming, Pools, Turns};
 
 /// Table 1: patches, milliseconds.
 const PAPER: [(usize, f64); 6] =
@@ -48,13 +48,13 @@ fn published(patches: usize) -> Option<f64> {
 }
 
 /// A scene with all that draws it.
-struct Measured<'d> {
+struct MeasuredScene<'d> {
     scene: PaperScene,
     turns: Turns<'d>,
     agreements: [Option<Agreement>; 4],
 }
 
-impl Report {
+impl PaperReport {
     /// Compares and measures all scenes, or those of some groups; `quick` takes small images of few
     /// patches.
     ///
@@ -62,7 +62,7 @@ impl Report {
     /// A device that fails, or files that cannot be written.
     pub fn new(quick: bool, frames: u32, groups: &[SceneGroup]) -> anyhow::Result<Self> {
         let (threads, pixels) = (rayon::current_num_threads(), pixels_of(quick));
-        let mut cards = Cards::open();
+        let mut cards = BenchDevice::open();
         let machine = Machine::new(threads, cards.as_ref());
         let (pools, mut scenes) = (Pools::new(threads)?, scenes(quick));
         scenes.retain(|scene| groups.is_empty() || groups.contains(&scene.group));
@@ -76,16 +76,17 @@ impl Report {
             let on_devices =
                 scene.group == SceneGroup::Patches || !quick && scene.group != SceneGroup::Colors;
             let mut cards = cards.as_deref_mut().filter(|_| on_devices);
-            let mut measured = Measured::new(scene, field, cards.as_deref_mut())?;
+            let mut measured = MeasuredScene::new(scene, field, cards.as_deref_mut())?;
             measured.compare(pixels, &pools, cards)?;
             all.push(measured);
         }
         measure(&mut all, frames, pixels, &pools, cards.as_deref_mut())?;
-        let opened = || Opening::all(quick, pixels, cards.as_deref_mut());
+        let opened = || OpeningTime::all(quick, pixels, cards.as_deref_mut());
         let files = groups.is_empty().then(|| pools.most().install(opened)).transpose()?;
         let has_core = cards.as_ref().is_none_or(|cards| cards.is_software());
-        let rows: Vec<Row> = all.iter().map(|measured| measured.row(has_core, !quick)).collect();
-        let holds = rows.iter().flat_map(|row| &row.methods).all(Timed::is_good);
+        let rows: Vec<SceneRow> =
+            all.iter().map(|measured| measured.row(has_core, !quick)).collect();
+        let holds = rows.iter().flat_map(|row| &row.methods).all(FrameTiming::is_good);
         Ok(Self { machine, pixels, frames, rows, files: files.unwrap_or_default(), holds })
     }
 
@@ -98,8 +99,8 @@ impl Report {
     }
 }
 
-impl crate::Report for Report {
-    fn tables(&self) -> Vec<Table> {
+impl crate::Report for PaperReport {
+    fn tables(&self) -> Vec<ReportTable> {
         tables::tables(self)
     }
 
@@ -118,11 +119,11 @@ impl crate::Report for Report {
 }
 
 /// The datasets of some scenes, each once.
-struct Datasets(Vec<(Recipe, Dataset)>);
+struct Datasets(Vec<(CrackRecipe, Dataset)>);
 
 impl Datasets {
     fn new(scenes: &[PaperScene]) -> anyhow::Result<Self> {
-        let mut all: Vec<(Recipe, Dataset)> = Vec::new();
+        let mut all: Vec<(CrackRecipe, Dataset)> = Vec::new();
         for PaperScene { recipe, .. } in scenes {
             if all.iter().all(|(known, _)| known != recipe) {
                 all.push((*recipe, recipe.dataset()?));
@@ -135,7 +136,11 @@ impl Datasets {
         Ok(self.0.iter().map(|(_, dataset)| Field::new(dataset, 0)).collect::<Result<_, _>>()?)
     }
 
-    fn field<'d>(&self, recipe: &Recipe, fields: &'d [Field<'d>]) -> anyhow::Result<&'d Field<'d>> {
+    fn field<'d>(
+        &self,
+        recipe: &CrackRecipe,
+        fields: &'d [Field<'d>],
+    ) -> anyhow::Result<&'d Field<'d>> {
         let mut all = self.0.iter().zip(fields);
         let found = all.find(|((known, _), _)| known == recipe);
         found.map(|(_, field)| field).context("every scene has a dataset")
@@ -144,11 +149,11 @@ impl Datasets {
 
 /// Draws all scenes in turn. The first frame of each warms up and is not counted.
 fn measure(
-    all: &mut [Measured<'_>],
+    all: &mut [MeasuredScene<'_>],
     frames: u32,
     pixels: [u32; 2],
     pools: &Pools,
-    mut cards: Option<&mut Cards>,
+    mut cards: Option<&mut BenchDevice>,
 ) -> anyhow::Result<()> {
     for frame in 0..=frames {
         eprintln!("frame {frame} of {frames}");
@@ -160,11 +165,11 @@ fn measure(
     Ok(())
 }
 
-impl<'d> Measured<'d> {
+impl<'d> MeasuredScene<'d> {
     fn new(
         scene: PaperScene,
         field: &'d Field<'d>,
-        cards: Option<&mut Cards>,
+        cards: Option<&mut BenchDevice>,
     ) -> anyhow::Result<Self> {
         let quantity = Quantity::parse(scene.subject.quantity(), field)?;
         let may_splat = scene.group == SceneGroup::Patches;
@@ -183,16 +188,16 @@ impl<'d> Measured<'d> {
         &mut self,
         pixels: [u32; 2],
         pools: &Pools,
-        cards: Option<&mut Cards>,
+        cards: Option<&mut BenchDevice>,
     ) -> anyhow::Result<()> {
         let (view, subject) = (self.view(0, pixels)?, &self.turns.subject);
-        if self.scene.subject == scenes::DrawnQuantity::Colors {
+        if self.scene.subject == scenes::SceneQuantity::Colors {
             let (field, quantity) = (subject.field, &subject.quantity);
             let wide = render(field, &view, quantity, unwatched())?;
             self.turns.rasters = Some((wide, render(field, &view, quantity, unwatched())?));
             return Ok(());
         }
-        let recipe = Recipe { weight: Some(WRONG), ..self.scene.recipe };
+        let recipe = CrackRecipe { weight: Some(WRONG), ..self.scene.recipe };
         let wrong =
             (self.scene.group == SceneGroup::Patches).then(|| recipe.dataset()).transpose()?;
         let wrong = wrong.as_ref().map(|dataset| Field::new(dataset, 0)).transpose()?;
@@ -201,12 +206,12 @@ impl<'d> Measured<'d> {
         Ok(())
     }
 
-    fn row(&self, has_core: bool, has_paper: bool) -> Row {
+    fn row(&self, has_core: bool, has_paper: bool) -> SceneRow {
         let PaperScene { group, recipe, zoom, subject } = self.scene;
         let patches = self.turns.subject.field.step.partition.len();
         let is_published =
             has_paper && group == SceneGroup::Patches && self.scene.cover() == "uniform";
-        Row {
+        SceneRow {
             group,
             scene: self.scene.words(),
             cover: self.scene.cover(),
@@ -221,8 +226,8 @@ impl<'d> Measured<'d> {
     }
 }
 
-impl Row {
-    fn method(&self, way: Way) -> Option<&Timed> {
+impl SceneRow {
+    fn method(&self, way: DrawingDevice) -> Option<&FrameTiming> {
         self.methods.iter().find(|timed| timed.method == way.name())
     }
 }

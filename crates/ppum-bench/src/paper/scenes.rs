@@ -5,7 +5,7 @@ use ppum::library::ELASTICITY;
 use ppum::vec2::{Vec2, vec2};
 use serde::Serialize;
 
-use crate::synthetic::{DOMAIN, Recipe, TIPS};
+use crate::synthetic::{CrackRecipe, DOMAIN, TIPS};
 
 /// The subjects of the tables, each with its scenes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, ValueEnum)]
@@ -41,9 +41,9 @@ impl SceneGroup {
     }
 }
 
-/// What is drawn.
+/// The drawn quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum DrawnQuantity {
+pub(super) enum SceneQuantity {
     /// The stress by its kernel.
     Stress,
     /// The stress by its formula in the library.
@@ -54,7 +54,7 @@ pub(super) enum DrawnQuantity {
     Colors,
 }
 
-impl DrawnQuantity {
+impl SceneQuantity {
     /// The quantity, as `-q` takes it.
     pub(super) fn quantity(self) -> &'static str {
         match self {
@@ -81,33 +81,33 @@ impl DrawnQuantity {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct PaperScene {
     pub(super) group: SceneGroup,
-    pub(super) recipe: Recipe,
+    pub(super) recipe: CrackRecipe,
     pub(super) zoom: f64,
-    pub(super) subject: DrawnQuantity,
+    pub(super) subject: SceneQuantity,
 }
 
 /// A weight that a formula gives, and that a kernel has too.
 const LINEAR: &str = "1 - t";
 
 impl PaperScene {
-    fn new(group: SceneGroup, recipe: Recipe) -> Self {
-        Self { group, recipe, zoom: 1.0, subject: DrawnQuantity::Stress }
+    fn new(group: SceneGroup, recipe: CrackRecipe) -> Self {
+        Self { group, recipe, zoom: 1.0, subject: SceneQuantity::Stress }
     }
 
     pub(super) fn cover(&self) -> &'static str {
         if self.recipe.level == self.recipe.tip_level { "uniform" } else { "graded" }
     }
 
-    /// The middle of its pictures.
+    /// The middle of its images.
     pub(super) fn center(&self) -> Vec2 {
-        // a pixel on a tip is infinite: pictures are centred a bit beside it
+        // a pixel on a tip is infinite: images are centred a bit beside it
         let beside = vec2(0.011, 0.017) * (DOMAIN.size().x / self.zoom);
         if self.zoom == 1.0 { DOMAIN.center() } else { TIPS[1] + beside }
     }
 
-    /// What tells it from others of its group.
+    /// Returns the words that distinguish it within its group.
     pub(super) fn words(&self) -> String {
-        let Recipe { order, enriched, weight, .. } = self.recipe;
+        let CrackRecipe { order, enriched, weight, .. } = self.recipe;
         match self.group {
             SceneGroup::Patches => String::new(),
             SceneGroup::Orders => format!("order {order}"),
@@ -123,23 +123,25 @@ impl PaperScene {
 /// All scenes, or a few of each kind on few patches.
 pub(super) fn scenes(quick: bool) -> Vec<PaperScene> {
     let [coarse, fine, graded] = if quick {
-        [Recipe::new(2, 2), Recipe::new(4, 4), Recipe::new(2, 5)]
+        [CrackRecipe::new(2, 2), CrackRecipe::new(4, 4), CrackRecipe::new(2, 5)]
     } else {
-        [Recipe::new(2, 2), Recipe::new(6, 6), Recipe::new(6, 14)]
+        [CrackRecipe::new(2, 2), CrackRecipe::new(6, 6), CrackRecipe::new(6, 14)]
     };
     let patches =
         covers(quick).into_iter().map(|recipe| PaperScene::new(SceneGroup::Patches, recipe));
     let typical = [coarse, fine, graded];
     let orders = typical.into_iter().flat_map(|recipe| {
-        [1, 2, 4, 8].map(|order| PaperScene::new(SceneGroup::Orders, Recipe { order, ..recipe }))
+        [1, 2, 4, 8]
+            .map(|order| PaperScene::new(SceneGroup::Orders, CrackRecipe { order, ..recipe }))
     });
-    let enriched = typical
-        .map(|recipe| PaperScene::new(SceneGroup::Enriched, Recipe { enriched: 1.0, ..recipe }));
+    let enriched = typical.map(|recipe| {
+        PaperScene::new(SceneGroup::Enriched, CrackRecipe { enriched: 1.0, ..recipe })
+    });
     let zooms = [1.0, 1e3, 1e6, 1e9, 1e12]
         .map(|zoom| PaperScene { zoom, ..PaperScene::new(SceneGroup::Zooms, graded) });
     let formulas = [coarse, fine].into_iter().flat_map(formulas);
     let colors = PaperScene {
-        subject: DrawnQuantity::Colors,
+        subject: SceneQuantity::Colors,
         ..PaperScene::new(SceneGroup::Colors, coarse)
     };
     let all = patches.chain(orders).chain(enriched).chain(zooms).chain(formulas);
@@ -147,22 +149,24 @@ pub(super) fn scenes(quick: bool) -> Vec<PaperScene> {
 }
 
 /// Those of the paper and beyond.
-fn covers(quick: bool) -> Vec<Recipe> {
+fn covers(quick: bool) -> Vec<CrackRecipe> {
     let (uniform, graded): (&[u8], &[[u8; 2]]) = if quick {
         (&[2, 3, 4], &[[2, 5]])
     } else {
         (&[2, 3, 4, 5, 6, 7, 10], &[[3, 10], [4, 14], [5, 14], [6, 14]])
     };
-    let uniform = uniform.iter().map(|&level| Recipe::new(level, level));
-    uniform.chain(graded.iter().map(|&[level, tip_level]| Recipe::new(level, tip_level))).collect()
+    let uniform = uniform.iter().map(|&level| CrackRecipe::new(level, level));
+    uniform
+        .chain(graded.iter().map(|&[level, tip_level]| CrackRecipe::new(level, tip_level)))
+        .collect()
 }
 
-fn formulas(recipe: Recipe) -> [PaperScene; 4] {
+fn formulas(recipe: CrackRecipe) -> [PaperScene; 4] {
     let scene = PaperScene::new(SceneGroup::Formulas, recipe);
     [
         scene,
-        PaperScene { subject: DrawnQuantity::StressByFormula, ..scene },
-        PaperScene { recipe: Recipe { weight: Some(LINEAR), ..recipe }, ..scene },
-        PaperScene { subject: DrawnQuantity::Elementary, ..scene },
+        PaperScene { subject: SceneQuantity::StressByFormula, ..scene },
+        PaperScene { recipe: CrackRecipe { weight: Some(LINEAR), ..recipe }, ..scene },
+        PaperScene { subject: SceneQuantity::Elementary, ..scene },
     ]
 }

@@ -10,12 +10,12 @@ use serde::Serialize;
 
 use super::report::pixels_of;
 use super::tables::methods;
-use super::turns::{Pools, Timed, Turns};
+use super::turns::{FrameTiming, Pools, Turns};
 use crate::Report;
-use crate::cards::Cards;
+use crate::cards::BenchDevice;
 use crate::frames::{QuantityRenderer, moved, style};
 use crate::machine::Machine;
-use crate::table::Table;
+use crate::table::ReportTable;
 
 /// The report of `ppum-bench frames`.
 #[derive(Debug, Serialize)]
@@ -24,7 +24,7 @@ pub struct Single {
     pixels: [u32; 2],
     frames: u32,
     patches: usize,
-    methods: Vec<Timed>,
+    methods: Vec<FrameTiming>,
 }
 
 impl Single {
@@ -34,7 +34,7 @@ impl Single {
     /// A file that cannot be read, or a field that cannot be drawn.
     pub fn new(path: &Path, quick: bool, frames: u32) -> anyhow::Result<Self> {
         let (threads, pixels) = (rayon::current_num_threads(), pixels_of(quick));
-        let mut cards = Cards::open();
+        let mut cards = BenchDevice::open();
         let machine = Machine::new(threads, cards.as_ref());
         let mut cards = cards.as_mut().ok();
         let series = Series::open(path)?;
@@ -66,7 +66,7 @@ impl Report for Single {
         )
     }
 
-    fn tables(&self) -> Vec<Table> {
+    fn tables(&self) -> Vec<ReportTable> {
         vec![methods(&self.methods)]
     }
 }

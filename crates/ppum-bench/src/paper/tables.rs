@@ -1,18 +1,18 @@
 //! The report as tables.
 
 use super::agreement::{Agreement, Difference};
-use super::files::Opening;
+use super::files::OpeningTime;
 use super::scenes::SceneGroup;
-use super::turns::{Spent, Timed};
-use super::{Report, Row};
-use crate::frames::{Summary, WAYS, Way};
-use crate::table::Table;
+use super::turns::{FrameTiming, Spent};
+use super::{PaperReport, SceneRow};
+use crate::frames::{DrawingDevice, FrameTimes, WAYS};
+use crate::table::ReportTable;
 
-const CPU: [Way; 2] = [Way::CpuF32, Way::CpuF64];
-const DEVICES: [Way; 2] = [Way::Gather, Way::Splat];
+const CPU: [DrawingDevice; 2] = [DrawingDevice::CpuF32, DrawingDevice::CpuF64];
+const DEVICES: [DrawingDevice; 2] = [DrawingDevice::Gather, DrawingDevice::Splat];
 
-/// What was measured, and how.
-pub(super) fn words(report: &Report) -> String {
+/// Describes the measurement.
+pub(super) fn words(report: &PaperReport) -> String {
     let [columns, rows] = report.pixels;
     format!(
         "{}\n\
@@ -24,7 +24,7 @@ pub(super) fn words(report: &Report) -> String {
     )
 }
 
-pub(super) fn tables(report: &Report) -> Vec<Table> {
+pub(super) fn tables(report: &PaperReport) -> Vec<ReportTable> {
     let groups = SceneGroup::ALL.into_iter().map(|group| times(report, group));
     let all = groups.chain([threads(report), files(report), differences(report)]);
     all.filter(|table| !table.rows.is_empty()).collect()
@@ -34,20 +34,20 @@ fn owned<const N: usize>(words: [&str; N]) -> Vec<String> {
     words.map(str::to_owned).into()
 }
 
-fn rows(report: &Report, group: SceneGroup) -> impl Iterator<Item = &Row> {
+fn rows(report: &PaperReport, group: SceneGroup) -> impl Iterator<Item = &SceneRow> {
     report.rows.iter().filter(move |row| row.group == group)
 }
 
 /// The words that begin a row.
-fn start(row: &Row) -> Vec<String> {
+fn start(row: &SceneRow) -> Vec<String> {
     vec![row.scene.clone(), row.cover.to_owned(), row.patches.to_string()]
 }
 
 /// Processor time of one thread, the whole of the devices', and the paper's.
-fn times(report: &Report, group: SceneGroup) -> Table {
+fn times(report: &PaperReport, group: SceneGroup) -> ReportTable {
     let head =
         owned(["scene", "cover", "patches", "paper", "cpu f32", "cpu f64", "gather", "splat"]);
-    let line = |row: &Row| {
+    let line = |row: &SceneRow| {
         let paper = row.paper_ms.map(|ms| format!("{ms:.2}"));
         let cpu = CPU.map(|way| row.method(way).and_then(|timed| timed.one).map(core));
         let devices = DEVICES.map(|way| row.method(way).and_then(|timed| timed.all).map(core));
@@ -62,28 +62,28 @@ fn times(report: &Report, group: SceneGroup) -> Table {
         _ => "",
     };
     let rows = rows(report, group).map(line).collect();
-    Table { title: group.title().to_owned(), words: 2, head, rows, note: note.to_owned() }
+    ReportTable { title: group.title().to_owned(), words: 2, head, rows, note: note.to_owned() }
 }
 
 /// Time that passes on one thread and on all of them.
-fn threads(report: &Report) -> Table {
+fn threads(report: &PaperReport) -> ReportTable {
     let n = report.machine.threads;
     let mut head = owned(["scene", "cover", "patches"]);
     for way in CPU {
         let name = way.name();
         head.extend([format!("{name}, 1 thread"), format!("{n} threads"), "gain".to_owned()]);
     }
-    let cells = |timed: Option<&Timed>| {
+    let cells = |timed: Option<&FrameTiming>| {
         let time = |spent: Option<Spent>| spent.map(|s| pair(s.wall_ms)).unwrap_or_default();
         let gain = timed.and_then(|timed| timed.gain).map(|gain| format!("{gain:.2}"));
         let [one, all] = [timed.and_then(|t| t.one), timed.and_then(|t| t.all)].map(time);
         [one, all, gain.unwrap_or_default()]
     };
-    let line = |row: &Row| {
+    let line = |row: &SceneRow| {
         let times = CPU.into_iter().flat_map(|way| cells(row.method(way)));
         start(row).into_iter().chain(times).collect()
     };
-    Table {
+    ReportTable {
         title: "Threads: time that passes".to_owned(),
         words: 2,
         head,
@@ -93,9 +93,9 @@ fn threads(report: &Report) -> Table {
 }
 
 /// From a file to the first image.
-fn files(report: &Report) -> Table {
-    let line = |opening: &Opening| {
-        let Opening { patches, bytes, open_ms, first_ms, upload_ms } = opening;
+fn files(report: &PaperReport) -> ReportTable {
+    let line = |opening: &OpeningTime| {
+        let OpeningTime { patches, bytes, open_ms, first_ms, upload_ms } = opening;
         let upload = upload_ms.map(number).unwrap_or_default();
         let (mega, rate) = (1e-6 * *bytes as f64, 1e-3 * *bytes as f64 / open_ms);
         vec![
@@ -108,7 +108,7 @@ fn files(report: &Report) -> Table {
         ]
     };
     let head = ["patches", "MB", "open", "MB/s", "first image", "upload"];
-    Table {
+    ReportTable {
         title: "From a file to the first image".to_owned(),
         words: 0,
         head: owned(head),
@@ -120,12 +120,12 @@ fn files(report: &Report) -> Table {
 }
 
 /// Frames against the reference, and the negative control.
-fn differences(report: &Report) -> Table {
+fn differences(report: &PaperReport) -> ReportTable {
     let mut head = owned(["scene", "cover", "patches"]);
     for way in WAYS {
         head.extend([way.name().to_owned(), "control".to_owned()]);
     }
-    let line = |row: &Row| {
+    let line = |row: &SceneRow| {
         let cells = WAYS.into_iter().flat_map(|way| compared(row.method(way)));
         start(row).into_iter().chain(cells).collect()
     };
@@ -143,7 +143,7 @@ fn differences(report: &Report) -> Table {
     );
     let compared =
         report.rows.iter().filter(|row| row.methods.iter().any(|t| t.agreement.is_some()));
-    Table {
+    ReportTable {
         title: "Differences from the reference".to_owned(),
         words: 2,
         head,
@@ -153,12 +153,12 @@ fn differences(report: &Report) -> Table {
 }
 
 /// The difference that counts, and the control's.
-fn compared(timed: Option<&Timed>) -> [String; 2] {
+fn compared(timed: Option<&FrameTiming>) -> [String; 2] {
     let Some(agreement) = timed.and_then(|timed| timed.agreement) else {
         return Default::default();
     };
     let Agreement { difference, holds, control, .. } = agreement;
-    let is_double = timed.is_some_and(|timed| timed.method == Way::CpuF64.name());
+    let is_double = timed.is_some_and(|timed| timed.method == DrawingDevice::CpuF64.name());
     let text = |Difference { p99, largest }: Difference, is_good: bool| {
         let mark = if is_good { "" } else { "!" };
         format!("{mark}{:.0e}", if is_double { largest } else { p99 })
@@ -173,22 +173,22 @@ fn core(spent: Spent) -> String {
 }
 
 /// The ways of a single dataset.
-pub(super) fn methods(all: &[Timed]) -> Table {
+pub(super) fn methods(all: &[FrameTiming]) -> ReportTable {
     let head = owned(["method", "1 thread", "all threads", "processor of all"]);
-    let cell = |spent: Option<Spent>, time: fn(Spent) -> Summary| {
+    let cell = |spent: Option<Spent>, time: fn(Spent) -> FrameTimes| {
         spent.map(|spent| pair(time(spent))).unwrap_or_default()
     };
-    let line = |Timed { method, one, all, .. }: &Timed| {
+    let line = |FrameTiming { method, one, all, .. }: &FrameTiming| {
         let times = [(*one, true), (*all, true), (*all, false)];
         let cells = times
             .map(|(spent, is_wall)| cell(spent, if is_wall { |s| s.wall_ms } else { Spent::core }));
         [(*method).to_owned()].into_iter().chain(cells).collect()
     };
     let (title, rows) = ("Frames".to_owned(), all.iter().map(line).collect());
-    Table { title, words: 1, head, rows, note: String::new() }
+    ReportTable { title, words: 1, head, rows, note: String::new() }
 }
 
-fn pair(Summary { least, median }: Summary) -> String {
+fn pair(FrameTimes { least, median }: FrameTimes) -> String {
     format!("{} / {}", number(least), number(median))
 }
 

@@ -6,12 +6,12 @@ use rayon::ThreadPool;
 use serde::Serialize;
 
 use super::agreement::Agreement;
-use crate::cards::Cards;
-use crate::frames::{QuantityRenderer, Summary, Times, WAYS, Way};
+use crate::cards::BenchDevice;
+use crate::frames::{DrawingDevice, FrameTimes, QuantityRenderer, Times, WAYS};
 
 /// The frames of a scene by one way.
 #[derive(Debug, Serialize)]
-pub(super) struct Timed {
+pub(super) struct FrameTiming {
     pub(super) method: &'static str,
     /// On one thread, of what the CPU draws.
     pub(super) one: Option<Spent>,
@@ -24,19 +24,19 @@ pub(super) struct Timed {
 
 #[derive(Clone, Copy, Debug, Serialize)]
 pub(super) struct Spent {
-    pub(super) wall_ms: Summary,
+    pub(super) wall_ms: FrameTimes,
     /// Processor time of all threads; not of hardware, which has other processors.
-    pub(super) core_ms: Option<Summary>,
+    pub(super) core_ms: Option<FrameTimes>,
 }
 
 impl Spent {
     /// Processor time where there is one, else time that passes.
-    pub(super) fn core(self) -> Summary {
+    pub(super) fn core(self) -> FrameTimes {
         self.core_ms.unwrap_or(self.wall_ms)
     }
 }
 
-impl Timed {
+impl FrameTiming {
     pub(super) fn is_good(&self) -> bool {
         self.agreement.is_none_or(|agreement| agreement.is_good())
     }
@@ -63,7 +63,7 @@ impl Pools {
 /// A field with all that draws it, and what its frames take.
 pub(super) struct Turns<'d> {
     pub(super) subject: QuantityRenderer<'d>,
-    /// What the colours alone are made of, where nothing else is drawn.
+    /// The rasters that are coloured, where nothing else is drawn.
     pub(super) rasters: Option<(Raster<f64>, Raster<f32>)>,
     one: [Times; 4],
     all: [Times; 4],
@@ -79,7 +79,7 @@ impl<'d> Turns<'d> {
         &mut self,
         view: &View,
         pools: &Pools,
-        mut cards: Option<&mut Cards>,
+        mut cards: Option<&mut BenchDevice>,
         counts: bool,
     ) -> anyhow::Result<()> {
         let Self { subject, rasters, one, all } = self;
@@ -97,8 +97,12 @@ impl<'d> Turns<'d> {
         Ok(())
     }
 
-    /// What was measured of each way; `has_core` if the processor time of devices counts.
-    pub(super) fn timed(&self, has_core: bool, agreements: &[Option<Agreement>; 4]) -> Vec<Timed> {
+    /// Returns the times of each way; `has_core` if the processor time of devices counts.
+    pub(super) fn timed(
+        &self,
+        has_core: bool,
+        agreements: &[Option<Agreement>; 4],
+    ) -> Vec<FrameTiming> {
         let timed = |k: usize| {
             let has_core = WAYS[k].is_on_cpu() || has_core;
             let spent = |times: &Times| {
@@ -108,7 +112,7 @@ impl<'d> Turns<'d> {
             let (one, all) = (spent(&self.one[k]), spent(&self.all[k]));
             let gain = one.zip(all).map(|(one, all)| one.wall_ms.median / all.wall_ms.median);
             one.or(all)?;
-            Some(Timed { method: WAYS[k].name(), one, all, gain, agreement: agreements[k] })
+            Some(FrameTiming { method: WAYS[k].name(), one, all, gain, agreement: agreements[k] })
         };
         (0..WAYS.len()).filter_map(timed).collect()
     }
@@ -118,12 +122,12 @@ impl<'d> Turns<'d> {
 fn on_cpu(
     subject: &mut QuantityRenderer<'_>,
     rasters: Option<&(Raster<f64>, Raster<f32>)>,
-    way: Way,
+    way: DrawingDevice,
     view: &View,
 ) -> anyhow::Result<bool> {
     match rasters {
         None => return subject.draw(way, view, None),
-        Some((wide, _)) if way == Way::CpuF64 => subject.color(wide, view)?,
+        Some((wide, _)) if way == DrawingDevice::CpuF64 => subject.color(wide, view)?,
         Some((_, narrow)) => subject.color(narrow, view)?,
     }
     Ok(true)

@@ -8,8 +8,8 @@ use std::process::{Command, Output};
 
 use ppum_bench::page::replaced;
 use ppum_bench::solver::Fit;
-use ppum_bench::synthetic::Recipe;
-use ppum_bench::table::Table;
+use ppum_bench::synthetic::CrackRecipe;
+use ppum_bench::table::ReportTable;
 use serde_json::{Value, json};
 
 /// Variables that hide all Vulkan drivers: of new loaders and of old ones.
@@ -166,7 +166,7 @@ fn without_a_driver_the_cpu_is_measured() {
 #[test]
 fn a_dataset_is_drawn() {
     let folder = tempfile::tempdir().unwrap();
-    let dataset = Recipe::new(3, 5).dataset().unwrap();
+    let dataset = CrackRecipe::new(3, 5).dataset().unwrap();
     ppum_format::write(&dataset, &folder.path().join("plate.h5")).unwrap();
     let frames = report(folder.path(), "frames plate.h5 --quick --frames 2 --threads 2");
     assert_eq!(frames["patches"], dataset.steps[0].partition.len());
@@ -231,7 +231,7 @@ fn pages_need_their_marks() {
 #[test]
 fn columns_stand_below_each_other() {
     let words = |row: [&str; 3]| row.map(str::to_owned).to_vec();
-    let table = Table {
+    let table = ReportTable {
         title: "Title".into(),
         words: 1,
         head: words(["cover", "patches", "none"]),

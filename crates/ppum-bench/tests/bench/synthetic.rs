@@ -6,7 +6,7 @@ use ppum::dataset::Step;
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
-use ppum_bench::synthetic::{DOMAIN, FIRST_TIP, HALF, KAPPA, Recipe, TIPS, TWICE_MU};
+use ppum_bench::synthetic::{CrackRecipe, DOMAIN, FIRST_TIP, HALF, KAPPA, TIPS, TWICE_MU};
 
 /// u_y in closed form.
 fn exact(p: Vec2) -> f64 {
@@ -16,7 +16,7 @@ fn exact(p: Vec2) -> f64 {
 }
 
 /// Local values u_y of all patches at a place.
-fn values(recipe: Recipe, p: Vec2) -> Vec<f64> {
+fn values(recipe: CrackRecipe, p: Vec2) -> Vec<f64> {
     let dataset = recipe.dataset().unwrap();
     let field = Field::new(&dataset, 0).unwrap();
     let partition = field.step.partition.boxes();
@@ -50,7 +50,7 @@ fn patches_agree_to_their_order() {
     ];
     for (order, enriched) in [(1, 0.25), (2, 0.25), (2, 1.0), (4, 0.25), (5, 1.0)] {
         for p in places {
-            let of = |level| Recipe { order, enriched, ..Recipe::new(level, level) };
+            let of = |level| CrackRecipe { order, enriched, ..CrackRecipe::new(level, level) };
             let [coarse, fine] = [5, 6].map(|level| values(of(level), p));
             assert!(coarse.len() >= 2 && fine.len() >= 2, "a border of patches");
             let (ratio, limit) = (span(&coarse) / span(&fine), f64::from(2 << order));
@@ -66,7 +66,7 @@ fn patches_agree_to_their_order() {
 /// With all of the area enriched every patch has functions of one tip.
 #[test]
 fn all_is_enriched() {
-    let dataset = Recipe { enriched: 1.0, ..Recipe::new(5, 9) }.dataset().unwrap();
+    let dataset = CrackRecipe { enriched: 1.0, ..CrackRecipe::new(5, 9) }.dataset().unwrap();
     let data = &dataset.steps[0].fields[0];
     for patch in 0..dataset.steps[0].partition.len() {
         let blocks = data.blocks(patch).filter(|&b| data.block_function[b] >= FIRST_TIP);
@@ -78,7 +78,7 @@ fn all_is_enriched() {
 #[test]
 fn a_quarter_is_enriched() {
     for (level, tip_level) in [(2, 2), (4, 4), (5, 5), (3, 9)] {
-        let dataset = Recipe::new(level, tip_level).dataset().unwrap();
+        let dataset = CrackRecipe::new(level, tip_level).dataset().unwrap();
         let Step { partition, fields, .. } = &dataset.steps[0];
         let partition = partition.boxes();
         let has_tip = |k: usize| {

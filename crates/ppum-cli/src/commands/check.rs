@@ -13,7 +13,7 @@ use crate::standard;
 /// List all errors of a dataset, for those who write such files
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
+pub(crate) struct CheckArgs {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
@@ -28,18 +28,18 @@ Examples:
   ppum check plate.h5 --json | jq -r '.errors[].object'";
 
 #[derive(Debug, Serialize)]
-struct Report {
+struct CheckReport {
     file: String,
-    errors: Vec<Row>,
+    errors: Vec<ErrorRow>,
 }
 
 #[derive(Debug, Serialize)]
-struct Row {
+struct ErrorRow {
     object: Option<String>,
     message: String,
 }
 
-impl Args {
+impl CheckArgs {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
         let name = standard::name(&self.file);
         let errors = if standard::is_standard(&self.file) {
@@ -47,13 +47,13 @@ impl Args {
         } else {
             ppum_format::diagnose(&self.file)
         };
-        let row = |error: &ReadError| Row {
+        let row = |error: &ReadError| ErrorRow {
             object: error.place().map(str::to_owned),
             message: error.to_string(),
         };
-        let rows: Vec<Row> = errors.iter().map(row).collect();
+        let rows: Vec<ErrorRow> = errors.iter().map(row).collect();
         if self.json {
-            json(out, &Report { file: self.file.display().to_string(), errors: rows })?;
+            json(out, &CheckReport { file: self.file.display().to_string(), errors: rows })?;
         } else {
             rows.iter().try_for_each(|row| writeln!(out, "{}", row.message))?;
         }

@@ -10,7 +10,7 @@ use clap_complete::{Shell, generate};
 /// docs/cli.md says where each shell looks for them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
+pub(crate) struct CompletionsArgs {
     /// Shell
     #[arg(value_name = "SHELL")]
     shell: Shell,
@@ -22,7 +22,7 @@ Examples:
   ppum completions zsh > ~/.zfunc/_ppum
   ppum completions fish > ~/.config/fish/completions/ppum.fish";
 
-impl Args {
+impl CompletionsArgs {
     /// Does the work; `program` is the command line as a whole.
     pub(crate) fn run(&self, out: &mut dyn Write, mut program: Command) -> anyhow::Result<()> {
         let mut script = Vec::new();

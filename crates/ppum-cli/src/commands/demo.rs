@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail, ensure};
 
-use crate::output::Output;
+use crate::output::StandardStream;
 use crate::target;
 
 /// Solve the centre crack and draw it
@@ -14,8 +14,8 @@ use crate::target;
 /// Runs the commands it prints: they can be repeated and changed one by one.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
-    /// Folder for the problem file, the dataset and the pictures; made if there is none
+pub(crate) struct DemoArgs {
+    /// Folder for the problem file, the dataset and the images; made if there is none
     #[arg(short, long, value_name = "DIR", default_value = "out")]
     output: PathBuf,
 }
@@ -49,11 +49,11 @@ const NEXT: [&str; 7] = [
 ];
 
 /// Runs a command line, given word by word.
-pub(crate) type Run<'a> = &'a dyn Fn(Vec<OsString>, &mut Output) -> anyhow::Result<()>;
+pub(crate) type Run<'a> = &'a dyn Fn(Vec<OsString>, &mut StandardStream) -> anyhow::Result<()>;
 
-impl Args {
+impl DemoArgs {
     /// Does the work; `run` runs a command line.
-    pub(crate) fn run(&self, out: &mut Output, run: Run<'_>) -> anyhow::Result<()> {
+    pub(crate) fn run(&self, out: &mut StandardStream, run: Run<'_>) -> anyhow::Result<()> {
         let problem = self.output.join("centre-crack.toml");
         self.check(&problem)?;
         target::save(&problem, |out| out.write_all(PROBLEM.as_bytes()))?;

@@ -8,15 +8,15 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, ensure};
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum_page::{LARGEST, SHAPE, Start, StartError, View, html};
+use ppum_page::{LARGEST, PageStart, PageView, SHAPE, StartError, html};
 use ppum_scene::overlays::Overlays;
-use ppum_scene::place::{ImageExtent, Place};
-use ppum_scene::scene::{Scene, Subject};
+use ppum_scene::place::{ImageExtent, ViewRegion};
+use ppum_scene::scene::{SceneRequest, Subject};
 use ppum_scene::shot::FieldSource;
 
 use crate::dataset::{check_shown, field, named};
-use crate::given::{self, Given, parts};
-use crate::output::{Output, tell};
+use crate::formula_text::{self, FormulaText, parts};
+use crate::output::{StandardStream, tell};
 use crate::standard::{self, is_standard};
 use crate::target;
 
@@ -29,12 +29,12 @@ use crate::target;
 /// A mesh, .vtu, has triangles that resolve the quantities to a tolerance, and points with the
 /// values of both sides on cracks. The file and the command tell the largest difference from the
 /// field, measured at random points; if it is more than the tolerance allows, the exit status is 3.
-/// Of a series .vtkhdf has all steps in one file, .pvd lists a
-/// .vtu file for each. A .vtp file has cracks, tips with their K, the border, supports, loads and,
-/// with --isolines, those of a quantity as lines and points.
+/// For a series, .vtkhdf has all steps in one file, .pvd lists a .vtu file for each. A .vtp file
+/// has cracks, tips with their K, the border, supports, loads and, with --isolines, those of a
+/// quantity as lines and points.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
+pub(crate) struct ExportArgs {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
@@ -51,9 +51,9 @@ pub(crate) struct Args {
     #[arg(long, value_name = "K")]
     step: Option<usize>,
     #[command(flatten)]
-    place: Place,
+    place: ViewRegion,
     #[command(flatten)]
-    scene: Scene,
+    scene: SceneRequest,
     #[command(flatten)]
     accuracy: mesh::Options,
 }
@@ -72,8 +72,8 @@ Examples:
   ppum export plate.h5 -o lines.vtp -q von-mises --isolines auto
   ppum export growth.h5 -o growth.pvd -q 'displacement,s1'";
 
-impl Args {
-    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+impl ExportArgs {
+    pub(crate) fn run(&self, out: &mut StandardStream) -> anyhow::Result<()> {
         if mesh::is_meant(&self.output) {
             return self.write_mesh(out);
         }
@@ -92,13 +92,13 @@ impl Args {
         Ok(writeln!(out, "wrote {}: {}", self.output.display(), told(&page))?)
     }
 
-    fn write_mesh(&self, out: &mut Output) -> anyhow::Result<()> {
+    fn write_mesh(&self, out: &mut StandardStream) -> anyhow::Result<()> {
         target::check(&self.output, target::FileKind::Export, self.inputs())?;
         self.check_no_look()?;
         let bytes = self.bytes(standard::DATASET)?;
         let hash = mesh::hash(&bytes);
         let dataset = named(&self.file, ppum_format::from_bytes(bytes))?;
-        let job = mesh::Job {
+        let job = mesh::ExportJob {
             dataset: &dataset,
             hash: &hash,
             output: &self.output,
@@ -118,7 +118,8 @@ impl Args {
         let isolines = isolines.filter(|_| mesh::is_lines(&self.output));
         let overlays = Overlays { isolines, ..Overlays::default() };
         ensure!(
-            !self.place.is_given() && self.scene == Scene { overlays, ..Scene::default() },
+            !self.place.is_given()
+                && self.scene == SceneRequest { overlays, ..SceneRequest::default() },
             "a mesh has no view, colours, overlays, deformed or mirrored bodies: these options are \
              for pages, --isolines for lines too; end -o in .html or .vtp"
         );
@@ -127,7 +128,8 @@ impl Args {
 
     /// The files that are read.
     fn inputs(&self) -> impl Iterator<Item = &Path> + Clone {
-        let formulas = self.quantity.iter().flat_map(|list| parts(list)).filter_map(given::file);
+        let formulas =
+            self.quantity.iter().flat_map(|list| parts(list)).filter_map(formula_text::file);
         [self.file.as_path()].into_iter().chain(formulas)
     }
 
@@ -139,27 +141,27 @@ impl Args {
         read.with_context(|| format!("cannot read {}", self.file.display()))
     }
 
-    /// What the page shows first, if the dataset has it.
-    fn start(&self, dataset: &Dataset) -> anyhow::Result<Start> {
+    /// Returns the initial view of the page, if the dataset has it.
+    fn start(&self, dataset: &Dataset) -> anyhow::Result<PageStart> {
         let field = field(dataset, self.step)?;
         let file = match self.file.file_name() {
             Some(name) if !is_standard(&self.file) => name.to_string_lossy().into_owned(),
             _ => "dataset.h5".to_owned(),
         };
         let (scene, view) = (self.scene(&field)?, self.view(&field)?);
-        Start::new(scene, FieldSource::of(dataset, &field), view, file).map_err(explained)
+        PageStart::new(scene, FieldSource::of(dataset, &field), view, file).map_err(explained)
     }
 
-    fn scene(&self, field: &Field<'_>) -> anyhow::Result<Scene> {
-        let quantity = self.quantity.as_deref().map(Given::read).transpose()?;
+    fn scene(&self, field: &Field<'_>) -> anyhow::Result<SceneRequest> {
+        let quantity = self.quantity.as_deref().map(FormulaText::read).transpose()?;
         quantity.iter().try_for_each(|given| check_shown(field, given))?;
         let quantity = quantity.map(|given| given.text.trim().to_owned());
         let subject = Subject { step: self.step, ..Subject::default() };
-        Ok(Scene { subject, quantity, ..self.scene.clone() })
+        Ok(SceneRequest { subject, quantity, ..self.scene.clone() })
     }
 
     /// The view, if one is asked for.
-    fn view(&self, field: &Field<'_>) -> anyhow::Result<Option<View>> {
+    fn view(&self, field: &Field<'_>) -> anyhow::Result<Option<PageView>> {
         if !self.place.is_given() {
             return Ok(None);
         }

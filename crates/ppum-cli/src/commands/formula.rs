@@ -14,26 +14,27 @@ use anyhow::Context as _;
 use ppum::formula::Table;
 use ppum_problem::read_table;
 
-use crate::given::Given;
+use crate::formula_text::FormulaText;
 use crate::number::json;
 use ppum_scene::arguments::{assignment, value};
-use report::Report;
-use subject::{Of, Question};
+use report::FormulaReport;
+use subject::{FormulaQuestion, Of};
 
 /// Show what a formula means, its derivatives, and where it is not smooth
 ///
 /// A name of the library in place of a formula shows what is behind it; --list lists all.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
+pub(crate) struct FormulaArgs {
     /// Formula, or @FILE with one, or a name of the library
     #[arg(required_unless_present = "list", conflicts_with = "list", allow_hyphen_values = true)]
     formula: Option<String>,
     /// List the built-in functions
     #[arg(long)]
     list: bool,
-    /// What it is a formula of: `plane` (x, y, r, theta), `weight` (t), quantities of `elasticity`
-    /// or `poisson`, or those of a dataset FILE.h5 [default: what the formula's names fit]
+    /// Variables that the formula may use: `plane` (x, y, r, theta), `weight` (t), quantities of
+    /// `elasticity` or `poisson`, or those of a dataset FILE.h5 [default: what the formula's names
+    /// fit]
     #[arg(long, value_name = "WHAT")]
     of: Option<Of>,
     /// Print values at a point; r and theta follow from x and y
@@ -64,18 +65,18 @@ Examples:
   ppum formula 'max(s1, 0)' --of plate.h5
   ppum formula westergaard --wgsl > westergaard.wgsl";
 
-impl Args {
+impl FormulaArgs {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
         if self.list {
             return library::list(out, self.json);
         }
-        let question = Question {
-            given: Given::read(self.formula.as_deref().unwrap_or_default())?,
+        let question = FormulaQuestion {
+            given: FormulaText::read(self.formula.as_deref().unwrap_or_default())?,
             parameters: &self.parameter,
             tables: self.tables()?,
         };
         let subjects = question.subjects(self.of.as_ref())?;
-        let report = Report::new(&subjects, &self.at, self.wgsl)?;
+        let report = FormulaReport::new(&subjects, &self.at, self.wgsl)?;
         match (self.json, self.wgsl) {
             (true, _) => json(out, &report)?,
             (false, true) => text::write_wgsl(out, &report)?,

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, ensure};
 use ppum_import::{BodyDrawing, DrawingFormat, ImportOptions};
 
-use crate::output::{Output, tell};
+use crate::output::{StandardStream, tell};
 use crate::standard::is_standard;
 use crate::target;
 
@@ -15,11 +15,11 @@ use crate::target;
 ///
 /// The closed curve around all others is the outline, closed curves in it are holes, open curves
 /// and those whose layer, group or label begins with `crack` are cracks. Layers, groups and labels
-/// become names for loads. Material and loads are left as comments, to be filled in. What cannot be
-/// read is named with its line.
+/// become names for loads. Material and loads are left as comments, to be filled in. Entities that
+/// cannot be read are named with their line.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
+pub(crate) struct ImportArgs {
     /// Drawing: .dxf or .svg, a mesh .msh or a geometry .geo of Gmsh
     #[arg(value_name = "DRAWING")]
     file: PathBuf,
@@ -48,8 +48,8 @@ Examples:
 /// Longest drawing, in bytes.
 const LONGEST: u64 = 1 << 28;
 
-impl Args {
-    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+impl ImportArgs {
+    pub(crate) fn run(&self, out: &mut StandardStream) -> anyhow::Result<()> {
         let beside = self.file.with_extension("toml");
         let output = self.output.as_deref().unwrap_or(&beside);
         let format = DrawingFormat::of_extension(&extension(&self.file));
@@ -71,7 +71,12 @@ impl Args {
         self.write(&drawing, output, out)
     }
 
-    fn write(&self, drawing: &BodyDrawing, output: &Path, out: &mut Output) -> anyhow::Result<()> {
+    fn write(
+        &self,
+        drawing: &BodyDrawing,
+        output: &Path,
+        out: &mut StandardStream,
+    ) -> anyhow::Result<()> {
         let name = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
         let text = drawing.problem_file(&name(self.file.file_stem()), &name(self.file.file_name()));
         ensure!(

@@ -24,14 +24,14 @@ use crate::number::json;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 #[command(group(ArgGroup::new("subject").required(true).args(["file", "gpu"])))]
-pub(crate) struct Args {
+pub(crate) struct InfoArgs {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: Option<PathBuf>,
     /// List the graphics adapters of this machine
     #[arg(long)]
     gpu: bool,
-    /// Find the smallest and the largest value of a quantity in the plate, with their places, not
+    /// Find the smallest and the largest value of a quantity in the body, with their places, not
     /// just over pixels
     #[arg(long, value_name = "Q", requires = "file", allow_hyphen_values = true)]
     extrema: Option<String>,
@@ -55,7 +55,7 @@ Examples:
   ppum info --gpu
   ppum info plate.h5 --json | jq -r '.steps[0].quantities[]'";
 
-impl Args {
+impl InfoArgs {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
         match &self.file {
             Some(file) => self.dataset(file, out),
@@ -71,7 +71,7 @@ impl Args {
         if let Some(given) = &self.extrema {
             return self.extrema(&dataset, given, out);
         }
-        let mut report = report::Report::new(file.display().to_string(), &dataset, step)?;
+        let mut report = report::InfoReport::new(file.display().to_string(), &dataset, step)?;
         report.series = rows;
         if self.json {
             json(out, &report)?;
@@ -83,7 +83,7 @@ impl Args {
 
     fn extrema(&self, dataset: &Dataset, given: &str, out: &mut dyn Write) -> anyhow::Result<()> {
         let field = field(dataset, self.step)?;
-        let report = extrema::Report::new(&field, given, &quantity(&field, given)?)?;
+        let report = extrema::ExtremaReport::new(&field, given, &quantity(&field, given)?)?;
         if self.json {
             json(out, &report)?;
         } else {
@@ -93,7 +93,7 @@ impl Args {
     }
 
     fn adapters(&self, out: &mut dyn Write) -> anyhow::Result<()> {
-        let report = adapters::Report::new();
+        let report = adapters::AdaptersReport::new();
         if self.json {
             json(out, &report)?;
         } else {
@@ -104,12 +104,12 @@ impl Args {
 }
 
 /// A line for each step.
-fn rows(file: &Path, all: &Series) -> anyhow::Result<Vec<series::StepRow>> {
+fn rows(file: &Path, all: &Series) -> anyhow::Result<Vec<series::SeriesStepRow>> {
     ensure!(
         all.len() > 1,
         "{}: --steps lists the steps of a series, but there is one alone",
         file.display()
     );
-    let row = |number| Ok(series::StepRow::new(number, &named(file, all.results(number))?));
+    let row = |number| Ok(series::SeriesStepRow::new(number, &named(file, all.results(number))?));
     (0..all.len()).map(row).collect()
 }

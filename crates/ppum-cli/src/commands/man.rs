@@ -11,7 +11,7 @@ use crate::target;
 /// Print the manual page, or write the pages of all commands
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
+pub(crate) struct ManArgs {
     /// Folder for the pages of all commands, made if there is none
     #[arg(short, long, value_name = "DIR")]
     output: Option<PathBuf>,
@@ -22,7 +22,7 @@ Examples:
   ppum man | man -l -
   ppum man -o ~/.local/share/man/man1";
 
-impl Args {
+impl ManArgs {
     /// Does the work; `program` is the command line as a whole.
     pub(crate) fn run(&self, out: &mut dyn Write, program: Command) -> anyhow::Result<()> {
         let Some(folder) = &self.output else {

@@ -5,15 +5,15 @@ use std::path::PathBuf;
 
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum::sample::Place;
+use ppum::sample::SidedPoint;
 use ppum::sides::Segments;
 use ppum::vec2::Vec2;
 use serde::Serialize;
 use serde::ser::Serializer;
 
 use crate::dataset::{field, open_step, quantities};
-use crate::number::{Number, json};
-use crate::replacements::Replacements;
+use crate::number::{JsonNumber, json};
+use crate::replacements::ReplacementArgs;
 use ppum_scene::arguments::point;
 
 /// Print exact values at points
@@ -21,7 +21,7 @@ use ppum_scene::arguments::point;
 /// On a crack the values of both sides are printed: `above` is the left of the crack's direction.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
+pub(crate) struct ProbeArgs {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
@@ -36,7 +36,7 @@ pub(crate) struct Args {
     #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
     quantity: Vec<String>,
     #[command(flatten)]
-    replacements: Replacements,
+    replacements: ReplacementArgs,
     /// Step of the series, from 0 [default: the last]
     #[arg(long, value_name = "K")]
     step: Option<usize>,
@@ -59,13 +59,13 @@ const NAME: usize = 12;
 const LONG_NAME: usize = 40;
 
 #[derive(Debug, Serialize)]
-struct Report {
-    points: Vec<Row>,
+struct ProbeReport {
+    points: Vec<ProbeRow>,
 }
 
 /// The values at one point, on one side of a crack if it lies on one.
 #[derive(Debug, Serialize)]
-struct Row {
+struct ProbeRow {
     at: [f64; 2],
     #[serde(skip_serializing_if = "Option::is_none")]
     offset: Option<[f64; 2]>,
@@ -80,7 +80,7 @@ struct Row {
 
 /// Names and values in the order asked for; an object in JSON.
 #[derive(Debug)]
-struct NamedValues(Vec<(String, Number)>);
+struct NamedValues(Vec<(String, JsonNumber)>);
 
 impl Serialize for NamedValues {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
@@ -88,7 +88,7 @@ impl Serialize for NamedValues {
     }
 }
 
-impl Args {
+impl ProbeArgs {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
         let mut dataset = open_step(&self.file, self.step)?;
         self.replacements.apply(&mut dataset, self.step)?;
@@ -96,10 +96,10 @@ impl Args {
         let quantities = quantities(&field, &self.quantity)?;
         let segments = Segments::new(&field.step.cracks);
         let offset = self.offset.unwrap_or_default();
-        let places = self.at.iter().flat_map(|&at| Place::sides(&segments, at, offset));
+        let places = self.at.iter().flat_map(|&at| SidedPoint::sides(&segments, at, offset));
         let points: Vec<_> = places.map(|place| self.row(&field, &quantities, &place)).collect();
         if self.json {
-            json(out, &Report { points })?;
+            json(out, &ProbeReport { points })?;
         } else {
             points.iter().try_for_each(|row| row.write(out))?;
         }
@@ -107,13 +107,18 @@ impl Args {
     }
 
     /// The values at a point on a side.
-    fn row(&self, field: &Field<'_>, quantities: &[(String, Quantity)], place: &Place) -> Row {
+    fn row(
+        &self,
+        field: &Field<'_>,
+        quantities: &[(String, Quantity)],
+        place: &SidedPoint,
+    ) -> ProbeRow {
         let mut local = place.seen(field);
         let value = |(name, quantity): &(String, Quantity)| {
-            (name.clone(), Number(quantity.at(&mut local, place.offset, place.side)))
+            (name.clone(), JsonNumber(quantity.at(&mut local, place.offset, place.side)))
         };
         let values = NamedValues(quantities.iter().map(value).collect());
-        Row {
+        ProbeRow {
             at: place.anchor.into(),
             offset: self.offset.map(Vec2::into),
             side: place.on.map(|_| place.side.name()),
@@ -125,7 +130,7 @@ impl Args {
     }
 }
 
-/// True where a constant of the material jumps, but for the rounding of the place.
+/// True where a constant of the material jumps, except for the rounding of the place.
 fn is_on_interface(field: &Field<'_>, at: Vec2) -> bool {
     let size = field.domain.bounds.size();
     let step = ROUNDING * size.x.max(size.y);
@@ -144,7 +149,7 @@ fn is_on_interface(field: &Field<'_>, at: Vec2) -> bool {
 const ROUNDING: f64 = 1e-13;
 const JUMP: f64 = 1e-6;
 
-impl Row {
+impl ProbeRow {
     fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let [x, y] = self.at;
         write!(out, "({x:?}, {y:?})")?;

@@ -1,4 +1,4 @@
-//! `ppum render`: a picture of a quantity.
+//! `ppum render`: an image of a quantity.
 
 mod film;
 mod series;
@@ -10,36 +10,36 @@ use std::path::{Path, PathBuf};
 use ppum::field::Field;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::Labels;
-use ppum_render::png::Text;
+use ppum_render::png::TextChunk;
 use ppum_scene::deformed::words;
 use ppum_scene::engine::Engine;
-use ppum_scene::panels::{DrawnPanels, draw};
-use ppum_scene::range::Telling;
+use ppum_scene::image_job::ImageJob;
+use ppum_scene::panels::{PanelImages, draw};
+use ppum_scene::range::RangeLocations;
 use ppum_scene::request::{Panels, Request};
-use ppum_scene::scene::Scene;
-use ppum_scene::shot::{FieldSource, Shot};
-use ppum_scene::still::Still;
+use ppum_scene::scene::SceneRequest;
+use ppum_scene::shot::{FieldSource, RenderedImage};
 
 use crate::dataset::check_shown;
-use crate::given::Given;
+use crate::formula_text::FormulaText;
 use crate::look::LabelArgs;
 use crate::number::count;
-use crate::output::Output;
-use crate::progress::Bar;
+use crate::output::StandardStream;
+use crate::progress::ProgressLine;
 use crate::subject::QuantityArgs;
 use crate::{graphics, page, target, threads};
 use series::SeriesArgs;
 
 /// Draw a quantity, exactly at every pixel
 ///
-/// Each pixel's value is the field at the pixel's centre. Without --figure the picture is bare: one
+/// Each pixel's value is the field at the pixel's centre. Without --figure the image is bare: one
 /// pixel of the file is one pixel of the field, transparent outside the domain.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
+pub(crate) struct RenderArgs {
     #[command(flatten)]
     subject: QuantityArgs,
-    /// Picture to write, - for standard output (PNG); with --steps moving pictures too
+    /// Image to write, - for standard output (PNG); with --steps animations too
     #[arg(short, long, value_name = "OUT.png|svg|pdf|gif|apng")]
     output: PathBuf,
     #[command(flatten)]
@@ -48,7 +48,7 @@ pub(crate) struct Args {
     labels: LabelArgs,
     #[command(flatten)]
     request: Request,
-    /// Number of threads of the CPU [default: all cores]; the picture does not depend on it
+    /// Number of threads of the CPU [default: all cores]; the image does not depend on it
     #[arg(long, value_name = "N", value_parser = threads::number)]
     threads: Option<NonZeroUsize>,
 }
@@ -77,42 +77,42 @@ Examples:
   ppum render plate.h5 -o gpu.png --backend gpu
   ppum render plate.h5 -o deep.png --center 0.5,0 --width 1e-12 --range 0,1e7";
 
-/// What was made.
-enum Made {
-    Page(Sheet),
+/// The result of rendering.
+enum RenderOutput {
+    Page(RenderedPage),
     /// Files of steps, and what is told of them.
     Files(String),
 }
 
 /// A page with what is told of it.
-struct Sheet {
+struct RenderedPage {
     page: Canvas,
-    texts: Vec<Text>,
+    texts: Vec<TextChunk>,
     told: String,
 }
 
-impl Args {
-    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
-        let bar = Bar::new();
+impl RenderArgs {
+    pub(crate) fn run(&self, out: &mut StandardStream) -> anyhow::Result<()> {
+        let bar = ProgressLine::new();
         let Request { backend, precision, .. } = self.request;
         let engine = Engine::new(backend, precision, graphics::DRAW, &bar)?;
         let made = threads::with(self.threads, || self.made(&engine));
         page::warn(engine.into_notices());
         drop(bar);
         match made?? {
-            Made::Files(told) => Ok(writeln!(out, "wrote {told}")?),
-            Made::Page(Sheet { page, texts, told }) => {
+            RenderOutput::Files(told) => Ok(writeln!(out, "wrote {told}")?),
+            RenderOutput::Page(RenderedPage { page, texts, told }) => {
                 page::save(&self.output, &page, self.request.look.given_dpi(), &texts, &told, out)
             }
         }
     }
 
-    fn made(&self, engine: &Engine<'_>) -> anyhow::Result<Made> {
+    fn made(&self, engine: &Engine<'_>) -> anyhow::Result<RenderOutput> {
         let request = self.request(self.subject.listed());
         self.labels.check(&request)?;
         request.panels.check(&request.scene)?;
         if self.series.is_given() {
-            return self.all_steps(&request, engine).map(Made::Files);
+            return self.all_steps(&request, engine).map(RenderOutput::Files);
         }
         series::refuse_moving(&self.output)?;
         target::check(&self.output, target::FileKind::Picture, self.inputs())?;
@@ -127,10 +127,10 @@ impl Args {
             [source] if !request.panels.are_given() => self.one(source, request, engine),
             ref sources => self.panels(sources, &request, engine),
         }
-        .map(Made::Page)
+        .map(RenderOutput::Page)
     }
 
-    /// What is asked of the picture, of some quantities.
+    /// Builds the request for an image of some quantities.
     fn request(&self, mut quantities: Vec<String>) -> Request {
         let quantity = (quantities.len() == 1).then(|| quantities.swap_remove(0));
         let replacements = &self.subject.replacements;
@@ -139,7 +139,7 @@ impl Args {
         Request {
             labels: self.labels.texts(),
             panels: Panels { quantities, parts, ..request.panels },
-            scene: Scene { subject, quantity, ..request.scene },
+            scene: SceneRequest { subject, quantity, ..request.scene },
             ..request
         }
     }
@@ -150,13 +150,13 @@ impl Args {
         source: FieldSource<'_>,
         request: Request,
         engine: &Engine<'_>,
-    ) -> anyhow::Result<Sheet> {
-        let (page, shot) = Still::new(source, request)?.page(engine)?;
+    ) -> anyhow::Result<RenderedPage> {
+        let (page, shot) = ImageJob::new(source, request)?.page(engine)?;
         let ([columns, rows], by) = (page.size, &shot.by);
-        let colors = Telling::new(source.dataset, source.field).colors(&shot.picture);
+        let colors = RangeLocations::new(source.dataset, source.field).colors(&shot.picture);
         let (name, moved) = (&shot.name, deformation_note(&shot));
         let told = format!("{name}{moved}, {columns}x{rows} pixels, {colors}, {by}");
-        Ok(Sheet { texts: self.texts(&shot), page, told })
+        Ok(RenderedPage { texts: self.texts(&shot), page, told })
     }
 
     /// Draws each quantity of each plate in a panel.
@@ -165,7 +165,7 @@ impl Args {
         sources: &[FieldSource<'_>],
         request: &Request,
         engine: &Engine<'_>,
-    ) -> anyhow::Result<Sheet> {
+    ) -> anyhow::Result<RenderedPage> {
         let drawn = draw(sources, request, engine)?;
         let (replacements, shot) = (&self.subject.replacements, &drawn.shots[0]);
         let mut texts = drawn.texts(&self.subject.file_name());
@@ -174,15 +174,17 @@ impl Args {
         let names = names.collect::<Vec<_>>().join(", ");
         let ([columns, rows], by) = (drawn.page.size, &shot.by);
         let moved = deformation_note(shot);
-        let colors = self.colors(&Telling::new(sources[0].dataset, sources[0].field), &drawn);
+        let colors =
+            self.colors(&RangeLocations::new(sources[0].dataset, sources[0].field), &drawn);
         let told = format!("{names}{moved}, {columns}x{rows} pixels, {by}{colors}");
-        Ok(Sheet { page: drawn.page, texts, told })
+        Ok(RenderedPage { page: drawn.page, texts, told })
     }
 
-    /// What the colours of each panel mean, in lines of their own; those of one range once.
-    fn colors(&self, telling: &Telling<'_>, drawn: &DrawnPanels) -> String {
+    /// Writes the meaning of the colours of each panel, in lines of their own; those of one range
+    /// once.
+    fn colors(&self, telling: &RangeLocations<'_>, drawn: &PanelImages) -> String {
         let has_parts = self.subject.has_parts();
-        let line = |(shot, labels): (&Shot, &Labels)| {
+        let line = |(shot, labels): (&RenderedImage, &Labels)| {
             let letter = labels.title.split(' ').next().filter(|_| has_parts).unwrap_or_default();
             let name = format!("{letter} {}", shot.name);
             format!("\n  {}: {}", name.trim_start(), telling.colors(&shot.picture))
@@ -193,9 +195,8 @@ impl Args {
         drawn.shots.iter().zip(&drawn.labels).map(line).collect()
     }
 
-    /// The texts of a picture's file: what it shows, and what was done to the dataset and
-    /// the plate.
-    fn texts(&self, shot: &Shot) -> Vec<Text> {
+    /// The texts of an image's file: what it shows, and what was done to the dataset and the plate.
+    fn texts(&self, shot: &RenderedImage) -> Vec<TextChunk> {
         let mut texts = shot.texts(&self.subject.file_name());
         texts.extend(self.subject.replacements.notes().chain(shot.notes()));
         texts
@@ -209,12 +210,12 @@ impl Args {
 }
 
 /// Refuses quantities that a field does not have, in the words of the command line.
-fn check_all(field: &Field<'_>, texts: &[Given]) -> anyhow::Result<()> {
+fn check_all(field: &Field<'_>, texts: &[FormulaText]) -> anyhow::Result<()> {
     texts.iter().try_for_each(|given| check_shown(field, given))
 }
 
-/// Of the deformed plate the factor, and at how many pixels it lies over itself.
-fn deformation_note(shot: &Shot) -> String {
+/// For a deformed body, writes the factor, and at how many pixels it overlaps itself.
+fn deformation_note(shot: &RenderedImage) -> String {
     match (shot.factor.map(words), shot.overlaps) {
         (None, _) => String::new(),
         (Some(factor), 0) => format!(", {factor}"),
@@ -229,18 +230,18 @@ fn deformation_note(shot: &Shot) -> String {
 mod tests {
     use std::ffi::OsString;
 
-    use ppum_render::range::Range;
+    use ppum_render::range::RangeChoice;
     use ppum_render::samples::Samples;
     use ppum_render::scale::Scale;
-    use ppum_scene::colors::Colors;
+    use ppum_scene::colors::ColorOptions;
     use ppum_scene::command;
-    use ppum_scene::deformed::Factor;
+    use ppum_scene::deformed::Magnification;
     use ppum_scene::engine::{Backend, Precision};
-    use ppum_scene::look::{BarName, Look, ThemeName};
-    use ppum_scene::overlays::{Levels, Overlay, Overlays};
+    use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays};
+    use ppum_scene::page_style::{BarName, PageStyle, ThemeName};
     use ppum_scene::paper::PaperSize;
-    use ppum_scene::place::Place;
-    use ppum_scene::request::Texts;
+    use ppum_scene::place::ViewRegion;
+    use ppum_scene::request::FigureTexts;
     use ppum_scene::scene::Subject;
     use ppum_testkit::random::Random;
 
@@ -265,21 +266,21 @@ mod tests {
         (0..2).map(pair).filter(|(_, formula)| formula != formulas[0]).collect()
     }
 
-    fn place(random: &mut Random) -> Place {
+    fn place(random: &mut Random) -> ViewRegion {
         let [a, b, c, d] = [(); 4].map(|()| random.between(-2.0, 2.0));
         let width = 10f64.powf(random.between(-12.0, 1.0));
         match random.below(4) {
-            0 => Place::default(),
-            1 => Place { view: Some([a, b, c, d]), ..Place::default() },
-            2 => Place { center: Some([a, b]), width: Some(width), ..Place::default() },
+            0 => ViewRegion::default(),
+            1 => ViewRegion { view: Some([a, b, c, d]), ..ViewRegion::default() },
+            2 => ViewRegion { center: Some([a, b]), width: Some(width), ..ViewRegion::default() },
             _ => {
                 let zoom = maybe(random, |_| 1.0 / width);
-                Place { tip: Some(random.below(9)), zoom, ..Place::default() }
+                ViewRegion { tip: Some(random.below(9)), zoom, ..ViewRegion::default() }
             }
         }
     }
 
-    fn look(random: &mut Random) -> Look {
+    fn look(random: &mut Random) -> PageStyle {
         let size = maybe(random, |r| [r.below(4000) as u32 + 1, 7]);
         let inches = maybe(random, |r| PaperSize {
             width: r.between(0.1, 9.0),
@@ -289,7 +290,7 @@ mod tests {
         let ticks = ticks.iter().filter(|_| is(random)).map(|text| text.parse().unwrap()).collect();
         let is_free = inches.is_none();
         let cm = maybe(random, |_| PaperSize { width: 8.6, height: None }).filter(|_| is_free);
-        Look {
+        PageStyle {
             size: size.filter(|_| is_free && cm.is_none()),
             cm,
             inches,
@@ -302,9 +303,13 @@ mod tests {
         }
     }
 
-    fn colors(random: &mut Random) -> Colors {
-        let ranges = [Range::Full, Range::Fixed(-0.125, 3.0), Range::Percentiles(2.0, 97.5)];
-        Colors {
+    fn colors(random: &mut Random) -> ColorOptions {
+        let ranges = [
+            RangeChoice::Full,
+            RangeChoice::Fixed(-0.125, 3.0),
+            RangeChoice::Percentiles(2.0, 97.5),
+        ];
+        ColorOptions {
             colormap: maybe(random, |r| text(r, &["vik_r", "a file.json"])),
             range: maybe(random, |r| r.pick(&ranges)).unwrap_or_default(),
             scale: random.pick(&[Scale::Linear, Scale::Log, Scale::SymLog]),
@@ -316,7 +321,7 @@ mod tests {
     }
 
     fn overlays(random: &mut Random) -> Overlays {
-        let levels = [Levels::Auto, Levels::Count(5), Levels::At(vec![-0.75])];
+        let levels = [IsolineLevels::Auto, IsolineLevels::Count(5), IsolineLevels::At(vec![-0.75])];
         let isolines = maybe(random, |r| levels[r.below(3)].clone());
         Overlays {
             shown: (0..random.below(4)).map(|_| random.pick(&Overlay::ALL)).collect(),
@@ -328,8 +333,8 @@ mod tests {
         }
     }
 
-    fn scene(random: &mut Random) -> Scene {
-        let factors = [Factor::Auto, Factor::Given(-0.013)];
+    fn scene(random: &mut Random) -> SceneRequest {
+        let factors = [Magnification::Auto, Magnification::Given(-0.013)];
         let deformed = maybe(random, |r| r.pick(&factors));
         let subject = Subject {
             step: maybe(random, |r| r.below(99)),
@@ -338,7 +343,7 @@ mod tests {
             weight: maybe(random, |r| text(r, &["bump", "-t + 1"])),
             quantities: pairs(random, "stretch"),
         };
-        Scene {
+        SceneRequest {
             subject,
             quantity: maybe(random, |r| text(r, &["-uy", "max(ux, hypot(uy, 1))", "patch:level"])),
             colors: colors(random),
@@ -351,7 +356,7 @@ mod tests {
         }
     }
 
-    fn panels(random: &mut Random, scene: &mut Scene) -> Panels {
+    fn panels(random: &mut Random, scene: &mut SceneRequest) -> Panels {
         let list = |texts: &[&str]| texts.iter().map(|&text| text.to_owned()).collect::<Vec<_>>();
         let quantities = maybe(random, |_| list(&["ux", "max(ux, uy)", "-s1"])).unwrap_or_default();
         let parts = maybe(random, |_| list(&["all", "jump", "patch:3"])).unwrap_or_default();
@@ -369,7 +374,7 @@ mod tests {
             figure: is(random),
             blank: is(random),
             look: look(random),
-            labels: Texts {
+            labels: FigureTexts {
                 title: label(random),
                 x: label(random),
                 y: label(random),

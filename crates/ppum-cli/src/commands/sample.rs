@@ -10,30 +10,30 @@ use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum::sample;
 use ppum::vec2::Rect;
-use ppum_scene::table::Table;
+use ppum_scene::table::NumberTable;
 
 use crate::dataset::{field, open_step, quantities};
-use crate::given::{self, parts};
-use crate::output::Output;
-use crate::profile::{Profile, check_grid, listed, save};
-use crate::replacements::Replacements;
+use crate::formula_text::{self, parts};
+use crate::output::StandardStream;
+use crate::profile::{ProfileArgs, check_grid, listed, save};
+use crate::replacements::ReplacementArgs;
 use crate::standard::is_standard;
 use crate::target;
 use ppum_scene::arguments::{corners, size};
 
 /// Write exact values along a line, a crack or a circle, at points or on a grid
 ///
-/// A table as CSV or NPY (numpy), by the extension of the output. Of a point on a crack there are
-/// two rows, one for each side; a grid has the upper side alone.
+/// A table as CSV or NPY (numpy), by the extension of the output. A point on a crack gives two
+/// rows, one for each side; a grid has the upper side alone.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 #[command(group = clap::ArgGroup::new("where").required(true))]
-pub(crate) struct Args {
+pub(crate) struct SampleArgs {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
     #[command(flatten)]
-    profile: Profile,
+    profile: ProfileArgs,
     /// At the points of a text file, - for standard input: a line with x and y for each
     #[arg(long, value_name = "P.csv", group = "where", conflicts_with = "count")]
     points: Option<PathBuf>,
@@ -50,7 +50,7 @@ pub(crate) struct Args {
     #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
     quantity: Vec<String>,
     #[command(flatten)]
-    replacements: Replacements,
+    replacements: ReplacementArgs,
     /// Step of the series, from 0 [default: the last]
     #[arg(long, value_name = "K")]
     step: Option<usize>,
@@ -67,8 +67,8 @@ Examples:
   ppum sample plate.h5 --grid 400x300 -q von-mises -o field.npy
   ppum sample plate.h5 --points gauges.csv -q 'exx,eyy,2*exy'";
 
-impl Args {
-    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+impl SampleArgs {
+    pub(crate) fn run(&self, out: &mut StandardStream) -> anyhow::Result<()> {
         if let Some(output) = &self.output {
             target::check(output, target::FileKind::Table, self.inputs())?;
         }
@@ -91,11 +91,16 @@ impl Args {
     /// The files that are read.
     fn inputs(&self) -> impl Iterator<Item = &Path> {
         let files = [&self.file].into_iter().chain(&self.points).map(PathBuf::as_path);
-        let formulas = self.quantity.iter().flat_map(|list| parts(list)).filter_map(given::file);
+        let formulas =
+            self.quantity.iter().flat_map(|list| parts(list)).filter_map(formula_text::file);
         files.chain(formulas).chain(self.replacements.files())
     }
 
-    fn table(&self, field: &Field<'_>, quantities: &[(String, Quantity)]) -> anyhow::Result<Table> {
+    fn table(
+        &self,
+        field: &Field<'_>,
+        quantities: &[(String, Quantity)],
+    ) -> anyhow::Result<NumberTable> {
         if self.profile.is_given() {
             return self.profile.table(field, quantities);
         }

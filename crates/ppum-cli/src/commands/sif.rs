@@ -6,9 +6,9 @@ use std::path::PathBuf;
 use anyhow::{bail, ensure};
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity, Warning, WarningKind};
-use ppum::text::Places;
+use ppum::text::LocationText;
 use ppum_fracture::diagnostics::recompute;
-use ppum_fracture::intensity::TipOutcome;
+use ppum_fracture::intensity::TipResult;
 use ppum_problem::Problem;
 use ppum_scene::facts::{self, Tip, all_tips};
 use ppum_scene::range::places;
@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use crate::dataset::{named, open_results, series};
 use crate::number::json;
-use crate::progress::Bar;
+use crate::progress::ProgressLine;
 use crate::standard;
 use crate::tips::table;
 use crate::warnings::{warn, warn_of_steps};
@@ -29,7 +29,7 @@ use crate::warnings::{warn, warn_of_steps};
 /// estimate of the error.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
+pub(crate) struct SifArgs {
     /// Dataset of a problem of elasticity, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
@@ -48,18 +48,18 @@ Examples:
   ppum sif plate.h5 --json | jq '.tips[] | [.k1, .k2]'";
 
 #[derive(Debug, Serialize)]
-struct Report {
+struct SifReport {
     file: String,
     tips: Vec<Tip>,
-    warnings: Vec<facts::Warning>,
+    warnings: Vec<facts::WarningFacts>,
 }
 
-impl Args {
+impl SifArgs {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
         let name = standard::name(&self.file);
         let (tips, warnings, places) =
             if self.recompute { self.recomputed(&name)? } else { self.stored(&name)? };
-        let report = Report { file: self.file.display().to_string(), tips, warnings };
+        let report = SifReport { file: self.file.display().to_string(), tips, warnings };
         match report.tips.iter().any(|tip| tip.step > 0) {
             true => warn_of_steps(&report.warnings),
             false => warn(&report.warnings),
@@ -100,7 +100,7 @@ impl Args {
 }
 
 /// The tips of all steps, the warnings, and the writer of places.
-type TipsAndWarnings = (Vec<Tip>, Vec<facts::Warning>, Places);
+type TipsAndWarnings = (Vec<Tip>, Vec<facts::WarningFacts>, LocationText);
 
 fn refuse_poisson(name: &str, dataset: &Dataset) -> anyhow::Result<()> {
     if dataset.equation.elastic().is_none() {
@@ -110,7 +110,7 @@ fn refuse_poisson(name: &str, dataset: &Dataset) -> anyhow::Result<()> {
 }
 
 /// The factors that the solver stored.
-fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<facts::Warning>)> {
+fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<facts::WarningFacts>)> {
     let (mut all, mut warnings) = (Vec::new(), Vec::new());
     for (index, step) in dataset.steps.iter().enumerate() {
         let is_told = step.warnings.iter().any(|warning| warning.kind == WarningKind::NoRoom);
@@ -129,7 +129,7 @@ fn stored(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<facts:
 /// near the tips are not known.
 fn recomputed(name: &str, dataset: &Dataset) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
     match Problem::of_step(dataset, 0) {
-        // What the solver found while it knew the loads.
+        // Uses the results that the solver found while it knew the loads.
         Err(_) => known(name, dataset, 0),
         Ok(problem) => computed(dataset, 0, problem.as_ref()),
     }
@@ -141,11 +141,11 @@ fn computed(
     index: usize,
     problem: Option<&Problem>,
 ) -> anyhow::Result<(Vec<Tip>, Vec<Warning>)> {
-    let (outcomes, warnings) = recompute(dataset, index, problem, &Bar::new())?;
+    let (outcomes, warnings) = recompute(dataset, index, problem, &ProgressLine::new())?;
     // the error is that of the stored field, which only its solver can estimate
     let stored = &dataset.steps[index].intensities;
     let error = |tip: TipId| stored.iter().find(|known| known.tip == tip)?.error;
-    let tip = |outcome: &TipOutcome| match &outcome.factors {
+    let tip = |outcome: &TipResult| match &outcome.factors {
         Some(factors) => {
             let factors = TipIntensity { error: error(outcome.tip), ..factors.clone() };
             Tip::new(dataset, index, &factors)

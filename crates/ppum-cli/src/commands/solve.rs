@@ -16,9 +16,9 @@ use ppum_solve::report::{LinearKind, SolverReport};
 use serde::Serialize;
 
 use crate::memory;
-use crate::number::{Number, count, json};
-use crate::output::Output;
-use crate::progress::Bar;
+use crate::number::{JsonNumber, count, json};
+use crate::output::StandardStream;
+use crate::progress::ProgressLine;
 use crate::standard::{self, is_standard};
 use crate::target;
 use crate::threads;
@@ -29,7 +29,7 @@ use ppum_scene::arguments::positive;
 /// Solve a problem and write the dataset
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
+pub(crate) struct SolveArgs {
     /// Problem file (TOML), see docs/problem-file.md; - for standard input
     #[arg(value_name = "PROBLEM.toml")]
     problem: PathBuf,
@@ -37,10 +37,10 @@ pub(crate) struct Args {
     /// extension .h5]
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
-    /// Find everything that would be refused, tell what the solution takes, and stop there
+    /// Find everything that would be refused, tell what memory the solution takes, and stop there
     #[arg(long)]
     check: bool,
-    /// Go on with the series that is in the dataset's file, instead of beginning it anew
+    /// Go on with the series that is in the dataset's file, instead of beginning it again
     #[arg(long, conflicts_with = "check")]
     resume: bool,
     /// Memory that may be used, in GiB [default: what is free]
@@ -62,8 +62,8 @@ Examples:
   ppum solve plate.toml --json | jq '.tips[] | [.k1, .k2]'
   sed 's/level = 4/level = 5/' plate.toml | ppum solve - -o fine.h5";
 
-impl Args {
-    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+impl SolveArgs {
+    pub(crate) fn run(&self, out: &mut StandardStream) -> anyhow::Result<()> {
         let problem = self.problem()?;
         let target = self.target();
         if let Some(target) = &target {
@@ -80,7 +80,7 @@ impl Args {
         }
         ensure!(!self.resume, "--resume goes on with a series; the problem has no [growth]");
         let dataset = {
-            let bar = Bar::new();
+            let bar = ProgressLine::new();
             let memory = self.memory();
             let solve = || {
                 let plan = Plan::new(&problem, memory, &bar)?;
@@ -89,10 +89,10 @@ impl Args {
             };
             threads::with(self.threads, solve)??
         };
-        let report = Report::new(target.display().to_string(), &dataset);
+        let report = SolveReport::new(target.display().to_string(), &dataset);
         if is_standard(&target) {
             out.exact().write_all(&ppum_format::to_bytes(&dataset)?)?;
-            return report.write(&mut Output::stderr(), &dataset);
+            return report.write(&mut StandardStream::stderr(), &dataset);
         }
         ppum_format::write(&dataset, &target)?;
         if self.json {
@@ -130,7 +130,7 @@ impl Args {
     /// Does all but solving: what is refused is told now.
     fn tell(&self, out: &mut dyn Write, problem: &Problem) -> anyhow::Result<()> {
         let checked = || {
-            let bar = Bar::new();
+            let bar = ProgressLine::new();
             let plan = Plan::new(problem, self.memory(), &bar)?;
             plan.check(&bar)?;
             ppum_format::check(plan.dataset())?;
@@ -151,44 +151,44 @@ impl Args {
 
 /// The report of a solution; more of it is in `ppum info`.
 #[derive(Debug, Serialize)]
-struct Report {
+struct SolveReport {
     file: String,
     title: String,
     patches: usize,
     unknowns: usize,
-    energy: Option<Number>,
+    energy: Option<JsonNumber>,
     /// In the energy norm, as a part of that of the solution.
-    estimated_error: Option<Number>,
-    /// What adaptation has done; null without.
+    estimated_error: Option<JsonNumber>,
+    /// The results of adaptation; null without.
     adaptation: Option<Adaptation>,
-    /// What has become of the cracks; null without growth.
+    /// The growth of the cracks; null without growth.
     growth: Option<growth::Grown>,
     /// The linear solver.
     solver: Option<&'static str>,
-    /// Of all phases.
+    /// Total time of all phases.
     seconds: f64,
-    phases: Vec<PhaseRow>,
-    history: Vec<facts::Record>,
+    phases: Vec<SolvePhaseRow>,
+    history: Vec<facts::RecordFacts>,
     tips: Vec<Tip>,
-    reactions: Vec<facts::Reaction>,
-    warnings: Vec<facts::Warning>,
+    reactions: Vec<facts::ReactionFacts>,
+    warnings: Vec<facts::WarningFacts>,
 }
 
 /// The course of an adaptation.
 #[derive(Debug, Serialize)]
 struct Adaptation {
-    /// What has ended it.
+    /// The reason of the end.
     stop: &'static str,
     /// The steps that are kept.
-    steps: Vec<StepRow>,
+    steps: Vec<SolveStepRow>,
 }
 
 #[derive(Debug, Serialize)]
-struct StepRow {
+struct SolveStepRow {
     patches: usize,
     unknowns: usize,
-    energy: Option<Number>,
-    estimated_error: Option<Number>,
+    energy: Option<JsonNumber>,
+    estimated_error: Option<JsonNumber>,
 }
 
 impl Adaptation {
@@ -196,7 +196,7 @@ impl Adaptation {
     fn new(dataset: &Dataset) -> Option<Self> {
         let last = SolverReport::of(&dataset.steps.last()?.history);
         let stop = last.stop?.word();
-        Some(Self { stop, steps: dataset.steps.iter().map(StepRow::new).collect() })
+        Some(Self { stop, steps: dataset.steps.iter().map(SolveStepRow::new).collect() })
     }
 
     /// A line for each step if there are several, and one for the end.
@@ -212,31 +212,31 @@ impl Adaptation {
     }
 }
 
-impl StepRow {
+impl SolveStepRow {
     fn new(step: &Step) -> Self {
         let report = SolverReport::of(&step.history);
         Self {
             patches: step.partition.len(),
             unknowns: step.unknowns(),
-            energy: report.energy.map(Number),
-            estimated_error: report.estimated_error.map(Number),
+            energy: report.energy.map(JsonNumber),
+            estimated_error: report.estimated_error.map(JsonNumber),
         }
     }
 }
 
 #[derive(Debug, Serialize)]
-struct PhaseRow {
+struct SolvePhaseRow {
     name: String,
     seconds: f64,
 }
 
-impl Report {
+impl SolveReport {
     /// The solver makes steps with one field each, of which the last one counts.
     fn new(file: String, dataset: &Dataset) -> Self {
         let last = dataset.steps.len() - 1;
         let step = &dataset.steps[last];
         let (times, numbers): (Vec<_>, Vec<_>) = step.history.iter().partition(|r| r.unit == "s");
-        let phase = |r: &&Record| PhaseRow { name: r.name.clone(), seconds: r.value };
+        let phase = |r: &&Record| SolvePhaseRow { name: r.name.clone(), seconds: r.value };
         let is_elastic = dataset.equation.elastic().is_some();
         let report = SolverReport::of(&step.history);
         Self {
@@ -244,27 +244,27 @@ impl Report {
             title: dataset.title.clone(),
             patches: step.partition.len(),
             unknowns: step.unknowns(),
-            energy: report.energy.map(Number),
-            estimated_error: report.estimated_error.map(Number),
+            energy: report.energy.map(JsonNumber),
+            estimated_error: report.estimated_error.map(JsonNumber),
             adaptation: Adaptation::new(dataset),
             growth: None,
             solver: report.solver.map(LinearKind::word),
             seconds: times.iter().map(|r| r.value).sum(),
             phases: times.iter().map(phase).collect(),
-            history: numbers.into_iter().map(facts::Record::new).collect(),
+            history: numbers.into_iter().map(facts::RecordFacts::new).collect(),
             tips: if is_elastic { all_tips(dataset, last) } else { Vec::new() },
             reactions: facts::reactions(dataset, step),
             warnings: facts::warnings(last, &step.warnings),
         }
     }
 
-    /// The same for people, warnings on standard error.
+    /// Writes text for people, warnings on standard error.
     fn write(&self, out: &mut dyn Write, dataset: &Dataset) -> anyhow::Result<()> {
         let Self { title, patches, unknowns, seconds, .. } = self;
         let patches = count(*patches, "patch", "patches");
         writeln!(out, "{title}")?;
         let estimated =
-            |error: &Number| format!("; estimated error {:.1e} in the energy norm", error.0);
+            |error: &JsonNumber| format!("; estimated error {:.1e} in the energy norm", error.0);
         let error = self.estimated_error.as_ref().map_or(String::new(), estimated);
         writeln!(out, "{patches}, {unknowns} unknowns, solved in {seconds:.1} s{error}")?;
         if let Some(adaptation) = &self.adaptation {

@@ -4,12 +4,12 @@ use std::path::PathBuf;
 
 use ppum_scene::engine::Backend;
 
-use crate::output::Output;
+use crate::output::StandardStream;
 
 /// Explore datasets in a window, exactly, down to the tip
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
-pub(crate) struct Args {
+pub(crate) struct ViewArgs {
     /// Datasets, problem files or a session: one, or two side by side [default: what was open the
     /// last time]
     #[arg(value_name = "FILE", num_args = 0..=2)]
@@ -17,13 +17,13 @@ pub(crate) struct Args {
     /// Session to begin with, as the window saves it
     #[arg(long, value_name = "FILE.ppum-session", conflicts_with = "files")]
     session: Option<PathBuf>,
-    /// What computes the values
+    /// Device that computes the values
     #[arg(long, value_enum, default_value = "auto")]
     backend: Backend,
     /// Width and height of the window in points [default: those of the last time]
     #[arg(long, value_name = "WxH", value_parser = size)]
     size: Option<[u32; 2]>,
-    /// Draw the window into a picture once it is complete, and end; no display is needed
+    /// Draw the window into an image once it is complete, and end; no display is needed
     #[arg(long, value_name = "OUT.png")]
     screenshot: Option<PathBuf>,
 }
@@ -48,10 +48,10 @@ fn size(text: &str) -> Result<[u32; 2], String> {
     })
 }
 
-impl Args {
+impl ViewArgs {
     /// Opens the window, and ends when it is closed.
     #[cfg(feature = "window")]
-    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+    pub(crate) fn run(&self, out: &mut StandardStream) -> anyhow::Result<()> {
         match &self.screenshot {
             None => Ok(ppum_viewer::window::run(self.start()?)?),
             Some(target) => self.draw(out, target),
@@ -60,25 +60,25 @@ impl Args {
 
     /// Files that are not there are told before a window opens.
     #[cfg(feature = "window")]
-    fn start(&self) -> anyhow::Result<ppum_viewer::window::Start> {
+    fn start(&self) -> anyhow::Result<ppum_viewer::window::WindowStart> {
         use anyhow::Context as _;
 
         let files: Vec<PathBuf> = self.session.iter().chain(&self.files).cloned().collect();
         for file in &files {
             std::fs::metadata(file).with_context(|| format!("cannot read {}", file.display()))?;
         }
-        Ok(ppum_viewer::window::Start {
+        Ok(ppum_viewer::window::WindowStart {
             files,
             size: self.size.map(|size| size.map(|n| n as f32)),
             backend: self.backend,
-            folder: ppum_viewer::files::kept::folder(),
+            folder: ppum_viewer::files::window_state::folder(),
             memory: Some(crate::memory::free),
             ..Default::default()
         })
     }
 
     #[cfg(feature = "window")]
-    fn draw(&self, out: &mut Output, target: &std::path::Path) -> anyhow::Result<()> {
+    fn draw(&self, out: &mut StandardStream, target: &std::path::Path) -> anyhow::Result<()> {
         use std::io::Write as _;
 
         let inputs = self.session.iter().chain(&self.files).map(PathBuf::as_path);
@@ -102,7 +102,7 @@ impl Args {
 
     /// Says how to get the window.
     #[cfg(not(feature = "window"))]
-    pub(crate) fn run(&self, _: &mut Output) -> anyhow::Result<()> {
+    pub(crate) fn run(&self, _: &mut StandardStream) -> anyhow::Result<()> {
         let Self { files: _, session: _, backend: _, size: _, screenshot: _ } = self;
         anyhow::bail!(
             "this program was built without the window; build it with \

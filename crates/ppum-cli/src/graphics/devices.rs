@@ -4,8 +4,8 @@ use ppum::progress::Watcher;
 use ppum_gpu::{AdapterChoice, AdapterInfo, Gpu, GpuError, RenderError, Renderer};
 use ppum_render::raster::Raster;
 use ppum_render::samples::{Means, SampleImage, Samples};
-use ppum_scene::drawing::{DrawingInput, Drawn};
-use ppum_scene::engine::{CardError, Device, DrawOnCard, Method};
+use ppum_scene::drawing::{DrawingInput, PixelValues};
+use ppum_scene::engine::{CardError, Device, DeviceMethod, DrawOnCard};
 
 use super::Adapter;
 
@@ -15,7 +15,7 @@ fn failure(error: &RenderError) -> CardError {
     CardError { message: message(error), is_normal }
 }
 
-/// What draws.
+/// The function that draws.
 pub(crate) const DRAW: Option<DrawOnCard> = Some(draw);
 
 /// Draws the means of so many samples a pixel. After an error the CPU may try.
@@ -23,9 +23,9 @@ fn draw(
     job: DrawingInput<'_>,
     samples: Samples,
     device: Device,
-    method: Method,
+    method: DeviceMethod,
     watcher: &dyn Watcher,
-) -> Result<Drawn, CardError> {
+) -> Result<PixelValues, CardError> {
     let DrawingInput { field, view, quantity } = job;
     // a device holds all samples at once
     let finer = view.finer(samples.side());
@@ -36,27 +36,27 @@ fn draw(
     let (renderer, raster) = drawn.map_err(|error| failure(&error))?;
     let name = &renderer.gpu().info().name;
     let by = match method {
-        Method::Gather => format!("gpu f32, {name}"),
-        Method::Splat => format!("gpu splat f32, {name}"),
+        DeviceMethod::Gather => format!("gpu f32, {name}"),
+        DeviceMethod::Splat => format!("gpu splat f32, {name}"),
     };
     if samples == Samples::CENTER {
-        return Ok(Drawn::new(raster, job.field, job.view, &by));
+        return Ok(PixelValues::new(raster, job.field, job.view, &by));
     }
     let undefined = raster.undefined(field.domain, &finer);
     let image = SampleImage { raster: &raster, undefined: &undefined };
-    Ok(Drawn::averaged(Means::of(view, quantity, samples, image), job, &by))
+    Ok(PixelValues::averaged(Means::of(view, quantity, samples, image), job, &by))
 }
 
 fn drawn(
     job: DrawingInput<'_>,
     choice: AdapterChoice,
-    method: Method,
+    method: DeviceMethod,
     watcher: &dyn Watcher,
 ) -> Result<(Renderer, Raster<f32>), RenderError> {
     let mut renderer = Renderer::open(choice)?;
     let method = match method {
-        Method::Gather => ppum_gpu::Method::Gather,
-        Method::Splat => ppum_gpu::Method::Splat,
+        DeviceMethod::Gather => ppum_gpu::Method::Gather,
+        DeviceMethod::Splat => ppum_gpu::Method::Splat,
     };
     let raster = renderer.render(job.field, job.view, job.quantity, method, watcher)?;
     Ok((renderer, raster))

@@ -5,20 +5,20 @@ use std::sync::Arc;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::vec2::vec2;
-use ppum_figure::figure::{BarPlace, Design};
+use ppum_figure::figure::{BarPlace, FigureStyle};
 use ppum_render::colormap::Rgb;
-use ppum_render::range::Range;
+use ppum_render::range::RangeChoice;
 use ppum_render::scale::Scale;
 use ppum_render::view::View;
-use ppum_scene::colors::Colors;
+use ppum_scene::colors::ColorOptions;
 use ppum_scene::command;
-use ppum_scene::deformed::Factor;
+use ppum_scene::deformed::Magnification;
 use ppum_scene::engine::Engine;
-use ppum_scene::look::Look;
-use ppum_scene::overlays::{Levels, Overlay, Overlays};
-use ppum_scene::place::Place;
+use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays};
+use ppum_scene::page_style::PageStyle;
+use ppum_scene::place::ViewRegion;
 use ppum_scene::request::Request;
-use ppum_scene::scene::{Scene, Subject};
+use ppum_scene::scene::{SceneRequest, Subject};
 use ppum_scene::shot::{self, FieldSource};
 use ppum_testkit::random::Random;
 
@@ -28,10 +28,14 @@ fn maybe<T>(random: &mut Random, make: impl FnOnce(&mut Random) -> T) -> Option<
     (random.below(3) == 0).then(|| make(random))
 }
 
-fn colors(random: &mut Random) -> Colors {
-    let ranges =
-        [Range::Auto, Range::Full, Range::Fixed(0.125, 3.0), Range::Percentiles(2.0, 97.5)];
-    Colors {
+fn colors(random: &mut Random) -> ColorOptions {
+    let ranges = [
+        RangeChoice::Auto,
+        RangeChoice::Full,
+        RangeChoice::Fixed(0.125, 3.0),
+        RangeChoice::Percentiles(2.0, 97.5),
+    ];
+    ColorOptions {
         colormap: maybe(random, |r| r.pick(&["vik_r", "coolwarm", "viridis"]).to_owned()),
         range: random.pick(&ranges),
         scale: random.pick(&[Scale::Linear, Scale::Log, Scale::SymLog]),
@@ -45,8 +49,12 @@ fn colors(random: &mut Random) -> Colors {
 fn overlays(random: &mut Random, is_deformed: bool) -> Overlays {
     let fits = |o: &Overlay| !is_deformed || o.is_deformable();
     let all: Vec<Overlay> = Overlay::ALL.into_iter().filter(fits).collect();
-    let levels =
-        [Levels::Auto, Levels::Count(5), Levels::At(vec![0.75]), Levels::At(vec![0.5, 1.5])];
+    let levels = [
+        IsolineLevels::Auto,
+        IsolineLevels::Count(5),
+        IsolineLevels::At(vec![0.75]),
+        IsolineLevels::At(vec![0.5, 1.5]),
+    ];
     Overlays {
         shown: (0..random.below(4)).map(|_| random.pick(&all)).collect(),
         no_cracks: random.below(2) == 0,
@@ -57,7 +65,7 @@ fn overlays(random: &mut Random, is_deformed: bool) -> Overlays {
     }
 }
 
-fn scene(random: &mut Random) -> Scene {
+fn scene(random: &mut Random) -> SceneRequest {
     let subject = Subject {
         step: maybe(random, |_| 0),
         part: maybe(random, |r| r.pick(&["smooth", "jump", "tip", "patch:7"]).to_owned()),
@@ -71,9 +79,9 @@ fn scene(random: &mut Random) -> Scene {
             .into_iter()
             .collect(),
     };
-    let deformed = maybe(random, |r| r.pick(&[Factor::Auto, Factor::Given(0.013)]));
+    let deformed = maybe(random, |r| r.pick(&[Magnification::Auto, Magnification::Given(0.013)]));
     let quantities = ["von-mises", "-uy", "(sxx + syy)/2", "s1", "sqrt(ux^2 + uy^2)"];
-    Scene {
+    SceneRequest {
         subject,
         quantity: maybe(random, |r| r.pick(&quantities).to_owned()),
         colors: colors(random),
@@ -101,16 +109,19 @@ fn the_command_of_a_picture_draws_it_again() {
     for number in 0..24 {
         let (scene, view) = (scene(&mut random), view(&mut random));
         let design = match number % 8 {
-            0 => Some(Design::pixels([400, 300])),
-            4 => Some(Design { bar: BarPlace::Bottom, ..Design::inches([3.0, 4.0], 100.0) }),
+            0 => Some(FigureStyle::pixels([400, 300])),
+            4 => Some(FigureStyle {
+                bar: BarPlace::Bottom,
+                ..FigureStyle::inches([3.0, 4.0], 100.0)
+            }),
             _ => None,
         };
         let own = page(&dataset, &scene, &view, design.as_ref());
         let seen = own.as_ref().map_or(view, |(_, seen)| *seen);
         let mut request = Request::from(scene.clone());
-        (request.place, request.figure) = (Place::of(&seen), design.is_some());
-        let bare = || Look { size: Some(seen.pixels), ..Look::default() };
-        request.look = design.as_ref().map_or_else(bare, Look::of);
+        (request.place, request.figure) = (ViewRegion::of(&seen), design.is_some());
+        let bare = || PageStyle { size: Some(seen.pixels), ..PageStyle::default() };
+        request.look = design.as_ref().map_or_else(bare, PageStyle::of);
         let words = command::render(&request, "plate.h5", "again.png");
         let _ = std::fs::remove_file(lab.path("again.png"));
         let mut again = lab.command("");
@@ -142,23 +153,23 @@ fn the_command_of_a_picture_draws_it_again() {
 fn the_window_saves_what_its_command_draws() {
     use std::sync::atomic::AtomicUsize;
 
-    use ppum_viewer::export::{ExportKind, Order, PageSize};
+    use ppum_viewer::export::{ExportKind, ImageExport, PageSize};
     use ppum_viewer::field::OwnedField;
 
     let lab = Lab::solved(CRACKED);
     let dataset = Arc::new(ppum_format::read(&lab.path("plate.h5")).unwrap());
-    let isolines = Some(Levels::At(vec![1e9]));
-    let scene = Scene {
+    let isolines = Some(IsolineLevels::At(vec![1e9]));
+    let scene = SceneRequest {
         quantity: Some("sqrt(x)".into()),
         overlays: Overlays { isolines, ..Overlays::default() },
-        ..Scene::default()
+        ..SceneRequest::default()
     };
     for (kind, page) in [
         (ExportKind::Figure, PageSize::pixels([500, 400])),
         (ExportKind::Figure, PageSize { dpi: 150.0, ..PageSize::COLUMN }),
         (ExportKind::Picture, PageSize::pixels([80, 60])),
     ] {
-        let order = Order {
+        let order = ImageExport {
             field: Arc::new(OwnedField::new(Arc::clone(&dataset), 0).unwrap()),
             file: Some("plate.h5".into()),
             left: None,
@@ -186,9 +197,9 @@ fn the_window_saves_what_its_command_draws() {
 /// The pixels of a scene's picture, and its view; of a figure those of its page.
 fn page(
     dataset: &Dataset,
-    scene: &Scene,
+    scene: &SceneRequest,
     view: &View,
-    design: Option<&Design>,
+    design: Option<&FigureStyle>,
 ) -> Result<(Vec<u8>, View), String> {
     let mut dataset = dataset.clone();
     scene.subject.apply(&mut dataset).map_err(|e| e.to_string())?;

@@ -10,7 +10,7 @@ use std::sync::Mutex;
 #[path = "../../../ppum-format/tests/damage/mod.rs"]
 mod damages;
 
-use damages::{Damaged, damaged};
+use damages::{DamagedFile, damaged};
 use ppum_testkit::random::Random;
 
 use crate::{CRACKED, LINEAR, Lab, with_formulas};
@@ -117,7 +117,7 @@ fn with_holes(lab: &Lab) -> Vec<u8> {
 /// The outcome of a damage, or the promise that is broken.
 fn survive(lab: &Lab, original: &Original, seed: u64) -> Result<Outcome, String> {
     let mut random = Random(seed);
-    let Damaged { bytes, what, is_sealed } =
+    let DamagedFile { bytes, what, is_sealed } =
         damaged(&original.bytes, &mut |below| random.below(below));
     let file = format!("{seed}.h5");
     std::fs::write(lab.path(&file), &bytes).unwrap();

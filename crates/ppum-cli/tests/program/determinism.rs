@@ -1,7 +1,7 @@
 //! Datasets to the last bit.
 
 use ppum_format::{read, to_bytes};
-use ppum_solve::report::forget_times;
+use ppum_solve::report::strip_timings;
 
 use crate::Lab;
 
@@ -55,7 +55,7 @@ fn solved_with(threads: usize) -> Vec<u8> {
     let mut dataset = read(&lab.path("plate.h5")).unwrap();
     let step = &mut dataset.steps[0];
     let all = step.history.len();
-    forget_times(step);
+    strip_timings(step);
     assert!(step.history.len() < all && !step.intensities.is_empty());
     to_bytes(&dataset).unwrap()
 }

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use ppum::dataset::Dataset;
 use ppum_format::Series;
-use ppum_solve::report::forget_times;
+use ppum_solve::report::strip_timings;
 
 use crate::Lab;
 
@@ -36,7 +36,7 @@ impl Lab {
     /// Everything in a series but the seconds that its solution took.
     fn content(&self, name: &str) -> Dataset {
         let mut dataset = ppum_format::read(&self.path(name)).unwrap();
-        dataset.steps.iter_mut().for_each(forget_times);
+        dataset.steps.iter_mut().for_each(strip_timings);
         dataset
     }
 

@@ -4,7 +4,7 @@ use ppum::dataset::{Dataset, Equation, Material, StressState};
 use ppum::polynomial::PolynomialSpace;
 use ppum::vec2::{Vec2, vec2};
 use ppum_testkit::exact::{CrackInPlane, ExactField};
-use ppum_testkit::meshes::{Elements, Polynomial, field};
+use ppum_testkit::meshes::{BivariatePolynomial, MeshBuilder, field};
 
 use crate::{Lab, Png};
 
@@ -64,9 +64,9 @@ fn crosses_need_elasticity() {
 pub(super) fn cracked_plate() -> Dataset {
     let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
     let exact = CrackInPlane::biaxial(material, Vec2::ZERO, vec2(1.0, 0.0), 0.75, 0.05);
-    let line = Polynomial::linear;
+    let line = BivariatePolynomial::linear;
     let elements =
-        Elements::tiles([16, 16], 1, &[line(-2.0, 4.0, 0.0), line(-2.0, 0.0, 4.0)], |_, _| true);
+        MeshBuilder::tiles([16, 16], 1, &[line(-2.0, 4.0, 0.0), line(-2.0, 0.0, 4.0)], |_, _| true);
     // the shares of the corners of the reference triangle
     let (s, t) = (line(1.0 / 3.0, 2.0 / 3.0, 0.0), line(1.0 / 3.0, 0.0, 2.0 / 3.0));
     let rest = line(1.0, 0.0, 0.0).plus(&s.plus(&t).times(&line(-1.0, 0.0, 0.0)));
@@ -80,8 +80,8 @@ pub(super) fn cracked_plate() -> Dataset {
                 // on the crack from inside the element
                 exact.evaluate(p + (center - p) * 1e-12)[component].value
             };
-            let mut sum = Polynomial::default();
-            let mut add = |shape: Polynomial, value: f64| {
+            let mut sum = BivariatePolynomial::default();
+            let mut add = |shape: BivariatePolynomial, value: f64| {
                 sum = sum.plus(&shape.times(&line(value, 0.0, 0.0)));
             };
             for a in 0..3 {

@@ -8,15 +8,15 @@ use ppum::vec2::Vec2;
 use ppum_render::isoline::Isoline;
 use ppum_render::samples::Samples;
 use ppum_render::view::View;
-use ppum_scene::deformed::Factor;
-use ppum_scene::drawing::{Drawn, RasterValues};
+use ppum_scene::deformed::Magnification;
+use ppum_scene::drawing::{PixelValues, RasterValues};
 use ppum_scene::engine::Engine;
-use ppum_scene::overlays::{Levels, Overlay, Overlays};
-use ppum_scene::place::Place;
+use ppum_scene::image_job::{ImageJob, ImageSettings};
+use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays};
+use ppum_scene::place::ViewRegion;
 use ppum_scene::request::Request;
-use ppum_scene::scene::Scene;
-use ppum_scene::shot::{Asked, FieldSource};
-use ppum_scene::still::{Common, Still};
+use ppum_scene::scene::SceneRequest;
+use ppum_scene::shot::{FieldSource, QuantityRequest};
 use ppum_testkit::random::Random;
 
 use crate::backend::has_adapter;
@@ -104,11 +104,11 @@ fn solved(problem: &str) -> Dataset {
     ppum_format::read(&lab.path("plate.h5")).unwrap()
 }
 
-fn request(quantity: &str, mirror: Option<&str>, place: &Place, size: [u32; 2]) -> Request {
-    let scene = Scene {
+fn request(quantity: &str, mirror: Option<&str>, place: &ViewRegion, size: [u32; 2]) -> Request {
+    let scene = SceneRequest {
         quantity: Some(quantity.to_owned()),
         mirror: mirror.map(|text| text.parse().unwrap()),
-        ..Scene::default()
+        ..SceneRequest::default()
     };
     let mut request = Request { place: place.clone(), ..scene.into() };
     request.look.size = Some(size);
@@ -116,35 +116,40 @@ fn request(quantity: &str, mirror: Option<&str>, place: &Place, size: [u32; 2]) 
 }
 
 /// The values of an image.
-fn drawn(dataset: &Dataset, request: Request, samples: Samples) -> Drawn {
+fn drawn(dataset: &Dataset, request: Request, samples: Samples) -> PixelValues {
     let field = Field::new(dataset, 0).unwrap();
     let engine = Engine::default();
-    let still = Still::new(FieldSource::of(dataset, &field), request).unwrap();
+    let still = ImageJob::new(FieldSource::of(dataset, &field), request).unwrap();
     let (source, request) = (still.source, &still.request);
-    let common = Common::new(&still, request).unwrap();
+    let common = ImageSettings::new(&still, request).unwrap();
     let seen = common.placing.body(source, &request.scene, &engine).unwrap();
-    let asked = Asked::new(&request.scene, source.field).unwrap();
+    let asked = QuantityRequest::new(&request.scene, source.field).unwrap();
     source.input(&asked, &seen).values(samples, &engine).unwrap()
 }
 
-fn values(drawn: &Drawn) -> &[f64] {
+fn values(drawn: &PixelValues) -> &[f64] {
     let RasterValues::Double(raster) = &drawn.values else { panic!("double precision") };
     &raster.values
 }
 
-fn centers(dataset: &Dataset, quantity: &str, mirror: Option<&str>, place: &Place) -> Vec<f64> {
+fn centers(
+    dataset: &Dataset,
+    quantity: &str,
+    mirror: Option<&str>,
+    place: &ViewRegion,
+) -> Vec<f64> {
     let drawn = drawn(dataset, request(quantity, mirror, place, SIZE), Samples::CENTER);
     values(&drawn).to_vec()
 }
 
 /// The isolines of an image, and its view.
-fn isolines(still: &Still<'_>, levels: Vec<f64>) -> (View, Vec<Isoline>) {
+fn isolines(still: &ImageJob<'_>, levels: Vec<f64>) -> (View, Vec<Isoline>) {
     let (engine, scene) = (Engine::default(), &still.request.scene);
-    let common = Common::new(still, &still.request).unwrap();
+    let common = ImageSettings::new(still, &still.request).unwrap();
     let seen = common.placing.body(still.source, scene, &engine).unwrap();
-    let asked = Asked::new(scene, still.source.field).unwrap();
+    let asked = QuantityRequest::new(scene, still.source.field).unwrap();
     let input = still.source.input(&asked, &seen);
-    let lines = input.isolines(&Levels::At(levels), &scene.colors, &engine).unwrap();
+    let lines = input.isolines(&IsolineLevels::At(levels), &scene.colors, &engine).unwrap();
     (*seen.view(), lines)
 }
 
@@ -183,8 +188,9 @@ fn mirrored_parts_are_the_whole() {
         let [whole, part] = [whole, part].map(|problem| solved(&problem));
         for name in names {
             let (x, y) = (random.between(-0.6, 0.6), random.between(-1.0, 1.0));
-            let near = Place { center: Some([x, y]), width: Some(0.9), ..Place::default() };
-            for place in [Place::default(), near] {
+            let near =
+                ViewRegion { center: Some([x, y]), width: Some(0.9), ..ViewRegion::default() };
+            for place in [ViewRegion::default(), near] {
                 let own = centers(&part, name, Some("auto"), &place);
                 let named = centers(&part, name, Some(edges), &place);
                 assert!(own.iter().zip(&named).all(|(a, b)| a.to_bits() == b.to_bits()));
@@ -252,8 +258,8 @@ fn both_halves_have_the_same_bits() {
         let part = solved(&cases()[case].part);
         for &(name, sign) in names {
             let center = Some([random.between(-0.9, 0.9), 0.0]);
-            let wide = Place { center, width: Some(1.3), ..Place::default() };
-            let tip = Place { tip: Some(1), zoom: Some(1e6), ..Place::default() };
+            let wide = ViewRegion { center, width: Some(1.3), ..ViewRegion::default() };
+            let tip = ViewRegion { tip: Some(1), zoom: Some(1e6), ..ViewRegion::default() };
             for place in [wide, tip] {
                 for rows in [40u32, 41] {
                     let request = request(name, Some("auto"), &place, [60, rows]);
@@ -280,7 +286,7 @@ fn both_halves_have_the_same_bits() {
 #[test]
 fn samples_are_of_both_halves() {
     let part = solved(&cases()[0].part);
-    let place = Place { view: Some([-1.2, -0.9, 1.2, 0.8]), ..Place::default() };
+    let place = ViewRegion { view: Some([-1.2, -0.9, 1.2, 0.8]), ..ViewRegion::default() };
     let (side, [columns, rows]) = (3u32, [37u32, 29]);
     for name in ["sxy", "uy*x + y", "sqrt(x^2 + y^2 - 0.5)*y"] {
         let of = |size, samples| drawn(&part, request(name, Some("auto"), &place, size), samples);
@@ -323,9 +329,9 @@ fn odd_quantities_are_zero_on_their_line() {
         let fields = [&whole, &part].map(|dataset| Field::new(dataset, 0).unwrap());
         let draw = |dataset: usize, name: &str| {
             let mirror = Some(*edges).filter(|_| dataset == 1);
-            let request = request(name, mirror, &Place::default(), [120, 180]);
+            let request = request(name, mirror, &ViewRegion::default(), [120, 180]);
             let source = FieldSource::of([&whole, &part][dataset], &fields[dataset]);
-            isolines(&Still::new(source, request).unwrap(), vec![0.0])
+            isolines(&ImageJob::new(source, request).unwrap(), vec![0.0])
         };
         for name in odd {
             let [(view, whole_lines), (_, lines)] = [0, 1].map(|dataset| draw(dataset, name));
@@ -385,12 +391,12 @@ fn the_deformed_whole_is_that_of_the_whole_plate() {
     for Case { whole, part, edges } in cases() {
         let [whole, part] = [whole, part].map(|problem| solved(&problem));
         for name in ["ux", "uy", "sxy", "von-mises", "mine"] {
-            let of = |dataset: &Dataset, mirror: Option<&str>, place: &Place| {
+            let of = |dataset: &Dataset, mirror: Option<&str>, place: &ViewRegion| {
                 let mut request = request(name, mirror, place, SIZE);
-                request.scene.deformed = Some(Factor::Given(0.2));
+                request.scene.deformed = Some(Magnification::Given(0.2));
                 drawn(dataset, request, Samples::CENTER)
             };
-            let place = Place { view: Some([-1.5, -2.2, 1.5, 2.1]), ..Place::default() };
+            let place = ViewRegion { view: Some([-1.5, -2.2, 1.5, 2.1]), ..ViewRegion::default() };
             let [own, all] = [of(&part, Some(edges), &place), of(&whole, None, &place)];
             let (own_values, all_values) = (values(&own), values(&all));
             let size = all_values.iter().filter(|v| v.is_finite()).map(|v| v.abs());
@@ -408,8 +414,8 @@ fn the_deformed_whole_is_that_of_the_whole_plate() {
             assert!(most < 1e-4 * factor, "{edges} {name}: {most}");
             // on the border rounding and the errors of displacements decide
             assert!(alone <= 3, "{edges} {name}: {alone}");
-            let [own, all] = [of(&part, Some(edges), &Place::default()).view, {
-                of(&whole, None, &Place::default()).view
+            let [own, all] = [of(&part, Some(edges), &ViewRegion::default()).view, {
+                of(&whole, None, &ViewRegion::default()).view
             }];
             assert!((own.center - all.center).length() < 0.01 && own.width / all.width < 1.01);
             assert!(all.width / own.width < 1.01);
@@ -423,9 +429,9 @@ fn the_deformed_whole_is_that_of_the_whole_plate() {
 fn closed_faces_lie_over_each_other() {
     let Case { whole, part, edges } = &cases()[0];
     let count = |dataset: &Dataset, mirror: Option<&str>, factor: f64| {
-        let place = Place { view: Some([-1.5, -1.8, 1.5, 1.8]), ..Place::default() };
+        let place = ViewRegion { view: Some([-1.5, -1.8, 1.5, 1.8]), ..ViewRegion::default() };
         let mut request = request("uy", mirror, &place, [151, 181]);
-        request.scene.deformed = Some(Factor::Given(factor));
+        request.scene.deformed = Some(Magnification::Given(factor));
         drawn(dataset, request, Samples::CENTER).overlap.len()
     };
     let [whole, part] = [whole, part].map(|problem| solved(problem));
@@ -470,9 +476,9 @@ fn ranges_are_those_of_the_whole() {
 fn overlays_are_mirrored() {
     let part = solved(&cases()[0].part);
     let field = Field::new(&part, 0).unwrap();
-    let request = request("syy", Some("bottom"), &Place::default(), [120, 180]);
+    let request = request("syy", Some("bottom"), &ViewRegion::default(), [120, 180]);
     let engine = Engine::default();
-    let still = Still::new(FieldSource::of(&part, &field), request).unwrap();
+    let still = ImageJob::new(FieldSource::of(&part, &field), request).unwrap();
     let (View { center, .. }, lines) = isolines(&still, vec![0.7, 1.3]);
     assert_eq!(center.y, 0.0);
     let (above, below): (Vec<_>, Vec<_>) =
@@ -486,9 +492,10 @@ fn overlays_are_mirrored() {
     let image = |shown: Vec<Overlay>| {
         let overlays = Overlays { shown, ..Overlays::default() };
         let mirror = Some("bottom".parse().unwrap());
-        let mut request = Request::from(Scene { overlays, mirror, ..Scene::default() });
+        let mut request =
+            Request::from(SceneRequest { overlays, mirror, ..SceneRequest::default() });
         request.look.size = Some([200, 300]);
-        Still::new(still.source, request).unwrap().page(&engine).unwrap().0.image()
+        ImageJob::new(still.source, request).unwrap().page(&engine).unwrap().0.image()
     };
     for overlay in Overlay::ALL {
         // supports and loads need room around the plate, which pictures without them lack

@@ -3,7 +3,7 @@
 use std::fs;
 
 use ppum::crack::{CrackEnd, End, TipId};
-use ppum::dataset::{Advance, Dataset, Fate, Growth, GrowthStop, TipIntensity};
+use ppum::dataset::{Dataset, Growth, GrowthStop, TipIncrement, TipIntensity, TipStatus};
 use ppum_testkit::synthetic::growing;
 use serde_json::json;
 
@@ -175,12 +175,15 @@ fn with_growth() -> Dataset {
     for (k, step) in dataset.steps.iter_mut().enumerate() {
         let [last, start] = [End::Last, End::Start].map(|end| TipId { crack: 0, end });
         step.cracks[0].ends = [CrackEnd::Tip; 2];
-        let mut way = Advance::staying(last, if k == 2 { Fate::MeetsHole(3) } else { Fate::Grows });
+        let mut way = TipIncrement::staying(
+            last,
+            if k == 2 { TipStatus::MeetsHole(3) } else { TipStatus::Grows },
+        );
         (way.length, way.extension, way.direction) = (0.5, 0.5 * k as f64, 0.25);
         way.path = vec![ppum::vec2::vec2(0.5, 0.5)];
         let mut growth = Growth::default();
         growth.cycles = Some(100.0 * k as f64);
-        growth.tips = vec![Advance::staying(start, Fate::Waits)];
+        growth.tips = vec![TipIncrement::staying(start, TipStatus::Waits)];
         if k < 3 {
             growth.tips.push(way);
         } else {

@@ -44,12 +44,12 @@ impl PixelWindow {
 
 /// Covered shares in a window.
 #[derive(Clone, Debug)]
-pub(super) struct Mask {
+pub(super) struct CoverageMask {
     window: PixelWindow,
     coverage: Vec<f32>,
 }
 
-impl Mask {
+impl CoverageMask {
     /// An empty mask.
     pub(super) fn new(window: PixelWindow) -> Self {
         Self { window, coverage: vec![0.0; window.columns() * window.rows()] }
@@ -137,7 +137,7 @@ impl Mask {
         });
     }
 
-    /// Lays `color` over a picture where the mask covers it.
+    /// Lays `color` over an image where the mask covers it.
     pub(super) fn paint(&self, image: &mut Image, color: Rgba) {
         let (columns, width) = (self.window.columns(), image.size[0] as usize);
         let pixels = image.rgba.as_chunks_mut().0;
@@ -219,15 +219,15 @@ fn clipped(a: Vec2, b: Vec2, most: Vec2) -> Vec<[Vec2; 2]> {
 mod tests {
     use super::*;
 
-    fn mask(columns: u32, rows: u32) -> Mask {
-        Mask::new(PixelWindow { min: [0, 0], max: [columns, rows] })
+    fn mask(columns: u32, rows: u32) -> CoverageMask {
+        CoverageMask::new(PixelWindow { min: [0, 0], max: [columns, rows] })
     }
 
-    fn rect(mask: &mut Mask, a: Vec2, b: Vec2) {
+    fn rect(mask: &mut CoverageMask, a: Vec2, b: Vec2) {
         mask.polygon(&[a, vec2(b.x, a.y), b, vec2(a.x, b.y), a]);
     }
 
-    fn area(mask: &Mask) -> f64 {
+    fn area(mask: &CoverageMask) -> f64 {
         mask.coverage.iter().map(|&c| f64::from(c)).sum()
     }
 

@@ -1,6 +1,6 @@
 //! A page: what is drawn, back to front.
 //!
-//! Everything that figures draw is first an [`Item`] on a [`Canvas`], and only then pixels
+//! Everything that figures draw is first a [`CanvasItem`] on a [`Canvas`], and only then pixels
 //! ([`Canvas::image`]) or a vector file. Positions and lengths are pixels: the origin is the upper
 //! left corner, y runs down, and pixel (i, j) covers [i, i + 1] × [j, j + 1].
 
@@ -15,7 +15,7 @@ pub mod zlib;
 
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::{Image, Rgba};
-use ppum_render::png::Text;
+use ppum_render::png::TextChunk;
 
 use crate::text;
 
@@ -26,17 +26,17 @@ pub struct Canvas {
     pub size: [u32; 2],
     /// The page's own colour; may be transparent.
     pub paper: Rgba,
-    /// What is drawn, the lowest first.
-    pub items: Vec<Item>,
+    /// The drawn items, the lowest first.
+    pub items: Vec<CanvasItem>,
 }
 
 /// One thing on a page.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Item {
-    /// A picture, one of its pixels on one of the page's.
+pub enum CanvasItem {
+    /// An image, one of its pixels on one of the page's.
     Picture {
-        /// The picture.
+        /// The image.
         image: Image,
         /// Its upper left corner: column and row of the page.
         corner: [u32; 2],
@@ -44,19 +44,19 @@ pub enum Item {
     /// The inside of closed lines, in one colour; where they overlap it is no darker.
     Fill {
         /// The lines.
-        outline: Path,
+        outline: CanvasPath,
         /// The colour.
         color: Rgba,
     },
     /// Lines; where they cross they are no darker.
     Line {
         /// The lines.
-        path: Path,
+        path: CanvasPath,
         /// The pen.
-        pen: Pen,
+        pen: StrokeStyle,
     },
     /// A line of text.
-    Text(Lettering),
+    Text(TextItem),
     /// A page on the page: what leaves it is not seen.
     Inset {
         /// Its upper left corner: column and row of the page.
@@ -68,14 +68,14 @@ pub enum Item {
 
 /// Straight lines in pieces.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Path {
+pub struct CanvasPath {
     /// The pieces: points, in order.
     pub pieces: Vec<Vec<Vec2>>,
 }
 
 /// The way lines are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pen {
+pub struct StrokeStyle {
     /// The colour.
     pub color: Rgba,
     /// The width.
@@ -98,7 +98,7 @@ pub struct Halo {
 
 /// A line of text on a page. `_{…}` sets a subscript.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Lettering {
+pub struct TextItem {
     /// The text.
     pub text: String,
     /// The point of its base line that `align` names.
@@ -146,8 +146,8 @@ impl Canvas {
         let mut all: Vec<char> = Vec::new();
         for item in &self.items {
             let found = match item {
-                Item::Text(line) => text::missing(&line.text),
-                Item::Inset { canvas, .. } => canvas.missing(),
+                CanvasItem::Text(line) => text::missing(&line.text),
+                CanvasItem::Inset { canvas, .. } => canvas.missing(),
                 _ => Vec::new(),
             };
             all.extend(found.into_iter().filter(|c| !all.contains(c)).collect::<Vec<_>>());
@@ -156,24 +156,24 @@ impl Canvas {
     }
 
     /// The page as an SVG file of `dpi` pixels per inch. Lines and letters are lines and letters,
-    /// the font is in the file, pictures are PNG with their pixels kept apart. Of the texts `Title`
+    /// the font is in the file, images are PNG with their pixels kept apart. The texts `Title`
     /// and `Description` are the file's own, the others its metadata.
     #[must_use]
-    pub fn svg(&self, dpi: f64, texts: &[Text]) -> String {
+    pub fn svg(&self, dpi: f64, texts: &[TextChunk]) -> String {
         svg::file(self, dpi, texts)
     }
 
     /// The page as a PDF file of `dpi` pixels per inch: vectors, letters that can be searched and
-    /// copied, and pictures without loss. The texts are the document's information.
+    /// copied, and images without loss. The texts are the document's information.
     #[must_use]
-    pub fn pdf(&self, dpi: f64, texts: &[Text]) -> Vec<u8> {
+    pub fn pdf(&self, dpi: f64, texts: &[TextChunk]) -> Vec<u8> {
         pdf::file(self, dpi, texts)
     }
 }
 
-impl Item {
-    /// The box that the item may draw into: its upper left and lower right corner. Of nothing, the
-    /// least coordinates are +∞.
+impl CanvasItem {
+    /// The box that the item may draw into: its upper left and lower right corner. Without items,
+    /// the least coordinates are +∞.
     #[must_use]
     pub fn bounds(&self) -> [Vec2; 2] {
         let grown = |[lo, hi]: [Vec2; 2], by: f64| [lo - vec2(by, by), hi + vec2(by, by)];
@@ -195,9 +195,9 @@ impl Item {
     }
 }
 
-impl Item {
+impl CanvasItem {
     /// Lines and fills reflected in a page of a size, from left to right, from top to bottom or
-    /// both. Texts stay upright, with their point reflected; pictures and pages stay as they are.
+    /// both. Texts stay upright, with their point reflected; images and pages stay as they are.
     #[must_use]
     pub fn flipped(mut self, [across, down]: [bool; 2], size: [u32; 2]) -> Self {
         let [width, height] = size.map(f64::from);
@@ -216,7 +216,7 @@ impl Item {
     }
 }
 
-impl Lettering {
+impl TextItem {
     /// Text that starts at a point of its base line and reads to the right.
     #[must_use]
     pub fn new(text: impl Into<String>, size: f64, at: Vec2, color: Rgba) -> Self {
@@ -262,7 +262,7 @@ impl Lettering {
     }
 }
 
-impl Path {
+impl CanvasPath {
     /// One line through points.
     #[must_use]
     pub fn through(points: Vec<Vec2>) -> Self {
@@ -320,7 +320,7 @@ impl Path {
     }
 }
 
-impl Pen {
+impl StrokeStyle {
     /// A pen of a colour and a width.
     #[must_use]
     pub fn new(color: Rgba, width: f64) -> Self {

@@ -14,14 +14,14 @@ mod picture;
 
 use pdf_writer::{Content, Finish as _, Name, Rect, TextStr};
 use ppum::printable::printable;
-use ppum_render::png::Text;
+use ppum_render::png::TextChunk;
 
 use super::Canvas;
-use content::Writer;
+use content::PdfWriter;
 use file::File;
 
 /// Writes a page.
-pub(super) fn file(canvas: &Canvas, dpi: f64, texts: &[Text]) -> Vec<u8> {
+pub(super) fn file(canvas: &Canvas, dpi: f64, texts: &[TextChunk]) -> Vec<u8> {
     let [width, height] = canvas.size.map(|n| (f64::from(n) * 72.0 / dpi) as f32);
     let mut file = File::new();
     let [catalogue, pages, page, content] = [(); 4].map(|()| file.place());
@@ -29,7 +29,7 @@ pub(super) fn file(canvas: &Canvas, dpi: f64, texts: &[Text]) -> Vec<u8> {
     let scale = (72.0 / dpi) as f32;
     let mut start = Content::new();
     start.transform([scale, 0.0, 0.0, -scale, 0.0, height]);
-    let mut writer = Writer::new(&mut file, start);
+    let mut writer = PdfWriter::new(&mut file, start);
     writer.page(canvas);
     let (operators, resources) = writer.finish();
     let font = resources.font.write(&mut file);
@@ -63,7 +63,7 @@ pub(super) fn file(canvas: &Canvas, dpi: f64, texts: &[Text]) -> Vec<u8> {
 }
 
 /// The document's information.
-fn describe(file: &mut File, texts: &[Text]) {
+fn describe(file: &mut File, texts: &[TextChunk]) {
     let place = file.place();
     let mut about = file.pdf.document_info(place);
     for (key, text) in texts {

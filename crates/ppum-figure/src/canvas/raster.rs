@@ -4,8 +4,8 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::{Image, Rgba};
 
 use super::dashes::dashes;
-use super::mask::{Mask, PixelWindow, over};
-use super::{Canvas, Item, Lettering, Path, Pen};
+use super::mask::{CoverageMask, PixelWindow, over};
+use super::{Canvas, CanvasItem, CanvasPath, StrokeStyle, TextItem};
 use crate::text::{self, GlyphCurve};
 
 /// Draws a page.
@@ -19,21 +19,21 @@ pub(super) fn image(canvas: &Canvas) -> Image {
 /// A part of an image that a page is drawn into.
 struct Painter<'a> {
     image: &'a mut Image,
-    /// What is seen.
+    /// The visible window.
     window: PixelWindow,
     /// The page's upper left corner.
     origin: Vec2,
 }
 
 impl Painter<'_> {
-    fn draw(&mut self, items: &[Item]) {
+    fn draw(&mut self, items: &[CanvasItem]) {
         for item in items {
             match item {
-                Item::Picture { image, corner } => self.paste(image, *corner),
-                Item::Fill { outline, color } => self.fill(outline, *color),
-                Item::Line { path, pen } => self.line(path, pen),
-                Item::Text(lettering) => self.letters(lettering),
-                Item::Inset { corner, canvas } => self.inset(canvas, *corner),
+                CanvasItem::Picture { image, corner } => self.paste(image, *corner),
+                CanvasItem::Fill { outline, color } => self.fill(outline, *color),
+                CanvasItem::Line { path, pen } => self.line(path, pen),
+                CanvasItem::Text(lettering) => self.letters(lettering),
+                CanvasItem::Inset { corner, canvas } => self.inset(canvas, *corner),
             }
         }
     }
@@ -53,13 +53,13 @@ impl Painter<'_> {
         let corner = self.moved(corner);
         let window = self.part(corner, canvas.size);
         let origin = vec2(f64::from(corner[0]), f64::from(corner[1]));
-        let mut paper = Mask::new(window);
+        let mut paper = CoverageMask::new(window);
         paper.fill();
         paper.paint(self.image, canvas.paper);
         Painter { image: &mut *self.image, window, origin }.draw(&canvas.items);
     }
 
-    /// Lays a picture over the page; what does not fit is lost.
+    /// Lays an image over the page; what does not fit is lost.
     fn paste(&mut self, picture: &Image, corner: [u32; 2]) {
         let corner = self.moved(corner);
         let (seen, columns) = (self.part(corner, picture.size), self.image.size[0] as usize);
@@ -73,13 +73,13 @@ impl Painter<'_> {
     }
 
     /// An empty mask for things within two points.
-    fn mask(&self, around: [Vec2; 2], margin: f64) -> Mask {
+    fn mask(&self, around: [Vec2; 2], margin: f64) -> CoverageMask {
         let margin = vec2(margin, margin);
         let [lo, hi] = around.map(|p| p + self.origin);
-        Mask::new(self.window.around([lo - margin, hi + margin]))
+        CoverageMask::new(self.window.around([lo - margin, hi + margin]))
     }
 
-    fn fill(&mut self, outline: &Path, color: Rgba) {
+    fn fill(&mut self, outline: &CanvasPath, color: Rgba) {
         let mut mask = self.mask(outline.bounds(), 0.0);
         for corners in &outline.pieces {
             mask.polygon(&self.shifted(corners));
@@ -87,14 +87,14 @@ impl Painter<'_> {
         mask.paint(self.image, color);
     }
 
-    fn line(&mut self, path: &Path, pen: &Pen) {
+    fn line(&mut self, path: &CanvasPath, pen: &StrokeStyle) {
         if let Some(halo) = pen.halo {
-            self.stroke(path, &Pen::new(halo.color, pen.width + 2.0 * halo.width));
+            self.stroke(path, &StrokeStyle::new(halo.color, pen.width + 2.0 * halo.width));
         }
         self.stroke(path, pen);
     }
 
-    fn stroke(&mut self, path: &Path, pen: &Pen) {
+    fn stroke(&mut self, path: &CanvasPath, pen: &StrokeStyle) {
         let mut mask = self.mask(path.bounds(), 0.5 * pen.width + 1.0);
         for points in &path.pieces {
             let points = self.shifted(points);
@@ -108,7 +108,7 @@ impl Painter<'_> {
         mask.paint(self.image, pen.color);
     }
 
-    fn letters(&mut self, line: &Lettering) {
+    fn letters(&mut self, line: &TextItem) {
         let start = line.start() + self.origin;
         let curves = text::outlines(&line.text, line.size, start, line.angle);
         let around = text::bounds(&curves).map(|p| p - self.origin);

@@ -5,11 +5,11 @@ use std::fmt::Write as _;
 use ppum::printable::printable;
 use ppum::vec2::Vec2;
 use ppum_render::image::{Image, Rgba};
-use ppum_render::png::{self, Text};
+use ppum_render::png::{self, TextChunk};
 
 use super::base64::base64;
 use super::xml::escaped;
-use super::{Align, Canvas, Item, Lettering, Path, Pen};
+use super::{Align, Canvas, CanvasItem, CanvasPath, StrokeStyle, TextItem};
 use crate::text::{self, FONT_FILE};
 
 /// Fonts of letters: the one in the file, or where a program ignores that, the same or a similar
@@ -17,7 +17,7 @@ use crate::text::{self, FONT_FILE};
 const FAMILY: &str = "'ppum DejaVu Sans','DejaVu Sans',Verdana,sans-serif";
 
 /// Writes a page.
-pub(super) fn file(canvas: &Canvas, dpi: f64, texts: &[Text]) -> String {
+pub(super) fn file(canvas: &Canvas, dpi: f64, texts: &[TextChunk]) -> String {
     let [width, height] = canvas.size;
     let [across, down] = canvas.size.map(|n| number(f64::from(n) / dpi));
     let mut out = format!(
@@ -34,8 +34,8 @@ pub(super) fn file(canvas: &Canvas, dpi: f64, texts: &[Text]) -> String {
     out
 }
 
-/// What the file says of itself.
-fn describe(out: &mut String, texts: &[Text]) {
+/// Writes the file's metadata.
+fn describe(out: &mut String, texts: &[TextChunk]) {
     let mut rest = String::new();
     for (key, text) in texts {
         let text = escaped(&printable(text));
@@ -54,8 +54,8 @@ fn describe(out: &mut String, texts: &[Text]) {
 
 fn has_text(canvas: &Canvas) -> bool {
     canvas.items.iter().any(|item| match item {
-        Item::Text(_) => true,
-        Item::Inset { canvas, .. } => has_text(canvas),
+        CanvasItem::Text(_) => true,
+        CanvasItem::Inset { canvas, .. } => has_text(canvas),
         _ => false,
     })
 }
@@ -78,13 +78,13 @@ fn content(out: &mut String, canvas: &Canvas) {
     }
     for item in &canvas.items {
         match item {
-            Item::Picture { image, corner } => picture(out, image, *corner),
-            Item::Fill { outline, color } => {
+            CanvasItem::Picture { image, corner } => picture(out, image, *corner),
+            CanvasItem::Fill { outline, color } => {
                 element(out, &data(&outline.turned_alike(), true), &paint("fill", *color));
             }
-            Item::Line { path, pen } => line(out, path, pen),
-            Item::Text(lettering) => letters(out, lettering),
-            Item::Inset { corner: [x, y], canvas } => {
+            CanvasItem::Line { path, pen } => line(out, path, pen),
+            CanvasItem::Text(lettering) => letters(out, lettering),
+            CanvasItem::Inset { corner: [x, y], canvas } => {
                 let [width, height] = canvas.size;
                 *out += &format!(
                     "<svg x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" overflow=\"hidden\">\n"
@@ -98,7 +98,7 @@ fn content(out: &mut String, canvas: &Canvas) {
 
 fn picture(out: &mut String, image: &Image, [x, y]: [u32; 2]) {
     let [width, height] = image.size;
-    // a picture without pixels is no PNG, and nothing to see
+    // an image without pixels is no PNG, and nothing to see
     let Ok(bytes) = png::encode(image, &[]) else { return };
     *out += &format!(
         "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" \
@@ -108,7 +108,7 @@ fn picture(out: &mut String, image: &Image, [x, y]: [u32; 2]) {
     );
 }
 
-fn line(out: &mut String, path: &Path, pen: &Pen) {
+fn line(out: &mut String, path: &CanvasPath, pen: &StrokeStyle) {
     let data = data(path, false);
     let mut stroke = |color: Rgba, width: f64, dashes: &str| {
         let (paint, width) = (paint("stroke", color), number(width));
@@ -132,7 +132,7 @@ fn element(out: &mut String, data: &str, style: &str) {
 }
 
 /// The pieces of a path; those that lead to no place are left out.
-fn data(path: &Path, is_closed: bool) -> String {
+fn data(path: &CanvasPath, is_closed: bool) -> String {
     let mut data = String::new();
     for points in path.pieces.iter().filter(|points| points.iter().all(|p| p.is_finite())) {
         let Some((first, rest)) = points.split_first() else { continue };
@@ -154,7 +154,7 @@ fn place(p: Vec2) -> String {
     format!("{} {}", number(p.x), number(p.y))
 }
 
-fn letters(out: &mut String, line: &Lettering) {
+fn letters(out: &mut String, line: &TextItem) {
     let runs = text::runs(&line.text, line.size);
     if runs.is_empty() {
         return;

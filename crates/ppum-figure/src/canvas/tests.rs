@@ -22,38 +22,43 @@ fn picture() -> Image {
 /// One of each item, and text that XML, fonts or lines of their own could trip over.
 pub(super) fn page() -> Canvas {
     let mut inset = Canvas::new([60, 40], [240, 240, 200, 255]);
-    let across = Path::through(vec![vec2(-30.0, -10.0), vec2(90.0, 60.0)]);
-    inset.items.push(Item::Line { path: across, pen: Pen::new(RED, 6.0) });
+    let across = CanvasPath::through(vec![vec2(-30.0, -10.0), vec2(90.0, 60.0)]);
+    inset.items.push(CanvasItem::Line { path: across, pen: StrokeStyle::new(RED, 6.0) });
     let mut page = Canvas::new([240, 180], WHITE);
-    let mut boxes = Path::default();
+    let mut boxes = CanvasPath::default();
     boxes.rect(vec2(150.0, 20.0), vec2(190.0, 60.0));
     boxes.rect(vec2(210.0, 40.0), vec2(170.0, 80.0));
-    let mut lines = Path::through(vec![vec2(20.0, 160.0), vec2(120.0, 110.0), vec2(200.0, 165.0)]);
+    let mut lines =
+        CanvasPath::through(vec![vec2(20.0, 160.0), vec2(120.0, 110.0), vec2(200.0, 165.0)]);
     lines.line(vec2(60.0, 100.0), vec2(150.0, 170.0));
-    let dots = Path { pieces: vec![vec![vec2(30.0, 110.0)], vec![], vec![vec2(f64::NAN, 1.0)]] };
-    let text = |text: &str, at| Lettering::new(text, 14.0, at, [38, 38, 42, 255]);
+    let dots =
+        CanvasPath { pieces: vec![vec![vec2(30.0, 110.0)], vec![], vec![vec2(f64::NAN, 1.0)]] };
+    let text = |text: &str, at| TextItem::new(text, 14.0, at, [38, 38, 42, 255]);
     let halo = Some(Halo { color: [255, 230, 0, 200], width: 2.0 });
     page.items = vec![
-        Item::Picture { image: picture(), corner: [10, 12] },
-        Item::Fill { outline: boxes, color: PALE },
-        Item::Inset { corner: [60, 15], canvas: inset },
-        Item::Line { path: lines.clone(), pen: Pen::new(RED, 5.0).with_halo(PALE, 3.0) },
-        Item::Line { path: lines, pen: Pen::new(WHITE, 1.0).dashed(6.0, 4.0) },
-        Item::Line { path: dots, pen: Pen::new(PALE, 12.0) },
-        Item::Text(text("σ_{xy} of <A & B>  \"μ\"", vec2(10.0, 90.0))),
-        Item::Text(
-            Lettering { halo, ..text("upwards", vec2(225.0, 90.0)) }
+        CanvasItem::Picture { image: picture(), corner: [10, 12] },
+        CanvasItem::Fill { outline: boxes, color: PALE },
+        CanvasItem::Inset { corner: [60, 15], canvas: inset },
+        CanvasItem::Line {
+            path: lines.clone(),
+            pen: StrokeStyle::new(RED, 5.0).with_halo(PALE, 3.0),
+        },
+        CanvasItem::Line { path: lines, pen: StrokeStyle::new(WHITE, 1.0).dashed(6.0, 4.0) },
+        CanvasItem::Line { path: dots, pen: StrokeStyle::new(PALE, 12.0) },
+        CanvasItem::Text(text("σ_{xy} of <A & B>  \"μ\"", vec2(10.0, 90.0))),
+        CanvasItem::Text(
+            TextItem { halo, ..text("upwards", vec2(225.0, 90.0)) }
                 .aligned(Align::Middle)
                 .upwards(),
         ),
-        Item::Text(text("ends", vec2(200.0, 100.0)).aligned(Align::End)),
-        Item::Text(text("板 \u{1b}[0m\u{ffff}", vec2(10.0, 174.0))),
-        Item::Text(text("", vec2(10.0, 174.0))),
+        CanvasItem::Text(text("ends", vec2(200.0, 100.0)).aligned(Align::End)),
+        CanvasItem::Text(text("板 \u{1b}[0m\u{ffff}", vec2(10.0, 174.0))),
+        CanvasItem::Text(text("", vec2(10.0, 174.0))),
     ];
     page
 }
 
-fn texts() -> Vec<Text> {
+fn texts() -> Vec<TextChunk> {
     let text = |key: &str, text: &str| (key.to_owned(), text.to_owned());
     vec![
         text("Title", "A & B < σ"),
@@ -119,11 +124,11 @@ fn text_in_the_svg_has_its_length() {
     let page = page();
     let svg = page.svg(96.0, &[]);
     let document = Document::parse(&svg).unwrap();
-    let lines: Vec<&Lettering> = page
+    let lines: Vec<&TextItem> = page
         .items
         .iter()
         .filter_map(|item| match item {
-            Item::Text(line) if !line.text.is_empty() => Some(line),
+            CanvasItem::Text(line) if !line.text.is_empty() => Some(line),
             _ => None,
         })
         .collect();
@@ -149,7 +154,7 @@ fn text_in_the_svg_has_its_length() {
 fn a_page_without_letters_carries_no_font() {
     let mut page = page();
     assert!(page.svg(96.0, &[]).contains("@font-face"));
-    page.items.retain(|item| !matches!(item, Item::Text(_)));
+    page.items.retain(|item| !matches!(item, CanvasItem::Text(_)));
     assert!(!page.svg(96.0, &[]).contains("@font-face"));
     let pdf = String::from_utf8_lossy(&page.pdf(96.0, &[])).into_owned();
     assert!(!pdf.contains("/FontFile2"));
@@ -158,7 +163,7 @@ fn a_page_without_letters_carries_no_font() {
 /// Lines of a fill that turn against each other take nothing from each other.
 #[test]
 fn fills_turn_one_way() {
-    let mut path = Path::default();
+    let mut path = CanvasPath::default();
     path.rect(vec2(0.0, 0.0), vec2(4.0, 4.0));
     path.rect(vec2(6.0, 2.0), vec2(2.0, 6.0));
     path.pieces.push(vec![vec2(0.0, 0.0), vec2(0.0, 3.0), vec2(3.0, 0.0)]);
@@ -195,7 +200,7 @@ fn pdf_pages_have_their_physical_size_and_texts() {
     assert!(whole.contains("/ppum:view (center 0,0 \"so\")"));
 }
 
-/// What is shown is found again by the codes of the font: letters are letters.
+/// Text is found again by the codes of the font: letters are letters.
 #[test]
 fn text_in_the_pdf_can_be_copied() {
     let streams = streams(&page().pdf(96.0, &[]));
@@ -245,7 +250,7 @@ fn pictures_in_the_pdf_are_without_loss() {
 
 #[test]
 fn turned_text_starts_where_it_should() {
-    let line = Lettering::new("abc", 10.0, vec2(50.0, 60.0), RED).aligned(Align::End).upwards();
+    let line = TextItem::new("abc", 10.0, vec2(50.0, 60.0), RED).aligned(Align::End).upwards();
     assert_eq!(line.angle, FRAC_PI_2);
     assert!((line.start() - vec2(50.0, 60.0 + line.width())).length() < 1e-9);
 }

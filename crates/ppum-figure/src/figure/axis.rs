@@ -3,11 +3,11 @@
 use ppum::crack::{Crack, tips};
 use ppum::vec2::Vec2;
 
-use super::design::{Design, Labels, TickChoice};
+use super::design::{FigureStyle, Labels, TickChoice};
 use super::ink::TICK_TEXT;
 use crate::text;
 use crate::ticks::{self, AxisSpan, Notation, TickStep, Ticks, power_of_ten};
-use ppum_render::picture::Picture;
+use ppum_render::picture::ColoredRaster;
 
 /// Least distances of labelled ticks, across and along the direction of reading.
 const TICK_DISTANCE: [f64; 2] = [72.0, 44.0];
@@ -68,10 +68,10 @@ pub(super) fn label_places(at: &[f64], lengths: &[f64], gap: f64) -> Vec<f64> {
 
 /// The axes x and y, with the same step where that leaves y two ticks at least.
 pub(super) fn axes(
-    picture: &Picture,
+    picture: &ColoredRaster,
     labels: &Labels,
     cracks: &[Crack],
-    design: &Design,
+    design: &FigureStyle,
 ) -> [FigureAxis; 2] {
     let (view, scale) = (&picture.view, design.scale());
     let half = view.half();
@@ -102,7 +102,7 @@ pub(super) fn axes(
 }
 
 /// The tip in the view that is nearest to its centre.
-fn nearest_tip(picture: &Picture, cracks: &[Crack]) -> Option<Vec2> {
+fn nearest_tip(picture: &ColoredRaster, cracks: &[Crack]) -> Option<Vec2> {
     let view = &picture.view;
     let offset = |p: Vec2| p - view.center;
     let is_seen =
@@ -155,8 +155,8 @@ mod tests {
         let cracks = [crack(tip + vec2(3e-10, 0.0)), crack(tip), crack(tip + vec2(1e-8, 0.0))];
         let view = View::new(tip, 1e-9, [300, 300]).unwrap();
         let raster = Raster::from_fn(view.pixels, |i, _| f64::from(i));
-        let picture = Picture::bare(&raster, &view, &Style::default()).unwrap();
-        let [x, y] = axes(&picture, &labels(), &cracks, &Design::pixels([640, 480]));
+        let picture = ColoredRaster::bare(&raster, &view, &Style::default()).unwrap();
+        let [x, y] = axes(&picture, &labels(), &cracks, &FigureStyle::pixels([640, 480]));
         assert_eq!(
             (x.label.as_str(), y.label.as_str()),
             ("x − 0.3 [×10⁻¹⁰ mm]", "y + 0.7 [×10⁻¹⁰ mm]")

@@ -1,4 +1,4 @@
-//! What a colour bar says of values beyond its ends: `to ∞`, `to 12.3`.
+//! Labels of a colour bar for values beyond its ends: `to ∞`, `to 12.3`.
 
 use super::color_key::ColorKey;
 use super::ink::TICK_TEXT;

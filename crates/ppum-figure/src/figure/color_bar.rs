@@ -9,13 +9,13 @@ use ppum::vec2::{Vec2, vec2};
 use super::axis::{FigureAxis, label_places};
 use super::beyond::words;
 use super::color_key::ColorKey;
-use super::design::{Design, LABEL_TEXT, Labels};
+use super::design::{FigureStyle, LABEL_TEXT, Labels};
 use super::ink::{Ink, LINE, TICK_TEXT, snapped};
 use super::metrics::{BETWEEN_ROWS, GAP, LABEL_GAP, TICK};
-use crate::canvas::{Align, Item, Path};
+use crate::canvas::{Align, CanvasItem, CanvasPath};
 use crate::text::{self, CAP_HEIGHT};
 use ppum_render::image::{Image, Rgba};
-use ppum_render::picture::Picture;
+use ppum_render::picture::ColoredRaster;
 
 /// Width of the bar.
 pub(super) const BAR: f64 = 18.0;
@@ -26,7 +26,7 @@ const MINOR_TICK: f64 = 3.0;
 pub(super) const LEAST_BAR: [f64; 2] = [140.0, 220.0];
 /// Least distance of labelled marks of an upright bar.
 const UPRIGHT_DISTANCE: f64 = 44.0;
-/// The same of marks in the middle of bands.
+/// The distance of marks in the middle of bands.
 const CLASS_DISTANCE: f64 = 18.0;
 /// Between neighbouring labels of a lying bar.
 const BETWEEN: f64 = 14.0;
@@ -35,7 +35,7 @@ const BETWEEN: f64 = 14.0;
 pub(super) struct ColorBar {
     key: ColorKey,
     pub(super) axis: FigureAxis,
-    /// What is said at the lower and the upper end.
+    /// The texts at the lower and the upper end.
     words: [Option<String>; 2],
     pub(super) is_upright: bool,
     /// Length with the triangles, and of a lying bar with the words.
@@ -44,19 +44,24 @@ pub(super) struct ColorBar {
 
 /// A colour bar that stands by itself, upright, for programs that let people change its range.
 #[derive(Clone, Debug)]
-pub struct Bar {
-    /// What is drawn, in pixels; the bar's upper left corner is the origin.
-    pub items: Vec<Item>,
+pub struct StandaloneColorBar {
+    /// The drawn items, in pixels; the bar's upper left corner is the origin.
+    pub items: Vec<CanvasItem>,
     /// How far below the origin the lower and the upper end of the range lie.
     pub ends: [f64; 2],
     /// Width of what is coloured.
     pub width: f64,
 }
 
-impl Bar {
-    /// The bar of a picture, of some length with the triangles at its ends.
+impl StandaloneColorBar {
+    /// The bar of an image, of some length with the triangles at its ends.
     #[must_use]
-    pub fn new(picture: &Picture, labels: &Labels, design: &Design, length: f64) -> Self {
+    pub fn new(
+        picture: &ColoredRaster,
+        labels: &Labels,
+        design: &FigureStyle,
+        length: f64,
+    ) -> Self {
         let mut ink = Ink::new(design);
         let bar = ColorBar::upright(ColorKey::new(picture, labels), design, length.round());
         let start = vec2(0.0, bar.length);
@@ -72,15 +77,15 @@ impl Bar {
     }
 }
 
-/// A bar at its place: `start` is its lower end's corner nearest to the picture.
-struct Placed<'b> {
+/// A bar at its place: `start` is its lower end's corner nearest to the image.
+struct ColorBarLayout<'b> {
     bar: &'b ColorBar,
     start: Vec2,
     scale: f64,
 }
 
 impl ColorBar {
-    pub(super) fn upright(key: ColorKey, design: &Design, length: f64) -> Self {
+    pub(super) fn upright(key: ColorKey, design: &FigureStyle, length: f64) -> Self {
         let scale = design.scale();
         let (apart, least) =
             if key.has_classes() { (CLASS_DISTANCE, 1) } else { (UPRIGHT_DISTANCE, 2) };
@@ -90,7 +95,7 @@ impl ColorBar {
     }
 
     /// A lying bar; it has as many labels as do not touch.
-    pub(super) fn lying(key: ColorKey, design: &Design, length: f64) -> Self {
+    pub(super) fn lying(key: ColorKey, design: &FigureStyle, length: f64) -> Self {
         let scale = design.scale();
         let of = |most| {
             let axis = key.axis(&design.bar_ticks, most, scale);
@@ -106,7 +111,7 @@ impl ColorBar {
         most.map(of).find(is_apart).unwrap_or_else(|| of(2))
     }
 
-    /// What a lying bar takes for words before its lower and behind its upper end.
+    /// Returns the margins of a horizontal bar for words before its lower and behind its upper end.
     fn margins(&self, scale: f64) -> [f64; 2] {
         let margin = |k: usize| match &self.words[k] {
             Some(word) if !self.is_upright => {
@@ -127,7 +132,7 @@ impl ColorBar {
 
     /// Draws the bar with its lower end's corner at a place; the label is no longer than `room`.
     pub(super) fn draw(&self, ink: &mut Ink, start: Vec2, room: f64) {
-        let placed = Placed { bar: self, start, scale: ink.scale };
+        let placed = ColorBarLayout { bar: self, start, scale: ink.scale };
         placed.colors(ink);
         placed.frame(ink);
         let end = placed.marks(ink);
@@ -135,8 +140,8 @@ impl ColorBar {
     }
 }
 
-impl Placed<'_> {
-    /// The point so far along the bar and so far away from the picture.
+impl ColorBarLayout<'_> {
+    /// The point so far along the bar and so far away from the image.
     fn point(&self, along: f64, across: f64) -> Vec2 {
         match self.bar.is_upright {
             true => self.start + vec2(across, -along),
@@ -179,9 +184,10 @@ impl Placed<'_> {
             }
         }
         let corner = self.corners([low, high])[0];
-        ink.items.push(Item::Picture { image, corner: [corner.x as u32, corner.y as u32] });
+        ink.items.push(CanvasItem::Picture { image, corner: [corner.x as u32, corner.y as u32] });
         for (corners, color) in self.arrows() {
-            ink.items.push(Item::Fill { outline: Path::through(corners.to_vec()), color });
+            ink.items
+                .push(CanvasItem::Fill { outline: CanvasPath::through(corners.to_vec()), color });
         }
     }
 
@@ -205,7 +211,7 @@ impl Placed<'_> {
         }
     }
 
-    /// The marks and their labels; returns how far from the picture they end.
+    /// The marks and their labels; returns how far from the image they end.
     fn marks(&self, ink: &mut Ink) -> f64 {
         let ticks = &self.bar.axis.ticks;
         for &position in &ticks.minor {

@@ -1,11 +1,11 @@
-//! What a colour bar explains.
+//! The content of a colour bar.
 
 use super::axis::{FigureAxis, axis_label};
 use super::design::{Labels, TickChoice};
 use crate::ticks::{self, Notation, Tick, Ticks};
 use ppum_render::colormap::Colormap;
 use ppum_render::image::Rgba;
-use ppum_render::picture::Picture;
+use ppum_render::picture::ColoredRaster;
 use ppum_render::range::Basis;
 use ppum_render::scale::Normalization;
 
@@ -14,7 +14,7 @@ const SHORT: usize = 6;
 /// Rounding of the borders of bands, in parts of the range.
 const ROUNDING: f64 = 1e-12;
 
-/// What a colour bar explains: of a range of values, or of some values with a colour each.
+/// The content of a colour bar: of a range of values, or of some values with a colour each.
 #[derive(Clone, Debug)]
 pub(super) struct ColorKey {
     pub(super) normalization: Normalization,
@@ -30,7 +30,7 @@ pub(super) struct ColorKey {
 }
 
 impl ColorKey {
-    pub(super) fn new(picture: &Picture, labels: &Labels) -> Self {
+    pub(super) fn new(picture: &ColoredRaster, labels: &Labels) -> Self {
         let remark = match picture.one_value {
             _ if is_infinite(picture) => "no finite values",
             _ if !picture.has_values => "no values",
@@ -52,7 +52,7 @@ impl ColorKey {
         }
     }
 
-    /// One key for two pictures; none if a colour means one value here and another one there.
+    /// One key for two images; none if a colour means one value here and another one there.
     pub(super) fn shared(mut self, other: &Self) -> Option<Self> {
         self.has_below |= other.has_below;
         self.has_above |= other.has_above;
@@ -140,7 +140,7 @@ impl ColorKey {
 }
 
 /// How far values reach beyond a range that was found; of one that was given nothing is said.
-fn beyond(picture: &Picture) -> [Option<f64>; 2] {
+fn beyond(picture: &ColoredRaster) -> [Option<f64>; 2] {
     if is_infinite(picture) {
         let ends = [(picture.has_below, f64::NEG_INFINITY), (picture.has_above, f64::INFINITY)];
         return ends.map(|(is_seen, end)| is_seen.then_some(end));
@@ -151,6 +151,6 @@ fn beyond(picture: &Picture) -> [Option<f64>; 2] {
 }
 
 /// True if all values that there are are infinite.
-fn is_infinite(picture: &Picture) -> bool {
+fn is_infinite(picture: &ColoredRaster) -> bool {
     !picture.has_values && (picture.has_below || picture.has_above)
 }

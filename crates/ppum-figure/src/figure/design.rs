@@ -5,14 +5,14 @@ use ppum_render::image::{Image, Rgba};
 
 /// The look of a figure: everything but what it shows.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Design {
+pub struct FigureStyle {
     /// Columns and rows of the page.
     pub size: [u32; 2],
     /// Pixels per inch: the size on paper.
     pub dpi: f64,
     /// Size of the labels of axes \[points, 1/72 inch\]; titles, tick labels and lines follow it.
     pub font_size: f64,
-    /// The colours around the picture.
+    /// The colours around the image.
     pub theme: Theme,
     /// True if the page has no colour of its own.
     pub transparent: bool,
@@ -39,10 +39,10 @@ pub enum Theme {
 /// The place of the colour bar.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum BarPlace {
-    /// Right of the picture, upright.
+    /// Right of the image, upright.
     #[default]
     Right,
-    /// Below the picture, lying.
+    /// Below the image, lying.
     Bottom,
     /// There is none.
     None,
@@ -65,7 +65,7 @@ pub enum TickChoice {
 /// boxes ([`missing`](crate::text::missing)).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Labels {
-    /// Lines above the picture; of a panel its caption.
+    /// Lines above the image; of a panel its caption.
     pub title: String,
     /// The quantity that the colours show, e.g. `von Mises stress`.
     pub quantity: String,
@@ -93,10 +93,10 @@ pub(super) const LABEL_TEXT: f64 = 14.0;
 const SCREEN_DPI: f64 = 96.0;
 /// Size of labels in print \[points\]: that of captions in journals.
 const PRINT_SIZE: f64 = 9.0;
-/// Pictures at least this much longer than high have their bar below.
+/// Images at least this much longer than high have their bar below.
 const LONG: f64 = 2.2;
 
-impl Design {
+impl FigureStyle {
     /// A figure for screens, of so many columns and rows; letters and lines grow with it.
     #[must_use]
     pub fn pixels(size: [u32; 2]) -> Self {
@@ -110,7 +110,7 @@ impl Design {
         Self::new(size.map(|length| (length * dpi).round() as u32), dpi)
     }
 
-    /// The same in pixels, with so many of them per inch.
+    /// Returns the sizes in pixels, with so many of them per inch.
     #[must_use]
     pub fn at(self, dpi: f64) -> Self {
         Self { font_size: self.font_size * self.dpi / dpi, dpi, ..self }
@@ -130,7 +130,7 @@ impl Design {
         }
     }
 
-    /// Scale of all lines and letters, those over the picture too: 1 where an axis' label is 14
+    /// Scale of all lines and letters, those over the image too: 1 where an axis' label is 14
     /// pixels high. A length on paper, the same at any number of pixels per inch.
     #[must_use]
     pub fn scale(&self) -> f64 {
@@ -154,7 +154,7 @@ impl Design {
         }
     }
 
-    /// A ground with diagonal lines: what shows outside the plate.
+    /// A ground with diagonal lines: what shows outside the body.
     pub(super) fn hatched(&self, size: [u32; 2]) -> Image {
         let line = match self.theme {
             Theme::Light => [214, 214, 218, 255],
@@ -181,7 +181,7 @@ impl BarPlace {
     /// The places of a bar that may stand anywhere, the usual one first.
     pub const ANYWHERE: [Self; 2] = [Self::Right, Self::Bottom];
 
-    /// The place for pictures of a shape, width over height: below those that are long.
+    /// The place for images of a shape, width over height: below those that are long.
     #[must_use]
     pub fn fitting(aspect: f64) -> Self {
         if aspect > LONG { Self::Bottom } else { Self::Right }

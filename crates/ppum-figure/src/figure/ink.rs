@@ -2,8 +2,8 @@
 
 use ppum::vec2::{Vec2, vec2};
 
-use super::design::Design;
-use crate::canvas::{Align, Item, Lettering, Path, Pen};
+use super::design::FigureStyle;
+use crate::canvas::{Align, CanvasItem, CanvasPath, StrokeStyle, TextItem};
 use crate::text::CAP_HEIGHT;
 use ppum_render::image::Rgba;
 
@@ -20,37 +20,37 @@ pub(super) struct Ink {
     pub(super) scale: f64,
     /// Width of frame and tick lines.
     pub(super) stroke: f64,
-    pub(super) items: Vec<Item>,
+    pub(super) items: Vec<CanvasItem>,
 }
 
 impl Ink {
-    pub(super) fn new(design: &Design) -> Self {
+    pub(super) fn new(design: &FigureStyle) -> Self {
         let scale = design.scale();
         Self { color: design.ink(), scale, stroke: STROKE * scale, items: Vec::new() }
     }
 
     /// A filled box.
     pub(super) fn rect(&mut self, a: Vec2, b: Vec2) {
-        let mut outline = Path::default();
+        let mut outline = CanvasPath::default();
         outline.rect(a, b);
-        self.items.push(Item::Fill { outline, color: self.color });
+        self.items.push(CanvasItem::Fill { outline, color: self.color });
     }
 
     /// A box's outline, just outside of it.
     pub(super) fn outline(&mut self, min: Vec2, max: Vec2) {
         let out = vec2(self.stroke, self.stroke);
         let (min_out, max_out) = (min - out, max + out);
-        let mut outline = Path::default();
+        let mut outline = CanvasPath::default();
         outline.rect(min_out, vec2(max_out.x, min.y));
         outline.rect(vec2(min_out.x, max.y), max_out);
         outline.rect(min_out, vec2(min.x, max_out.y));
         outline.rect(vec2(max.x, min_out.y), max_out);
-        self.items.push(Item::Fill { outline, color: self.color });
+        self.items.push(CanvasItem::Fill { outline, color: self.color });
     }
 
     pub(super) fn line(&mut self, points: Vec<Vec2>) {
-        let pen = Pen::new(self.color, self.stroke);
-        self.items.push(Item::Line { path: Path::through(points), pen });
+        let pen = StrokeStyle::new(self.color, self.stroke);
+        self.items.push(CanvasItem::Line { path: CanvasPath::through(points), pen });
     }
 
     /// Text of some size, given for a figure of 1024 × 768, whose part `align` lies at a point of
@@ -58,16 +58,16 @@ impl Ink {
     pub(super) fn text(&mut self, line: &str, size: f64, at: Vec2, align: Align) {
         if !line.is_empty() {
             let at = vec2(at.x, at.y.round());
-            let line = Lettering::new(line, size * self.scale, at, self.color).aligned(align);
-            self.items.push(Item::Text(line));
+            let line = TextItem::new(line, size * self.scale, at, self.color).aligned(align);
+            self.items.push(CanvasItem::Text(line));
         }
     }
 
     /// Text centred on a point of its base line that reads upwards.
     pub(super) fn upwards(&mut self, line: &str, size: f64, at: Vec2) {
         if !line.is_empty() {
-            let line = Lettering::new(line, size * self.scale, at, self.color);
-            self.items.push(Item::Text(line.aligned(Align::Middle).upwards()));
+            let line = TextItem::new(line, size * self.scale, at, self.color);
+            self.items.push(CanvasItem::Text(line.aligned(Align::Middle).upwards()));
         }
     }
 
@@ -94,7 +94,7 @@ pub(super) fn snapped(at: f64, stroke: f64, middle: f64) -> f64 {
 }
 
 /// The box around items: least and largest coordinates; of nothing, the least are +∞.
-pub(super) fn bounds(items: &[Item]) -> [Vec2; 2] {
+pub(super) fn bounds(items: &[CanvasItem]) -> [Vec2; 2] {
     let none = [vec2(f64::INFINITY, f64::INFINITY), vec2(f64::NEG_INFINITY, f64::NEG_INFINITY)];
-    items.iter().map(Item::bounds).fold(none, |[lo, hi], [a, b]| [lo.min(a), hi.max(b)])
+    items.iter().map(CanvasItem::bounds).fold(none, |[lo, hi], [a, b]| [lo.min(a), hi.max(b)])
 }

@@ -17,12 +17,12 @@ use ppum::vec2::{Vec2, vec2};
 
 use super::color_bar::ColorBar;
 use super::color_key::ColorKey;
-use super::design::{BarPlace, Design, LABEL_TEXT};
+use super::design::{BarPlace, FigureStyle, LABEL_TEXT};
 use super::ink::{Ink, LINE, TITLE_TEXT, bounds};
 use super::metrics::{MARGIN, RIGHT, RIGHT_BAR, TITLE_GAP};
-use super::sheet::{self, Extents, Sheet};
+use super::sheet::{self, Extents, FigureLayout};
 use super::{FigureError, Panel};
-use crate::canvas::{Canvas, Item};
+use crate::canvas::{Canvas, CanvasItem};
 use crate::text;
 
 /// The arrangement of panels.
@@ -56,31 +56,31 @@ impl PanelGrid {
     }
 }
 
-// Room kept around a picture, in pixels of a figure of 1024 × 768.
+// Room kept around an image, in pixels of a figure of 1024 × 768.
 /// Left of it, for y and its labels.
 const LEFT: f64 = 96.0;
-/// What is more below it with a bar there.
+/// Additional space below it with a bar there.
 const BELOW_BAR: f64 = 88.0;
 /// Above it and below it, the first line of a title included.
 const ABOVE: f64 = 52.0;
 const BELOW: f64 = 68.0;
 /// Between a title and what stands below it.
 const TITLE_OVER: f64 = 12.0;
-/// Least side of a picture.
+/// Least side of an image.
 const LEAST: u32 = 48;
 /// Lines of a title, and of a caption, at most.
 const TITLE_LINES: usize = 4;
 const CAPTION_LINES: usize = 2;
 
-/// The largest picture that a figure of one panel has room for, whatever its range.
+/// The largest image that a figure of one panel has room for, whatever its range.
 ///
 /// # Errors
 /// If that is less than 48 pixels wide or high.
-pub fn plot_area(title: &str, design: &Design) -> Result<[u32; 2], FigureError> {
+pub fn plot_area(title: &str, design: &FigureStyle) -> Result<[u32; 2], FigureError> {
     panel_area(title, &[""], PanelGrid::ONE, design)
 }
 
-/// The largest picture that each panel of a figure has room for, by the figure's title and the
+/// The largest image that each panel of a figure has room for, by the figure's title and the
 /// panels' captions.
 ///
 /// # Errors
@@ -89,7 +89,7 @@ pub fn panel_area(
     title: &str,
     captions: &[&str],
     grid: PanelGrid,
-    design: &Design,
+    design: &FigureStyle,
 ) -> Result<[u32; 2], FigureError> {
     let [across, down] = [grid.columns.max(1), grid.rows.max(1)];
     let taken = kept(title, captions, grid, design).map(|room| room.ceil() as u32);
@@ -103,23 +103,23 @@ pub fn panel_area(
     Ok([(design.size[0] - taken[0]) / across, (design.size[1] - taken[1]) / down])
 }
 
-/// A design whose height is that of panels across and down with pictures of a shape, width over
+/// A design whose height is that of panels across and down with images of a shape, width over
 /// height, as wide as the page has room for, with all around them. Its bars are at the first of
-/// some places that leaves the pictures 60 % of the width, else at the last. `room` is the largest
-/// picture of a panel of a design, as [`plot_area`] and [`panel_area`].
+/// some places that leaves the images 60 % of the width, else at the last. `room` is the largest
+/// image of a panel of a design, as [`plot_area`] and [`panel_area`].
 ///
 /// # Errors
 /// Those of `room`.
 pub fn hugging<E>(
-    design: &Design,
+    design: &FigureStyle,
     aspect: f64,
     [across, down]: [u32; 2],
     places: &[BarPlace],
-    room: impl Fn(&Design) -> Result<[u32; 2], E>,
-) -> Result<Design, E> {
+    room: impl Fn(&FigureStyle) -> Result<[u32; 2], E>,
+) -> Result<FigureStyle, E> {
     let width = design.size[0];
     let tallest = width.saturating_mul(TALLEST).saturating_mul(down);
-    let tall = |bar| Design { bar, size: [width, tallest], ..design.clone() };
+    let tall = |bar| FigureStyle { bar, size: [width, tallest], ..design.clone() };
     let is_wide = |place: &&BarPlace| {
         let columns = room(&tall(**place)).map_or(0, |[columns, _]| columns);
         f64::from(columns) * f64::from(across) >= LEAST_PART * f64::from(width)
@@ -134,13 +134,13 @@ pub fn hugging<E>(
 
 /// Height of a row of the page in widths while it is looked for: more than it will have.
 const TALLEST: u32 = 8;
-/// Width over height of pictures that are not drawn any higher.
+/// Width over height of images that are not drawn any higher.
 const NARROWEST: f64 = 0.25;
-/// Least part of a page's width that a picture takes.
+/// Least part of a page's width that an image takes.
 const LEAST_PART: f64 = 0.6;
 
-/// Pixels across and down that no picture has.
-fn kept(title: &str, captions: &[&str], grid: PanelGrid, design: &Design) -> [f64; 2] {
+/// Pixels across and down that no image has.
+fn kept(title: &str, captions: &[&str], grid: PanelGrid, design: &FigureStyle) -> [f64; 2] {
     let scale = design.scale();
     let [across, down] = [grid.columns.max(1), grid.rows.max(1)].map(f64::from);
     let (bars_across, bars_down) = match grid.barred {
@@ -166,32 +166,32 @@ fn kept(title: &str, captions: &[&str], grid: PanelGrid, design: &Design) -> [f6
     [wide, high].map(|room| room * scale)
 }
 
-fn title_lines(title: &str, design: &Design) -> Vec<String> {
+fn title_lines(title: &str, design: &FigureStyle) -> Vec<String> {
     let scale = design.scale();
     let room = f64::from(design.size[0]) - 2.0 * MARGIN * scale;
     sheet::lines(title, TITLE_TEXT * scale, room, TITLE_LINES)
 }
 
 /// A caption as long as its cell right of where plots begin.
-fn caption_lines(caption: &str, grid: PanelGrid, design: &Design) -> Vec<String> {
+fn caption_lines(caption: &str, grid: PanelGrid, design: &FigureStyle) -> Vec<String> {
     let scale = design.scale();
     let cell = f64::from(design.size[0]) / f64::from(grid.columns.max(1));
     let room = cell - (LEFT + MARGIN) * scale;
     sheet::lines(caption, LABEL_TEXT * scale, room, CAPTION_LINES)
 }
 
-/// A figure of panels, in rows, whose titles are their captions, with a title of its own. Pictures
+/// A figure of panels, in rows, whose titles are their captions, with a title of its own. Images
 /// have at most the size that [`panel_area`] gives. A bar that several share has the words of the
 /// first.
 ///
 /// # Errors
-/// A page without room, a picture that is too large, more panels than cells, no panels; one bar for
-/// pictures of several ranges or colour maps.
+/// A page without room, an image that is too large, more panels than cells, no panels; one bar for
+/// images of several ranges or colour maps.
 pub fn panels(
     title: &str,
     panels: &[Panel<'_>],
     grid: PanelGrid,
-    design: &Design,
+    design: &FigureStyle,
 ) -> Result<Canvas, FigureError> {
     if panels.is_empty() || panels.len() > grid.cells() {
         return Err(FigureError::Panels { panels: panels.len(), cells: grid.cells() });
@@ -203,7 +203,7 @@ pub fn panels(
     }
     let sheets = panels.iter().zip(own_keys(panels)?).map(|(panel, key)| {
         let caption = caption_lines(&panel.labels.title, grid, design);
-        Sheet::new(panel, caption, design, room, key.filter(|_| !grid.shared_bar))
+        FigureLayout::new(panel, caption, design, room, key.filter(|_| !grid.shared_bar))
     });
     let lines = title_lines(title, design);
     let [across, down] = [(room[0], grid.columns), (room[1], grid.rows)]
@@ -213,8 +213,8 @@ pub fn panels(
 
 /// Sheets on a page.
 struct FigurePage<'a> {
-    design: &'a Design,
-    sheets: Vec<Sheet<'a>>,
+    design: &'a FigureStyle,
+    sheets: Vec<FigureLayout<'a>>,
     columns: Vec<Track>,
     rows: Vec<Track>,
     /// The bar for all.
@@ -239,13 +239,13 @@ fn plots(tracks: &[Track]) -> [f64; 2] {
 }
 
 impl<'a> FigurePage<'a> {
-    /// A page whose panels have room for pictures of so many pixels together.
+    /// A page whose panels have room for images of so many pixels together.
     fn new(
-        sheets: Vec<Sheet<'a>>,
+        sheets: Vec<FigureLayout<'a>>,
         panels: &[Panel<'_>],
         lines: Vec<String>,
         (grid, room): (PanelGrid, [f64; 2]),
-        design: &'a Design,
+        design: &'a FigureStyle,
     ) -> Result<Self, FigureError> {
         let [columns, rows] = tracks(&sheets, grid, design);
         let sides = [&columns, &rows].map(|tracks| plots(tracks)[1] - plots(tracks)[0]);
@@ -283,7 +283,7 @@ impl<'a> FigurePage<'a> {
     }
 
     /// Everything but the plots.
-    fn around(&self, start: Vec2) -> Vec<Item> {
+    fn around(&self, start: Vec2) -> Vec<CanvasItem> {
         let mut ink = Ink::new(self.design);
         let origins = self.origins(start);
         for (sheet, at) in self.sheets.iter().zip(&origins) {
@@ -314,7 +314,7 @@ impl<'a> FigurePage<'a> {
 }
 
 /// The rooms of columns and of rows, whole pixels.
-fn tracks(sheets: &[Sheet<'_>], grid: PanelGrid, design: &Design) -> [Vec<Track>; 2] {
+fn tracks(sheets: &[FigureLayout<'_>], grid: PanelGrid, design: &FigureStyle) -> [Vec<Track>; 2] {
     let mut columns = vec![[0.0; 3]; grid.columns as usize];
     let mut rows = vec![[0.0; 3]; grid.rows as usize];
     for (k, sheet) in sheets.iter().enumerate() {
@@ -336,14 +336,14 @@ fn tracks(sheets: &[Sheet<'_>], grid: PanelGrid, design: &Design) -> [Vec<Track>
     [columns, rows]
 }
 
-/// What one bar explains.
+/// Returns the content of one shared bar.
 fn shared_key<'a>(panels: impl Iterator<Item = &'a Panel<'a>>) -> Result<ColorKey, FigureError> {
     let mut keys = panels.map(|panel| ColorKey::new(panel.picture, &panel.labels));
     let first = keys.next().ok_or(FigureError::Ranges)?;
     keys.try_fold(first, |key, other| key.shared(&other)).ok_or(FigureError::Ranges)
 }
 
-/// What the bar of each panel explains; none of those that another one's bar explains.
+/// Returns the content of the bar of each panel; none of those that another one's bar explains.
 fn own_keys(panels: &[Panel<'_>]) -> Result<Vec<Option<ColorKey>>, FigureError> {
     let has_own = |k: usize| panels.get(k).is_some_and(|panel| panel.bar_of.is_none());
     let owner = |k: usize| panels[k].bar_of.filter(|&other| has_own(other)).unwrap_or(k);

@@ -11,7 +11,7 @@ pub(super) const TITLE_GAP: f64 = 14.0;
 pub(super) const BETWEEN: f64 = 8.0;
 pub(super) const BETWEEN_ROWS: f64 = 4.0;
 pub(super) const BAR_GAP: f64 = 24.0;
-/// Right of a picture without a bar, and with one.
+/// Right of an image without a bar, and with one.
 pub(super) const RIGHT: f64 = 36.0;
 pub(super) const RIGHT_BAR: f64 = 150.0;
 /// Around everything.

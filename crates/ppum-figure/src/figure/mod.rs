@@ -1,7 +1,7 @@
-//! Figures: a picture with axes, a colour bar, a title and the cracks.
+//! Figures: an image with axes, a colour bar, a title and the cracks.
 //!
-//! The picture's pixels are shown as they are, one to one; frame and ticks lie outside them. Pixels
-//! without a value are hatched where the picture is transparent. At deep zoom axes count from the
+//! The image's pixels are shown as they are, one to one; frame and ticks lie outside them. Pixels
+//! without a value are hatched where the image is transparent. At deep zoom axes count from the
 //! tip nearest to the view's centre ("x − 0.5 \[×10⁻¹²\]"), without one from a rounded centre.
 //!
 //! ```text
@@ -28,17 +28,17 @@ mod sheet;
 use crate::canvas::Canvas;
 
 pub use axis::axis_label;
-pub use color_bar::Bar;
-pub use design::{BarPlace, Design, Labels, Theme, TickChoice};
+pub use color_bar::StandaloneColorBar;
+pub use design::{BarPlace, FigureStyle, Labels, Theme, TickChoice};
 pub use layout::{PanelGrid, hugging, panel_area, panels, plot_area};
 pub use panel::{FigureError, Panel, bare};
 pub use sheet::lacks_legend;
 
-/// A figure around a picture of at most [`plot_area`], in the middle, its title above it.
+/// A figure around an image of at most [`plot_area`], in the middle, its title above it.
 ///
 /// # Errors
-/// A size without room for the picture.
-pub fn figure(mut panel: Panel<'_>, design: &Design) -> Result<Canvas, FigureError> {
+/// A size without room for the image.
+pub fn figure(mut panel: Panel<'_>, design: &FigureStyle) -> Result<Canvas, FigureError> {
     let title = std::mem::take(&mut panel.labels.title);
     panels(&title, &[panel], PanelGrid::ONE, design)
 }

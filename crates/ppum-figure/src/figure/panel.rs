@@ -1,17 +1,17 @@
-//! A picture and what belongs to it, bare or in a figure.
+//! An image and what belongs to it, bare or in a figure.
 
 use ppum::crack::Crack;
-use ppum_render::picture::Picture;
+use ppum_render::picture::ColoredRaster;
 
 use super::design::Labels;
-use crate::canvas::{Canvas, Item};
+use crate::canvas::{Canvas, CanvasItem};
 use crate::overlay::LegendEntry;
 
 /// The reason why there is no such figure.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FigureError {
-    /// No room for the pictures between the labels.
+    /// No room for the images between the labels.
     #[error("a figure of {}x{} pixels leaves no room; give at least {}x{}, {}x{} inches, or smaller letters",
         size[0], size[1], least[0], least[1], inches(least[0], *dpi), inches(least[1], *dpi))]
     TooSmall {
@@ -22,11 +22,11 @@ pub enum FigureError {
         /// Pixels per inch.
         dpi: f64,
     },
-    /// The picture is larger than the room between the labels.
+    /// The image is larger than the room between the labels.
     #[error("a picture of {}x{} pixels does not fit a figure with room for {}x{}; \
         draw it with the size that plot_area gives", plot[0], plot[1], room[0], room[1])]
     TooLarge {
-        /// The picture's size.
+        /// The image's size.
         plot: [u32; 2],
         /// The room.
         room: [u32; 2],
@@ -39,19 +39,19 @@ pub enum FigureError {
         /// Number of cells.
         cells: usize,
     },
-    /// One bar for pictures with several ranges, scales or colour maps.
+    /// One bar for images with several ranges, scales or colour maps.
     #[error("one colour bar cannot explain pictures with different ranges or colours")]
     Ranges,
 }
 
-/// A picture and what belongs to it.
+/// An image and what belongs to it.
 #[derive(Clone, Debug)]
 pub struct Panel<'a> {
-    /// The picture.
-    pub picture: &'a Picture,
-    /// What is drawn over it; positions are pixels of the picture.
-    pub layers: Vec<Item>,
-    /// The entries of a legend that has no room in the picture; it stands beside the picture or
+    /// The image.
+    pub picture: &'a ColoredRaster,
+    /// The overlays; positions are pixels of the image.
+    pub layers: Vec<CanvasItem>,
+    /// The entries of a legend that has no room in the image; it stands beside the image or
     /// above it.
     pub legend: Vec<LegendEntry>,
     /// Its words.
@@ -63,11 +63,11 @@ pub struct Panel<'a> {
     pub bar_of: Option<usize>,
 }
 
-/// A picture with layers over it, and nothing around it.
+/// An image with layers over it, and nothing around it.
 #[must_use]
-pub fn bare(picture: &Picture, layers: Vec<Item>) -> Canvas {
+pub fn bare(picture: &ColoredRaster, layers: Vec<CanvasItem>) -> Canvas {
     let mut page = Canvas::new(picture.image.size, [0; 4]);
-    page.items.push(Item::Picture { image: picture.image.clone(), corner: [0, 0] });
+    page.items.push(CanvasItem::Picture { image: picture.image.clone(), corner: [0, 0] });
     page.items.extend(layers);
     page
 }

@@ -6,22 +6,22 @@ use super::Panel;
 use super::axis::{FigureAxis, axes, label_places};
 use super::color_bar::{ColorBar, LEAST_BAR};
 use super::color_key::ColorKey;
-use super::design::{BarPlace, Design, LABEL_TEXT};
+use super::design::{BarPlace, FigureStyle, LABEL_TEXT};
 use super::ink::{Ink, TICK_TEXT, bounds, snapped};
 use super::legend::{Free, Legend};
 use super::metrics::{
     BAR_GAP, BETWEEN, BETWEEN_ROWS, GAP, LABEL_GAP, MARGIN, RIGHT, RIGHT_BAR, TICK, TITLE_GAP, WORD,
 };
-use crate::canvas::{Align, Item};
+use crate::canvas::{Align, CanvasItem};
 use crate::text::{self, CAP_HEIGHT};
 
 /// Between what stands below a plot and a bar below that.
 const BAR_BELOW_GAP: f64 = 16.0;
 
 /// Everything around a plot.
-pub(super) struct Sheet<'a> {
+pub(super) struct FigureLayout<'a> {
     panel: &'a Panel<'a>,
-    design: &'a Design,
+    design: &'a FigureStyle,
     x: FigureAxis,
     y: FigureAxis,
     bar: Option<ColorBar>,
@@ -29,7 +29,7 @@ pub(super) struct Sheet<'a> {
     legend: Option<Legend<'a>>,
     /// The caption, line by line.
     caption: Vec<String>,
-    /// What labels of axes and bars may take.
+    /// The space for labels of axes and bars.
     room: [f64; 2],
 }
 
@@ -40,12 +40,12 @@ pub(super) struct Extents {
     pub(super) after: Vec2,
 }
 
-impl<'a> Sheet<'a> {
+impl<'a> FigureLayout<'a> {
     /// A panel whose plot may have as many pixels as `room`, with the bar of a key if it has one.
     pub(super) fn new(
         panel: &'a Panel<'a>,
         caption: Vec<String>,
-        design: &'a Design,
+        design: &'a FigureStyle,
         room: [u32; 2],
         key: Option<ColorKey>,
     ) -> Self {
@@ -59,15 +59,15 @@ impl<'a> Sheet<'a> {
     }
 
     /// The plot on its hatched ground with the layers over it, its upper left pixel at a place.
-    pub(super) fn plot(&self, origin: [u32; 2]) -> Item {
+    pub(super) fn plot(&self, origin: [u32; 2]) -> CanvasItem {
         let mut canvas = super::bare(self.panel.picture, self.panel.layers.clone());
         let (corner, ground) = ([0, 0], self.design.hatched(canvas.size));
-        canvas.items.insert(0, Item::Picture { image: ground, corner });
-        Item::Inset { corner: origin, canvas }
+        canvas.items.insert(0, CanvasItem::Picture { image: ground, corner });
+        CanvasItem::Inset { corner: origin, canvas }
     }
 
     /// All that stands around the plot.
-    pub(super) fn around(&self, origin: [u32; 2]) -> Vec<Item> {
+    pub(super) fn around(&self, origin: [u32; 2]) -> Vec<CanvasItem> {
         let mut ink = Ink::new(self.design);
         let min = vec2(f64::from(origin[0]), f64::from(origin[1]));
         let max = min + self.sides();
@@ -107,7 +107,7 @@ impl<'a> Sheet<'a> {
         Vec2::from(self.panel.picture.image.size.map(f64::from))
     }
 
-    /// The longest label across: it may reach as far beyond the picture as the page is free right
+    /// The longest label across: it may reach as far beyond the image as the page is free right
     /// of it.
     fn label_room(&self) -> f64 {
         let beyond = if self.design.bar == BarPlace::Right { 0.0 } else { RIGHT - MARGIN };
@@ -157,7 +157,7 @@ impl<'a> Sheet<'a> {
 
 /// The room for a legend around a plot with so many columns and rows, whose panel has room
 /// for more.
-fn free(bar: Option<&ColorBar>, sides: [f64; 2], room: [f64; 2], design: &Design) -> Free {
+fn free(bar: Option<&ColorBar>, sides: [f64; 2], room: [f64; 2], design: &FigureStyle) -> Free {
     let scale = design.scale();
     let upright = bar.filter(|bar| bar.is_upright);
     let right = if upright.is_some() { RIGHT_BAR } else { RIGHT };
@@ -172,19 +172,19 @@ fn free(bar: Option<&ColorBar>, sides: [f64; 2], room: [f64; 2], design: &Design
     }
 }
 
-/// True if the legend of a panel with room for a picture of `room` pixels has no place outside of
-/// the picture, and is left out.
+/// True if the legend of a panel with room for an image of `room` pixels has no place outside of
+/// the image, and is left out.
 #[must_use]
-pub fn lacks_legend(panel: &Panel<'_>, room: [u32; 2], design: &Design) -> bool {
+pub fn lacks_legend(panel: &Panel<'_>, room: [u32; 2], design: &FigureStyle) -> bool {
     let key = Some(ColorKey::new(panel.picture, &panel.labels));
-    !panel.legend.is_empty() && Sheet::new(panel, vec![], design, room, key).legend.is_none()
+    !panel.legend.is_empty() && FigureLayout::new(panel, vec![], design, room, key).legend.is_none()
 }
 
 /// The bar beside or below a plot: as long as that, and never shorter than its labels need.
 pub(super) fn bar(
     key: ColorKey,
     place: BarPlace,
-    design: &Design,
+    design: &FigureStyle,
     sides: [f64; 2],
     room: [f64; 2],
 ) -> Option<ColorBar> {
@@ -201,8 +201,8 @@ pub(super) fn bar(
     }
 }
 
-/// Draws a bar beside a box, or below it. What stands around the box ends at `end`: a lying bar is
-/// below that, and an upright one beside it if it reaches beyond the box.
+/// Draws a bar beside a box, or below it. The decorations around the box end at `end`: a lying bar
+/// is below that, and an upright one beside it if it reaches beyond the box.
 pub(super) fn draw_bar(
     bar: &ColorBar,
     ink: &mut Ink,

@@ -2,10 +2,10 @@
 
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::colormap::Colormap;
-use ppum_render::extrema::{Extrema, Extremum, On};
+use ppum_render::extrema::{Extrema, Extremum, ExtremumSite};
 use ppum_render::image::{Image, Rgba};
-use ppum_render::picture::{Picture, Style};
-use ppum_render::range::{Basis, Range, ValueSpan};
+use ppum_render::picture::{ColoredRaster, Style};
+use ppum_render::range::{Basis, ColorRange, RangeChoice};
 use ppum_render::raster::Raster;
 use ppum_render::scale::Scale;
 use ppum_render::view::View;
@@ -16,7 +16,7 @@ use super::color_key::ColorKey;
 use super::design::HATCH_STEP;
 use super::metrics::BAR_GAP;
 use super::*;
-use crate::canvas::{Item, Lettering};
+use crate::canvas::{CanvasItem, TextItem};
 use crate::overlay::{LegendEntry, Symbol};
 
 const SIZE: [u32; 2] = [640, 480];
@@ -37,7 +37,7 @@ fn labels() -> Labels {
 }
 
 /// x on a plate, or what classes there are, NaN in its upper left quarter.
-fn plate(half: Vec2, room: [u32; 2], style: &Style) -> Picture {
+fn plate(half: Vec2, room: [u32; 2], style: &Style) -> ColoredRaster {
     let view = View::hug(Rect::around(Vec2::ZERO, half), room).unwrap();
     let classes = style.colormap.classes();
     let raster = Raster::from_fn(view.pixels, |i, j| match view.offset(i, j) {
@@ -45,24 +45,24 @@ fn plate(half: Vec2, room: [u32; 2], style: &Style) -> Picture {
         _ if !classes.is_empty() => classes[(i + j) as usize % classes.len()],
         p => p.x,
     });
-    Picture::bare(&raster, &view, style).unwrap()
+    ColoredRaster::bare(&raster, &view, style).unwrap()
 }
 
-fn picture(half: f64, range: Range) -> Picture {
+fn picture(half: f64, range: RangeChoice) -> ColoredRaster {
     let style = Style { range, ..Style::default() };
-    plate(vec2(half, half), plot_area(LONG, &Design::pixels(SIZE)).unwrap(), &style)
+    plate(vec2(half, half), plot_area(LONG, &FigureStyle::pixels(SIZE)).unwrap(), &style)
 }
 
-fn panel(picture: &Picture, labels: Labels) -> Panel<'_> {
+fn panel(picture: &ColoredRaster, labels: Labels) -> Panel<'_> {
     Panel { picture, layers: vec![], legend: vec![], labels, cracks: &[], bar_of: None }
 }
 
-fn drawn(picture: &Picture) -> Image {
-    figure(panel(picture, labels()), &Design::pixels(SIZE)).unwrap().image()
+fn drawn(picture: &ColoredRaster) -> Image {
+    figure(panel(picture, labels()), &FigureStyle::pixels(SIZE)).unwrap().image()
 }
 
 /// The corner of the plot, found as the first place with the picture's last row of colours.
-fn plot_corner(page: &Image, picture: &Picture) -> [u32; 2] {
+fn plot_corner(page: &Image, picture: &ColoredRaster) -> [u32; 2] {
     let [columns, rows] = picture.image.size;
     let last_row = |x: u32, y: u32| {
         (0..columns).all(|i| page.pixel(x + i, y) == picture.image.pixel(i, rows - 1))
@@ -74,7 +74,7 @@ fn plot_corner(page: &Image, picture: &Picture) -> [u32; 2] {
 
 #[test]
 fn the_picture_is_shown_pixel_for_pixel() {
-    let picture = picture(1.0, Range::Auto);
+    let picture = picture(1.0, RangeChoice::Auto);
     let page = drawn(&picture);
     let [x, y] = plot_corner(&page, &picture);
     let [columns, rows] = picture.image.size;
@@ -95,7 +95,7 @@ fn the_picture_is_shown_pixel_for_pixel() {
 
 #[test]
 fn ticks_are_at_their_values() {
-    let picture = picture(1.0, Range::Auto);
+    let picture = picture(1.0, RangeChoice::Auto);
     let page = drawn(&picture);
     let [x, y] = plot_corner(&page, &picture);
     let [columns, rows] = picture.image.size;
@@ -112,7 +112,7 @@ fn ticks_are_at_their_values() {
 /// Below and above: in the colours of the ends, or in contrasting ones.
 #[test]
 fn the_bar_runs_from_low_to_high_and_ends_in_arrows() {
-    let plain = picture(1.0, Range::Fixed(-0.5, 0.5));
+    let plain = picture(1.0, RangeChoice::Fixed(-0.5, 0.5));
     let mut contrasting = plain.clone();
     contrasting.colormap = contrasting.colormap.contrasting();
     for picture in [plain, contrasting] {
@@ -132,14 +132,14 @@ fn the_bar_runs_from_low_to_high_and_ends_in_arrows() {
 
 #[test]
 fn figures_without_room_are_refused() {
-    let picture = picture(1.0, Range::Auto);
-    let refused = |size| figure(panel(&picture, labels()), &Design::pixels(size)).unwrap_err();
+    let picture = picture(1.0, RangeChoice::Auto);
+    let refused = |size| figure(panel(&picture, labels()), &FigureStyle::pixels(size)).unwrap_err();
     assert!(matches!(refused([200, 480]), FigureError::TooSmall { .. }));
     assert!(matches!(refused([500, 400]), FigureError::TooLarge { .. }));
     let FigureError::TooSmall { least, .. } = refused([10, 10]) else { unreachable!() };
-    let room = plot_area(LONG, &Design::pixels(least)).unwrap();
+    let room = plot_area(LONG, &FigureStyle::pixels(least)).unwrap();
     assert_eq!(room.iter().min(), Some(&48));
-    let design = Design::pixels(SIZE);
+    let design = FigureStyle::pixels(SIZE);
     let grid = PanelGrid::new([2, 1]);
     let error = panels("", &vec![panel(&picture, labels()); 3], grid, &design).unwrap_err();
     assert_eq!(error, FigureError::Panels { panels: 3, cells: 2 });
@@ -148,12 +148,16 @@ fn figures_without_room_are_refused() {
 
 #[test]
 fn one_bar_explains_one_range() {
-    let design = Design::pixels([1200, 900]);
+    let design = FigureStyle::pixels([1200, 900]);
     let grid = PanelGrid { shared_bar: true, ..PanelGrid::new([2, 1]) };
     let room = panel_area("", &[""], grid, &design).unwrap();
-    let of = |range: Range| plate(vec2(1.0, 1.0), room, &Style { range, ..Style::default() });
-    let [a, b, c] =
-        [Range::Fixed(-2.0, 0.5), Range::Fixed(-2.0, 0.5), Range::Fixed(0.0, 2.0)].map(of);
+    let of = |range: RangeChoice| plate(vec2(1.0, 1.0), room, &Style { range, ..Style::default() });
+    let [a, b, c] = [
+        RangeChoice::Fixed(-2.0, 0.5),
+        RangeChoice::Fixed(-2.0, 0.5),
+        RangeChoice::Fixed(0.0, 2.0),
+    ]
+    .map(of);
     let both = |a, b| {
         panels("", &[panel(a, Labels::default()), panel(b, Labels::default())], grid, &design)
     };
@@ -165,7 +169,7 @@ fn one_bar_explains_one_range() {
 #[test]
 fn lengths_follow_the_size_on_paper() {
     for dpi in [72.0, 150.0, 600.0] {
-        let design = Design::inches([6.5, 4.5], dpi);
+        let design = FigureStyle::inches([6.5, 4.5], dpi);
         assert_eq!(design.size, [6.5 * dpi, 4.5 * dpi].map(|n| n.round() as u32));
         let picture = plate(vec2(1.0, 1.0), plot_area("", &design).unwrap(), &Style::default());
         let page = figure(panel(&picture, Labels::default()), &design).unwrap();
@@ -179,9 +183,13 @@ fn lengths_follow_the_size_on_paper() {
 fn bands_are_marked_at_their_borders() {
     let marks = |max: f64, bands: u16| {
         let colormap = Colormap::named("batlow").unwrap().banded(bands);
-        let style = Style { colormap, range: Range::Fixed(-0.5, max), ..Style::default() };
+        let style = Style { colormap, range: RangeChoice::Fixed(-0.5, max), ..Style::default() };
         let none = TickChoice::At(vec![]);
-        let design = Design { x_ticks: none.clone(), y_ticks: none, ..Design::pixels([1024, 768]) };
+        let design = FigureStyle {
+            x_ticks: none.clone(),
+            y_ticks: none,
+            ..FigureStyle::pixels([1024, 768])
+        };
         let picture = plate(vec2(1.0, 1.0), plot_area("", &design).unwrap(), &style);
         let page = figure(panel(&picture, Labels::default()), &design).unwrap();
         let mut words: Vec<String> = texts(&page).iter().map(|line| line.text.clone()).collect();
@@ -201,16 +209,17 @@ fn classes_are_marked_in_their_middle() {
     let classes = [0.0, 1.0, 5.0, 30.0];
     for bar in [BarPlace::Right, BarPlace::Bottom] {
         let none = TickChoice::At(vec![]);
-        let design = Design { x_ticks: none.clone(), y_ticks: none, bar, ..Design::pixels(SIZE) };
+        let design =
+            FigureStyle { x_ticks: none.clone(), y_ticks: none, bar, ..FigureStyle::pixels(SIZE) };
         let room = plot_area("", &design).unwrap();
         let view = View::hug(Rect::around(Vec2::ZERO, vec2(1.0, 1.0)), room).unwrap();
         let raster = Raster::from_fn(view.pixels, |i, j| classes[((i + j) % 4) as usize]);
         let style = Style::default().classed(&raster.whole_numbers(4).unwrap());
-        let picture = Picture::bare(&raster, &view, &style).unwrap();
+        let picture = ColoredRaster::bare(&raster, &view, &style).unwrap();
         let page = figure(panel(&picture, Labels::default()), &design).unwrap();
         let key = ColorKey::new(&picture, &Labels::default());
         let image = page.items.iter().find_map(|item| match item {
-            Item::Picture { image, corner } => Some((image.clone(), corner.map(f64::from))),
+            CanvasItem::Picture { image, corner } => Some((image.clone(), corner.map(f64::from))),
             _ => None,
         });
         let (image, corner) = image.expect("the bar's colours");
@@ -219,7 +228,7 @@ fn classes_are_marked_in_their_middle() {
         for (k, value) in classes.into_iter().enumerate() {
             let label = ppum::text::trimmed(value);
             let line = *texts(&page).iter().find(|line| line.text == label).expect("a label");
-            let [lo, hi] = Item::Text(line.clone()).bounds();
+            let [lo, hi] = CanvasItem::Text(line.clone()).bounds();
             let middle = (lo + hi) * 0.5 - Vec2::from(corner);
             let along = if side == 0 { middle.x / length } else { 1.0 - middle.y / length };
             assert!((along - (k as f64 + 0.5) / 4.0).abs() < 0.02, "{bar:?} {value}: {along}");
@@ -234,16 +243,16 @@ fn classes_are_marked_in_their_middle() {
 /// A bar for several panels: it knows of the values of all.
 #[test]
 fn panels_share_a_bar() {
-    let design = Design::pixels([1500, 900]);
+    let design = FigureStyle::pixels([1500, 900]);
     let grid = PanelGrid::new([3, 1]);
     let room = panel_area("", &[""], grid, &design).unwrap();
-    let of = |range: Range| plate(vec2(1.0, 1.0), room, &Style { range, ..Style::default() });
-    let [a, b] = [Range::Fixed(-2.0, 0.5), Range::Fixed(0.0, 2.0)].map(of);
-    let draw = |bars: [Option<usize>; 3], pictures: [&Picture; 3]| {
+    let of = |range: RangeChoice| plate(vec2(1.0, 1.0), room, &Style { range, ..Style::default() });
+    let [a, b] = [RangeChoice::Fixed(-2.0, 0.5), RangeChoice::Fixed(0.0, 2.0)].map(of);
+    let draw = |bars: [Option<usize>; 3], pictures: [&ColoredRaster; 3]| {
         let panel = |(bar_of, picture)| Panel { bar_of, ..panel(picture, Labels::default()) };
         let all: Vec<Panel<'_>> = bars.into_iter().zip(pictures).map(panel).collect();
         let page = panels("", &all, grid, &design)?;
-        Ok(page.items.iter().filter(|item| matches!(item, Item::Picture { .. })).count())
+        Ok(page.items.iter().filter(|item| matches!(item, CanvasItem::Picture { .. })).count())
     };
     assert_eq!(draw([None; 3], [&a, &a, &b]), Ok(3));
     assert_eq!(draw([Some(1), None, None], [&a, &a, &b]), Ok(2));
@@ -258,11 +267,11 @@ fn panels_share_a_bar() {
 #[test]
 fn a_picture_without_values_says_so() {
     let none = TickChoice::At(vec![]);
-    let design = Design { x_ticks: none.clone(), y_ticks: none, ..Design::pixels(SIZE) };
+    let design = FigureStyle { x_ticks: none.clone(), y_ticks: none, ..FigureStyle::pixels(SIZE) };
     let view = View::hug(Rect::around(Vec2::ZERO, vec2(1.0, 1.0)), [200, 200]).unwrap();
     let words = |value: f64, quantity: &str| {
         let raster = Raster::from_fn(view.pixels, |_, _| value);
-        let picture = Picture::bare(&raster, &view, &Style::default()).unwrap();
+        let picture = ColoredRaster::bare(&raster, &view, &Style::default()).unwrap();
         let [x, y] = [String::new(), String::new()];
         let labels = Labels { quantity: quantity.to_owned(), x, y, ..Labels::default() };
         let page = figure(panel(&picture, labels), &design).unwrap();
@@ -282,12 +291,12 @@ fn a_bar_of_infinite_values_has_no_colours_but_its_ends() {
     let view = View::hug(Rect::around(Vec2::ZERO, vec2(1.0, 1.0)), [200, 200]).unwrap();
     for sign in [1.0, -1.0] {
         let raster = Raster::from_fn(view.pixels, |_, _| sign * f64::INFINITY);
-        let picture = Picture::bare(&raster, &view, &Style::default()).unwrap();
+        let picture = ColoredRaster::bare(&raster, &view, &Style::default()).unwrap();
         let key = ColorKey::new(&picture, &Labels::default());
         assert!((0..=10).all(|k| key.color(f64::from(k) / 10.0) == [0; 4]), "nothing between");
-        let page = figure(panel(&picture, Labels::default()), &Design::pixels(SIZE)).unwrap();
+        let page = figure(panel(&picture, Labels::default()), &FigureStyle::pixels(SIZE)).unwrap();
         let fills = page.items.iter().filter_map(|item| match item {
-            Item::Fill { color, outline } => Some((*color, outline.pieces[0].len())),
+            CanvasItem::Fill { color, outline } => Some((*color, outline.pieces[0].len())),
             _ => None,
         });
         let seen = picture.image.pixel(100, 100);
@@ -299,18 +308,18 @@ fn a_bar_of_infinite_values_has_no_colours_but_its_ends() {
 /// A transparent page shows what is behind it, in holes too; a dark one is dark to its corners.
 #[test]
 fn pages_have_the_colours_of_their_theme() {
-    let picture = picture(1.0, Range::Auto);
-    let corner = |design: Design| {
+    let picture = picture(1.0, RangeChoice::Auto);
+    let corner = |design: FigureStyle| {
         let image = figure(panel(&picture, labels()), &design).unwrap().image();
         (image.pixel(0, 0), image)
     };
-    let (seen, image) = corner(Design { transparent: true, ..Design::pixels(SIZE) });
+    let (seen, image) = corner(FigureStyle { transparent: true, ..FigureStyle::pixels(SIZE) });
     assert_eq!(seen, [0; 4]);
     let clear = image.rgba.as_chunks::<4>().0.iter().filter(|p| p[3] == 0).count();
     let undefined = picture.image.rgba.as_chunks::<4>().0.iter().filter(|p| p[3] == 0).count();
     let outside = image.rgba.len() / 4 - picture.image.rgba.len() / 4;
     assert!(clear > outside * 9 / 10 && clear > undefined * 3 / 4, "{clear}");
-    let (seen, image) = corner(Design { theme: Theme::Dark, ..Design::pixels(SIZE) });
+    let (seen, image) = corner(FigureStyle { theme: Theme::Dark, ..FigureStyle::pixels(SIZE) });
     assert!(seen[..3].iter().all(|c| *c < 40) && seen[3] == 255);
     assert!(!image.rgba.as_chunks::<4>().0.contains(&PAGE), "no white is left");
 }
@@ -318,16 +327,16 @@ fn pages_have_the_colours_of_their_theme() {
 /// More or fewer pixels per inch change nothing but the size on paper.
 #[test]
 fn pixels_do_not_depend_on_the_size_on_paper() {
-    let picture = picture(1.0, Range::Auto);
-    let drawn = |design: &Design| figure(panel(&picture, labels()), design).unwrap().image();
-    let plain = Design::pixels(SIZE);
+    let picture = picture(1.0, RangeChoice::Auto);
+    let drawn = |design: &FigureStyle| figure(panel(&picture, labels()), design).unwrap().image();
+    let plain = FigureStyle::pixels(SIZE);
     assert_eq!(drawn(&plain), drawn(&plain.clone().at(300.0)));
 }
 
-fn texts(page: &Canvas) -> Vec<&Lettering> {
+fn texts(page: &Canvas) -> Vec<&TextItem> {
     let mut lines = Vec::new();
     for item in &page.items {
-        if let Item::Text(line) = item {
+        if let CanvasItem::Text(line) = item {
             lines.push(line);
         }
     }
@@ -348,10 +357,11 @@ fn check(page: &Canvas, what: &str) {
         let inside = lo.x >= 0.0 && lo.y >= 0.0 && hi.x <= size.x && hi.y <= size.y;
         assert!(inside || lo.x > hi.x, "{what}: {lo:?} {hi:?} leaves {size:?}");
     }
-    let is_text = |item: &&Item| matches!(item, Item::Text(_));
-    let is_area = |item: &&Item| matches!(item, Item::Inset { .. } | Item::Picture { .. });
-    let lines: Vec<&Item> = page.items.iter().filter(is_text).collect();
-    let areas: Vec<&Item> = page.items.iter().filter(is_area).collect();
+    let is_text = |item: &&CanvasItem| matches!(item, CanvasItem::Text(_));
+    let is_area =
+        |item: &&CanvasItem| matches!(item, CanvasItem::Inset { .. } | CanvasItem::Picture { .. });
+    let lines: Vec<&CanvasItem> = page.items.iter().filter(is_text).collect();
+    let areas: Vec<&CanvasItem> = page.items.iter().filter(is_area).collect();
     for (k, line) in lines.iter().enumerate() {
         for other in lines[k + 1..].iter().chain(&areas) {
             assert!(
@@ -361,10 +371,11 @@ fn check(page: &Canvas, what: &str) {
             );
         }
     }
-    let ground = |item: &&&Item| matches!(item, Item::Fill { color: [255, 255, 255, 225], .. });
-    let all: Vec<&Item> = page.items.iter().collect();
+    let ground =
+        |item: &&&CanvasItem| matches!(item, CanvasItem::Fill { color: [255, 255, 255, 225], .. });
+    let all: Vec<&CanvasItem> = page.items.iter().collect();
     for legend in all.iter().filter(ground) {
-        let is_free = |area: &&Item| !overlap(legend.bounds(), area.bounds());
+        let is_free = |area: &&CanvasItem| !overlap(legend.bounds(), area.bounds());
         assert!(areas.iter().all(is_free), "{what}: a legend hides something");
     }
     for (k, area) in areas.iter().enumerate() {
@@ -381,9 +392,9 @@ fn words(random: &mut Random, most: usize) -> String {
     (0..random.below(most + 1)).map(|_| random.pick(&all)).collect::<Vec<_>>().join(" ")
 }
 
-fn random_design(random: &mut Random) -> Design {
+fn random_design(random: &mut Random) -> FigureStyle {
     let size = [random.between(320.0, 1500.0) as u32, random.between(320.0, 1500.0) as u32];
-    let mut design = Design::pixels(size);
+    let mut design = FigureStyle::pixels(size);
     design.font_size *= random.between(0.7, 1.1);
     design.bar = random.pick(&[BarPlace::Right, BarPlace::Bottom, BarPlace::None]);
     design.theme = random.pick(&[Theme::Light, Theme::Dark]);
@@ -395,8 +406,8 @@ fn random_design(random: &mut Random) -> Design {
 
 fn random_style(random: &mut Random, half: Vec2) -> Style {
     let (fixed, percentiles) =
-        (Range::Fixed(-0.3 * half.x, 0.4 * half.x), Range::Percentiles(7.0, 90.0));
-    let range = random.pick(&[Range::Auto, fixed, percentiles]);
+        (RangeChoice::Fixed(-0.3 * half.x, 0.4 * half.x), RangeChoice::Percentiles(7.0, 90.0));
+    let range = random.pick(&[RangeChoice::Auto, fixed, percentiles]);
     let scale = random.pick(&[Scale::Linear, Scale::SymLog]);
     let map = Colormap::named(random.pick(&["viridis", "vik", "twilight"])).unwrap();
     let colormap = if random.below(3) == 0 { map.banded(5) } else { map };
@@ -434,16 +445,16 @@ fn untitled() -> Labels {
 }
 
 /// A picture of a robust range with values beyond its ends.
-fn peaked(half: f64, design: &Design, beyond: [f64; 2], scale: Scale) -> Picture {
+fn peaked(half: f64, design: &FigureStyle, beyond: [f64; 2], scale: Scale) -> ColoredRaster {
     let room = plot_area("", design).unwrap();
     let view = View::hug(Rect::around(Vec2::ZERO, vec2(half, half)), room).unwrap();
     let raster = Raster::from_fn(view.pixels, |i, _| 1.0 + f64::from(i));
-    let at = |value: f64| Extremum { value, offset: Vec2::ZERO, on: On::Inside };
+    let at = |value: f64| Extremum { value, offset: Vec2::ZERO, on: ExtremumSite::Inside };
     let values =
         Extrema { center: Vec2::ZERO, min: at(beyond[0]), max: at(beyond[1]), singular: vec![] };
     let max = f64::from(view.pixels[0]);
-    let span = ValueSpan { min: 1.0, max, basis: Basis::Robust, values: Some(values) };
-    Picture::spanning(&raster, &view, &Style { scale, ..Style::default() }, span).unwrap()
+    let span = ColorRange { min: 1.0, max, basis: Basis::Robust, values: Some(values) };
+    ColoredRaster::spanning(&raster, &view, &Style { scale, ..Style::default() }, span).unwrap()
 }
 
 /// The ends of a bar say how far values go, wherever it stands, and nothing touches these words.
@@ -458,7 +469,7 @@ fn bars_say_what_lies_beyond() {
     ] {
         for bar in [BarPlace::Right, BarPlace::Bottom] {
             for size in [[500, 420], [1024, 768], [420, 900]] {
-                let design = Design { bar, ..Design::pixels(size) };
+                let design = FigureStyle { bar, ..FigureStyle::pixels(size) };
                 let picture = peaked(1.0, &design, beyond, Scale::Linear);
                 assert!(picture.has_below && picture.has_above);
                 let page = figure(panel(&picture, untitled()), &design).unwrap();
@@ -470,8 +481,8 @@ fn bars_say_what_lies_beyond() {
             }
         }
     }
-    let design = Design::pixels(SIZE);
-    let says = |picture: &Picture| {
+    let design = FigureStyle::pixels(SIZE);
+    let says = |picture: &ColoredRaster| {
         let page = figure(panel(picture, untitled()), &design).unwrap();
         texts(&page).iter().any(|line| line.text.starts_with("to "))
     };
@@ -549,8 +560,8 @@ fn heights_are_those_of_what_is_drawn() {
         let parts = [1 + random.below(3) as u32, 1 + random.below(4) as u32];
         let captions = vec!["(a) a caption"; (parts[0] * parts[1]) as usize];
         let room =
-            |design: &Design| panel_area("A title", &captions, PanelGrid::new(parts), design);
-        let design = Design::inches([random.between(7.0, 12.0), 1.0], 150.0);
+            |design: &FigureStyle| panel_area("A title", &captions, PanelGrid::new(parts), design);
+        let design = FigureStyle::inches([random.between(7.0, 12.0), 1.0], 150.0);
         let found = hugging(&design, aspect, parts, &BarPlace::ANYWHERE, room).unwrap();
         let [columns, rows] = room(&found).unwrap().map(f64::from);
         let wanted = (columns / aspect).max(48.0);

@@ -1,7 +1,7 @@
 //! The cover: points, cells, patches and their centres.
 
 use ppum::dataset::BoxPartition;
-use ppum::decompose::Part;
+use ppum::decompose::FieldPart;
 use ppum::field::Field;
 use ppum::mesh::Mesh;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -10,7 +10,7 @@ use ppum_render::view::View;
 
 use super::edges::{edges, is_near, reach};
 use super::legend::{LegendEntry, Symbol};
-use crate::canvas::{Item, Path, Pen};
+use crate::canvas::{CanvasItem, CanvasPath, StrokeStyle};
 
 /// Lines of cells, and their seam; both paler where cells are small.
 const CELL: Rgba = [24, 24, 30, 210];
@@ -29,7 +29,7 @@ const FULL: f64 = 24.0;
 
 /// The kind of enrichment of a patch, by the functions of its blocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Enrichment {
+pub enum EnrichmentClass {
     /// Polynomials alone.
     None,
     /// Polynomials times the side of a crack: multiplicative enrichment.
@@ -42,7 +42,7 @@ pub enum Enrichment {
     Other,
 }
 
-impl Enrichment {
+impl EnrichmentClass {
     /// All kinds.
     pub const ALL: [Self; 5] = [Self::None, Self::Jump, Self::Tip, Self::JumpAndTip, Self::Other];
 
@@ -71,14 +71,14 @@ impl Enrichment {
     }
 
     /// The kind of the functions of a patch.
-    fn of(parts: impl Iterator<Item = Part>) -> Self {
+    fn of(parts: impl Iterator<Item = FieldPart>) -> Self {
         let add = |kind, part| match (kind, part) {
-            (Self::Other, _) | (_, Part::Other | Part::Patch(_)) => Self::Other,
-            (Self::Jump | Self::JumpAndTip, Part::Tip) | (Self::Tip, Part::Jump) => {
+            (Self::Other, _) | (_, FieldPart::Other | FieldPart::Patch(_)) => Self::Other,
+            (Self::Jump | Self::JumpAndTip, FieldPart::Tip) | (Self::Tip, FieldPart::Jump) => {
                 Self::JumpAndTip
             }
-            (Self::None, Part::Jump) => Self::Jump,
-            (Self::None, Part::Tip) => Self::Tip,
+            (Self::None, FieldPart::Jump) => Self::Jump,
+            (Self::None, FieldPart::Tip) => Self::Tip,
             (kind, _) => kind,
         };
         parts.fold(Self::None, add)
@@ -87,67 +87,67 @@ impl Enrichment {
 
 /// The kind of enrichment of each patch of a field.
 #[must_use]
-pub fn enrichments(field: &Field<'_>) -> Vec<Enrichment> {
+pub fn enrichments(field: &Field<'_>) -> Vec<EnrichmentClass> {
     let (data, functions) = (field.data, &field.step.functions);
-    let part = |block: usize| Part::of(&functions[data.block_function[block] as usize].kind);
-    (0..field.step.partition.len()).map(|i| Enrichment::of(data.blocks(i).map(part))).collect()
+    let part = |block: usize| FieldPart::of(&functions[data.block_function[block] as usize].kind);
+    (0..field.step.partition.len()).map(|i| EnrichmentClass::of(data.blocks(i).map(part))).collect()
 }
 
 /// The points the cover was made from; nothing of a uniform cover.
 #[must_use]
-pub fn points(view: &View, scale: f64, partition: &BoxPartition) -> Vec<Item> {
+pub fn points(view: &View, scale: f64, partition: &BoxPartition) -> Vec<CanvasItem> {
     let seen = partition.points.iter().filter(|&&p| is_near(view, Rect::new(p, p)));
-    let path = Path { pieces: seen.map(|&p| vec![view.pixel(p)]).collect() };
-    let pen = Pen::new(POINT, 2.0 * POINT_RADIUS * scale).with_halo(SEAM, scale);
-    vec![Item::Line { path, pen }]
+    let path = CanvasPath { pieces: seen.map(|&p| vec![view.pixel(p)]).collect() };
+    let pen = StrokeStyle::new(POINT, 2.0 * POINT_RADIUS * scale).with_halo(SEAM, scale);
+    vec![CanvasItem::Line { path, pen }]
 }
 
 /// The borders of the cells.
 #[must_use]
-pub fn cells(view: &View, scale: f64, partition: &BoxPartition) -> Vec<Item> {
-    let mut path = Path::default();
+pub fn cells(view: &View, scale: f64, partition: &BoxPartition) -> Vec<CanvasItem> {
+    let mut path = CanvasPath::default();
     let seen = partition.cell.iter().filter(|cell| is_near(view, **cell));
     seen.clone().for_each(|cell| frame(&mut path, view, *cell));
     let smallest = seen.map(|cell| cell.size().x.min(cell.size().y)).fold(f64::INFINITY, f64::min);
     let strength = (smallest / view.pixel_size() / (FULL * scale)).clamp(0.35, 1.0);
     let [line, seam] = [CELL, SEAM].map(|[r, g, b, a]| [r, g, b, (f64::from(a) * strength) as u8]);
-    let pen = Pen::new(line, WIDTH * scale).with_halo(seam, 0.6 * scale * strength);
-    vec![Item::Line { path, pen }]
+    let pen = StrokeStyle::new(line, WIDTH * scale).with_halo(seam, 0.6 * scale * strength);
+    vec![CanvasItem::Line { path, pen }]
 }
 
 /// The edges of a mesh's elements, in the place of cells.
 #[must_use]
-pub fn elements(view: &View, scale: f64, mesh: &Mesh) -> Vec<Item> {
-    let pen = Pen::new(CELL, WIDTH * scale).with_halo(SEAM, 0.6 * scale);
-    vec![Item::Line { path: edges(view, mesh, 0..mesh.len()), pen }]
+pub fn elements(view: &View, scale: f64, mesh: &Mesh) -> Vec<CanvasItem> {
+    let pen = StrokeStyle::new(CELL, WIDTH * scale).with_halo(SEAM, 0.6 * scale);
+    vec![CanvasItem::Line { path: edges(view, mesh, 0..mesh.len()), pen }]
 }
 
 /// The supports ω_i of the patches, translucent: darker where more of them overlap.
 #[must_use]
-pub fn patches(view: &View, scale: f64, partition: &BoxPartition) -> Vec<Item> {
-    let (mut insides, mut borders) = (Vec::new(), Path::default());
+pub fn patches(view: &View, scale: f64, partition: &BoxPartition) -> Vec<CanvasItem> {
+    let (mut insides, mut borders) = (Vec::new(), CanvasPath::default());
     for support in (0..partition.len()).map(|i| partition.support(i)) {
         if is_near(view, support) {
-            let mut outline = Path::default();
+            let mut outline = CanvasPath::default();
             frame(&mut outline, view, support);
             borders.pieces.extend(outline.pieces.iter().cloned());
-            insides.push(Item::Fill { outline, color: PATCH_INSIDE });
+            insides.push(CanvasItem::Fill { outline, color: PATCH_INSIDE });
         }
     }
-    let pen = Pen::new(PATCH, WIDTH * scale);
-    insides.push(Item::Line { path: borders, pen });
+    let pen = StrokeStyle::new(PATCH, WIDTH * scale);
+    insides.push(CanvasItem::Line { path: borders, pen });
     insides
 }
 
 /// The centres of the cells as squares, coloured by the kind of enrichment, and what the colours
 /// mean. Üffinger et al. 2011, figure 2.
 #[must_use]
-pub fn centers(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<LegendEntry>) {
+pub fn centers(view: &View, scale: f64, field: &Field<'_>) -> (Vec<CanvasItem>, Vec<LegendEntry>) {
     let (cells, kinds) = (field.step.partition.cells(), enrichments(field));
     let (mut items, mut entries) = (Vec::new(), Vec::new());
-    for kind in Enrichment::ALL {
+    for kind in EnrichmentClass::ALL {
         let of_kind = cells.iter().zip(&kinds).filter(|(_, k)| **k == kind).map(|(cell, _)| *cell);
-        let mut outline = Path::default();
+        let mut outline = CanvasPath::default();
         for cell in of_kind.filter(|cell| is_near(view, *cell)) {
             let side = cell.size().x.min(cell.size().y) / view.pixel_size();
             let half = 0.5 * (CENTER * scale).min(CENTER_PART * side);
@@ -156,7 +156,7 @@ pub fn centers(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<Le
         }
         if !outline.is_empty() {
             entries.push(LegendEntry::new(Symbol::Square(kind.color()), kind.label()));
-            items.push(Item::Fill { outline, color: kind.color() });
+            items.push(CanvasItem::Fill { outline, color: kind.color() });
         }
     }
     (items, entries)
@@ -171,21 +171,22 @@ const PLAIN: u8 = 110;
 /// The boxes of the cells in the colour of the kind of enrichment, and what the colours mean: two
 /// boxes that share a side both show theirs. Üffinger et al. 2011, figure 8.
 #[must_use]
-pub fn boxes(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<LegendEntry>) {
+pub fn boxes(view: &View, scale: f64, field: &Field<'_>) -> (Vec<CanvasItem>, Vec<LegendEntry>) {
     let (cells, kinds) = (field.step.partition.cells(), enrichments(field));
     let (mut items, mut entries) = (Vec::new(), Vec::new());
-    for kind in Enrichment::ALL {
+    for kind in EnrichmentClass::ALL {
         let is_seen = |patch: &usize| kinds[*patch] == kind && is_near(view, cells[*patch]);
         let seen: Vec<usize> = (0..kinds.len()).filter(is_seen).collect();
         if seen.is_empty() {
             continue;
         }
         let [r, g, b, opaque] = kind.color();
-        let color = if kind == Enrichment::None { [r, g, b, PLAIN] } else { [r, g, b, opaque] };
+        let color =
+            if kind == EnrichmentClass::None { [r, g, b, PLAIN] } else { [r, g, b, opaque] };
         entries.push(LegendEntry::new(Symbol::Square(kind.color()), kind.label()));
         if let Some(mesh) = field.step.partition.mesh() {
-            let pen = Pen::new(color, 1.5 * WIDTH * scale);
-            items.push(Item::Line { path: edges(view, mesh, seen.into_iter()), pen });
+            let pen = StrokeStyle::new(color, 1.5 * WIDTH * scale);
+            items.push(CanvasItem::Line { path: edges(view, mesh, seen.into_iter()), pen });
             continue;
         }
         items.extend(seen.into_iter().map(|patch| frame_inside(view, scale, cells[patch], color)));
@@ -194,17 +195,17 @@ pub fn boxes(view: &View, scale: f64, field: &Field<'_>) -> (Vec<Item>, Vec<Lege
 }
 
 /// The border of a cell, drawn within it.
-fn frame_inside(view: &View, scale: f64, cell: Rect, color: [u8; 4]) -> Item {
+fn frame_inside(view: &View, scale: f64, cell: Rect, color: [u8; 4]) -> CanvasItem {
     let side = cell.size().x.min(cell.size().y) / view.pixel_size();
     let width = (1.5 * WIDTH * scale).min(BOX_PART * side);
     let inset = 0.5 * width * view.pixel_size();
-    let mut path = Path::default();
+    let mut path = CanvasPath::default();
     frame(&mut path, view, Rect::new(cell.min + vec2(inset, inset), cell.max - vec2(inset, inset)));
-    Item::Line { path, pen: Pen::new(color, width) }
+    CanvasItem::Line { path, pen: StrokeStyle::new(color, width) }
 }
 
 /// Adds a box that may be larger than the view by far.
-fn frame(path: &mut Path, view: &View, rect: Rect) {
+fn frame(path: &mut CanvasPath, view: &View, rect: Rect) {
     let around = reach(view);
     let corner = |p: Vec2| view.pixel_of_offset((p - view.center).max(-around).min(around));
     path.rect(corner(rect.min), corner(rect.max));

@@ -17,7 +17,7 @@ use ppum_render::view::View;
 
 use super::edges::is_near;
 use super::strokes::{CRACK, CRACK_WIDTH, SEAM, SEAM_WIDTH};
-use crate::canvas::{Item, Path, Pen};
+use crate::canvas::{CanvasItem, CanvasPath, StrokeStyle};
 
 /// Half the diagonal of squares that are small enough, in pixels, and the least halvings.
 const SMALL: f64 = 1.5;
@@ -28,33 +28,33 @@ const FINEST: f64 = 1e-15;
 
 /// The cuts of the elements in sight, drawn as cracks are; nothing of covers.
 #[must_use]
-pub fn cuts(view: &View, scale: f64, field: &Field<'_>) -> Vec<Item> {
+pub fn cuts(view: &View, scale: f64, field: &Field<'_>) -> Vec<CanvasItem> {
     let Some(mesh) = field.step.partition.mesh() else { return Vec::new() };
-    let mut path = Path::default();
+    let mut path = CanvasPath::default();
     for patch in (0..mesh.len()).filter(|&patch| is_near(view, mesh.bounds(patch))) {
         for line in lines(field, mesh, patch) {
-            Cut::new(view, field.step, patch, &line).add([0.0; 2], 1.0, &mut path);
+            CutLine::new(view, field.step, patch, &line).add([0.0; 2], 1.0, &mut path);
         }
     }
-    let pen = Pen::new(CRACK, CRACK_WIDTH * scale);
+    let pen = StrokeStyle::new(CRACK, CRACK_WIDTH * scale);
     let halo = pen.with_halo(SEAM, SEAM_WIDTH * scale);
-    [halo, pen].map(|pen| Item::Line { path: path.clone(), pen }).to_vec()
+    [halo, pen].map(|pen| CanvasItem::Line { path: path.clone(), pen }).to_vec()
 }
 
 /// The zero line of a level field, where other level fields are of some sign.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
-struct Line {
+struct ZeroLine {
     field: u32,
     sides: Vec<(u32, bool)>,
 }
 
 /// The lines of a patch: of its clips, of signs, and of the cuts of angles, which are where φ = 0
 /// and ψ < 0.
-fn lines(field: &Field<'_>, mesh: &Mesh, patch: usize) -> BTreeSet<Line> {
+fn lines(field: &Field<'_>, mesh: &Mesh, patch: usize) -> BTreeSet<ZeroLine> {
     let clips: Vec<_> = mesh.clips(patch).iter().map(|clip| (clip.field, clip.is_above)).collect();
     let line = |field: u32, behind: Option<u32>| {
         let others = clips.iter().copied().filter(|(other, _)| *other != field);
-        Line { field, sides: others.chain(behind.map(|psi| (psi, false))).collect() }
+        ZeroLine { field, sides: others.chain(behind.map(|psi| (psi, false))).collect() }
     };
     let functions = field.data.blocks(patch).filter_map(|block| {
         match field.step.functions[field.data.block_function[block] as usize].kind {
@@ -97,8 +97,8 @@ fn slope(space: PolynomialSpace, degree: usize, coefficients: &[f64]) -> f64 {
     terms.map(|((a, b), c)| f64::from(a + b) * c.abs()).sum()
 }
 
-/// A line of one patch on a picture.
-struct Cut<'a> {
+/// A line of one patch on an image.
+struct CutLine<'a> {
     view: &'a View,
     mesh: &'a Mesh,
     patch: usize,
@@ -108,8 +108,8 @@ struct Cut<'a> {
     slope: f64,
 }
 
-impl<'a> Cut<'a> {
-    fn new(view: &'a View, step: &'a Step, patch: usize, line: &Line) -> Self {
+impl<'a> CutLine<'a> {
+    fn new(view: &'a View, step: &'a Step, patch: usize, line: &ZeroLine) -> Self {
         let mesh = step.partition.mesh().expect("a line of a mesh");
         let level = |field: u32| Level::new(&step.fields[field as usize], patch);
         let sign = |is_above: bool| if is_above { 1.0 } else { -1.0 };
@@ -127,7 +127,7 @@ impl<'a> Cut<'a> {
     }
 
     /// Adds the part of the line in a square of ξ.
-    fn add(&self, at: [f64; 2], half: f64, path: &mut Path) {
+    fn add(&self, at: [f64; 2], half: f64, path: &mut CanvasPath) {
         let shape = self.mesh.shape[self.patch];
         let is_beside = shape.margin([0.0; 2], at) < -2.0 * half || self.level.slope == 0.0;
         if is_beside || self.level.at(at).abs() > self.level.slope * half || !self.is_seen(at, half)
@@ -145,7 +145,7 @@ impl<'a> Cut<'a> {
         }
     }
 
-    /// True if the image of a square may come near the picture.
+    /// True if the image of a square may come near the image.
     fn is_seen(&self, at: [f64; 2], half: f64) -> bool {
         let (pixel, [columns, rows]) = (self.pixel(at), self.view.pixels.map(f64::from));
         let is_near = |x: f64, size: f64| {
@@ -165,7 +165,7 @@ impl<'a> Cut<'a> {
     }
 
     /// Adds the zero line of a small square.
-    fn cross(&self, corners: [[f64; 2]; 4], path: &mut Path) {
+    fn cross(&self, corners: [[f64; 2]; 4], path: &mut CanvasPath) {
         let values = corners.map(|corner| self.level.at(corner));
         let crossings = (0..4).filter_map(|k| {
             let (a, b) = (values[k], values[(k + 1) % 4]);

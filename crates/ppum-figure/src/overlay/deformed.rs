@@ -1,5 +1,5 @@
-//! What is drawn over the deformed plate: the faces of its cracks, its border, the cells of the
-//! cover, isolines, and where the border was.
+//! Overlays of the deformed body: the faces of its cracks, its border, the cells of the cover,
+//! isolines, and where the border was.
 
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::deform::{DeformError, Deformation, DeformedView, Paths};
@@ -8,9 +8,9 @@ use ppum_render::isoline::Isoline;
 use ppum_render::view::View;
 
 use super::strokes::{CRACK, CRACK_WIDTH, RIM_WIDTH, SEAM, SEAM_WIDTH};
-use crate::canvas::{Item, Path, Pen};
+use crate::canvas::{CanvasItem, CanvasPath, StrokeStyle};
 
-/// Colour of the cells' borders, and of the undeformed plate.
+/// Colour of the cells' borders, and of the undeformed body.
 const CELL: Rgba = [16, 16, 20, 110];
 const BEFORE: Rgba = [120, 120, 128, 255];
 /// Dashes and gaps of the undeformed border.
@@ -18,27 +18,28 @@ const DASHES: [f64; 2] = [7.0, 5.0];
 
 /// The faces of all cracks, and of the cuts of elements, where they have moved to.
 #[must_use]
-pub fn faces(view: &DeformedView<'_>, scale: f64) -> Vec<Item> {
+pub fn faces(view: &DeformedView<'_>, scale: f64) -> Vec<CanvasItem> {
     let cracks: Vec<usize> = (0..view.field().step.cracks.len()).collect();
     let faces = view.faces_of(&cracks).into_iter().flatten().flatten();
     let lines = faces.chain(view.cut_faces()).collect();
-    let pen = Pen::new(CRACK, 0.7 * CRACK_WIDTH * scale).with_halo(SEAM, SEAM_WIDTH * scale);
+    let pen =
+        StrokeStyle::new(CRACK, 0.7 * CRACK_WIDTH * scale).with_halo(SEAM, SEAM_WIDTH * scale);
     vec![line(view, lines, pen)]
 }
 
-/// The border of the plate and the rims of its holes where they have moved to, but for sides of its
-/// box on the lines x = a and y = b at which it is mirrored.
+/// The border of the body and the rims of its holes where they have moved to, except for sides of
+/// its box on the lines x = a and y = b at which it is mirrored.
 #[must_use]
 pub fn deformed_outline(
     view: &DeformedView<'_>,
     mirrors: [Option<f64>; 2],
     scale: f64,
-) -> Vec<Item> {
-    vec![line(view, view.outline_beside(mirrors), Pen::new(CRACK, RIM_WIDTH * scale))]
+) -> Vec<CanvasItem> {
+    vec![line(view, view.outline_beside(mirrors), StrokeStyle::new(CRACK, RIM_WIDTH * scale))]
 }
 
-/// The border of the plate, the rims and the cracks where they are without displacement, dashed,
-/// but for sides on lines at which it is mirrored.
+/// The border of the body, the rims and the cracks where they are without displacement, dashed,
+/// except for sides on lines at which it is mirrored.
 ///
 /// # Errors
 /// As [`Deformation::new`].
@@ -46,31 +47,35 @@ pub fn undeformed_outline(
     view: &DeformedView<'_>,
     mirrors: [Option<f64>; 2],
     scale: f64,
-) -> Result<Vec<Item>, DeformError> {
+) -> Result<Vec<CanvasItem>, DeformError> {
     let before = Deformation::new(view.field(), 0.0)?.seen(&view.view);
     let cracks: Vec<usize> = (0..view.field().step.cracks.len()).collect();
     let above = before.faces_of(&cracks).into_iter().flat_map(|[above, _]| above);
     let [dash, gap] = DASHES.map(|length| length * scale);
-    let pen = Pen::new(BEFORE, RIM_WIDTH * scale).dashed(dash, gap);
+    let pen = StrokeStyle::new(BEFORE, RIM_WIDTH * scale).dashed(dash, gap);
     let lines = before.outline_beside(mirrors).into_iter().chain(above).chain(before.cut_faces());
     Ok(vec![line(&before, lines.collect(), pen)])
 }
 
 /// The borders of the cover's cells, or the edges of elements, where they have moved to.
 #[must_use]
-pub fn deformed_cells(view: &DeformedView<'_>, mirrors: [Option<f64>; 2], scale: f64) -> Vec<Item> {
+pub fn deformed_cells(
+    view: &DeformedView<'_>,
+    mirrors: [Option<f64>; 2],
+    scale: f64,
+) -> Vec<CanvasItem> {
     let offset = |p: Vec2| p - view.anchor;
-    // the border of a cell on the right or above is that of its neighbour, or of the plate
+    // the border of a cell on the right or above is that of its neighbour, or of the body
     let sides: Vec<[Vec2; 3]> = (view.field().step.partition.boxes().cell.iter())
         .map(|c| [vec2(c.min.x, c.max.y), c.min, vec2(c.max.x, c.min.y)].map(offset))
         .collect();
     let borders = view.paths(&sides).into_iter().chain(view.element_edges()).collect();
-    let mut items = vec![line(view, borders, Pen::new(CELL, scale))];
+    let mut items = vec![line(view, borders, StrokeStyle::new(CELL, scale))];
     items.extend(deformed_outline(view, mirrors, scale));
     items
 }
 
-/// Isolines of the undeformed plate, found about the view's anchor, where they have moved to.
+/// Isolines of the undeformed body, found about the view's anchor, where they have moved to.
 #[must_use]
 pub fn carried(view: &DeformedView<'_>, lines: &[Isoline]) -> Vec<Isoline> {
     // lines of one level follow one another
@@ -83,14 +88,14 @@ pub fn carried(view: &DeformedView<'_>, lines: &[Isoline]) -> Vec<Isoline> {
     moved.collect()
 }
 
-/// The parts of paths in and near the picture, as lines.
-fn line(view: &DeformedView<'_>, paths: Paths, pen: Pen) -> Item {
+/// The parts of paths in and near the image, as lines.
+fn line(view: &DeformedView<'_>, paths: Paths, pen: StrokeStyle) -> CanvasItem {
     let seen = &view.view;
     let pieces = paths.iter().flat_map(|path| in_picture(seen, path)).collect();
-    Item::Line { path: Path { pieces }, pen }
+    CanvasItem::Line { path: CanvasPath { pieces }, pen }
 }
 
-/// Runs of a path that come near the picture, in pixels.
+/// Runs of a path that come near the image, in pixels.
 fn in_picture(view: &View, path: &[Vec2]) -> Vec<Vec<Vec2>> {
     let reach = 2.0 * view.half().length();
     let is_near = |pair: &[Vec2]| {
@@ -127,8 +132,8 @@ mod tests {
     use ppum_testkit::random::Random;
     use ppum_testkit::synthetic::{Coefficients, Recipe};
 
-    /// A plate that is only moved: its border, rims and cells are those of the undeformed
-    /// plate, shifted.
+    /// A body that is only moved: its border, rims and cells are those of the undeformed body,
+    /// shifted.
     #[test]
     fn lines_of_a_moved_plate_are_moved() {
         let zeros = |constant: f64| [constant, 0.0, 0.0, 0.0, 0.0, 0.0].to_vec();

@@ -1,13 +1,13 @@
 //! The edges of elements as lines.
 //!
-//! An edge is halved until its chords lie on it to a twentieth of a pixel, but for parts out
+//! An edge is halved until its chords lie on it to a twentieth of a pixel, except for parts out
 //! of sight.
 
 use ppum::mesh::Mesh;
 use ppum::vec2::{Rect, Vec2};
 use ppum_render::view::View;
 
-use crate::canvas::Path;
+use crate::canvas::CanvasPath;
 
 /// Distance of a chord from its arc, in pixels.
 const SMOOTH: f64 = 0.05;
@@ -27,8 +27,8 @@ pub(super) fn is_near(view: &View, rect: Rect) -> bool {
 }
 
 /// The outlines of some patches, as far as they are in sight.
-pub(super) fn edges(view: &View, mesh: &Mesh, patches: impl Iterator<Item = usize>) -> Path {
-    let mut path = Path::default();
+pub(super) fn edges(view: &View, mesh: &Mesh, patches: impl Iterator<Item = usize>) -> CanvasPath {
+    let mut path = CanvasPath::default();
     for patch in patches.filter(|&patch| is_near(view, mesh.bounds(patch))) {
         // sides of a cut have the same outline
         if patch > 0
@@ -40,7 +40,7 @@ pub(super) fn edges(view: &View, mesh: &Mesh, patches: impl Iterator<Item = usiz
         let corners = mesh.shape[patch].corners();
         for (k, &a) in corners.iter().enumerate() {
             let b = corners[(k + 1) % corners.len()];
-            let edge = Edge { view, mesh, patch, from: a, to: b };
+            let edge = PatchEdge { view, mesh, patch, from: a, to: b };
             let ends = [(0.0, edge.at(0.0)), (1.0, edge.at(1.0))];
             edge.add(ends, 0, &mut path);
         }
@@ -49,7 +49,7 @@ pub(super) fn edges(view: &View, mesh: &Mesh, patches: impl Iterator<Item = usiz
 }
 
 /// An edge of a patch.
-struct Edge<'a> {
+struct PatchEdge<'a> {
     view: &'a View,
     mesh: &'a Mesh,
     patch: usize,
@@ -57,14 +57,14 @@ struct Edge<'a> {
     to: [f64; 2],
 }
 
-impl Edge<'_> {
+impl PatchEdge<'_> {
     /// The pixel at a part of the way.
     fn at(&self, t: f64) -> Vec2 {
         let xi = [0, 1].map(|k| self.from[k] + t * (self.to[k] - self.from[k]));
         self.view.pixel_of_offset(self.mesh.image(self.patch, xi).0 - self.view.center)
     }
 
-    fn add(&self, [a, b]: [(f64, Vec2); 2], depth: u32, path: &mut Path) {
+    fn add(&self, [a, b]: [(f64, Vec2); 2], depth: u32, path: &mut CanvasPath) {
         let t = 0.5 * (a.0 + b.0);
         let middle = (t, self.at(t));
         let sag = (middle.1 - (a.1 + b.1) * 0.5).length();
@@ -81,14 +81,14 @@ impl Edge<'_> {
     }
 
     /// Adds a chord, to the end of the last one if it begins there.
-    fn push(&self, a: Vec2, b: Vec2, path: &mut Path) {
+    fn push(&self, a: Vec2, b: Vec2, path: &mut CanvasPath) {
         match path.pieces.last_mut() {
             Some(piece) if piece.last() == Some(&a) => piece.push(b),
             _ => path.pieces.push(vec![a, b]),
         }
     }
 
-    /// True if the arc over a chord may come near the picture.
+    /// True if the arc over a chord may come near the image.
     fn is_seen(&self, a: Vec2, b: Vec2, sag: f64) -> bool {
         let around = Vec2 { x: 2.0 * sag, y: 2.0 * sag };
         let [columns, rows] = self.view.pixels.map(f64::from);

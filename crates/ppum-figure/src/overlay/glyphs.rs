@@ -7,7 +7,7 @@ use ppum_render::view::View;
 
 use super::legend::{LegendEntry, Symbol};
 use super::supports::arrow;
-use crate::canvas::{Item, Path, Pen};
+use crate::canvas::{CanvasItem, CanvasPath, StrokeStyle};
 use crate::ticks::Notation;
 
 const ARROW: Rgba = [18, 18, 22, 255];
@@ -20,7 +20,7 @@ const HEAD: f64 = 6.5;
 /// Length of the longest arrow and of the longest arm of a cross with its opposite, in parts of
 /// the spacing.
 const LONGEST: f64 = 0.9;
-/// Of so many values one may be longer than the longest glyph; it is drawn as long as that.
+/// Among so many values, one may be longer than the longest glyph; it is drawn as long as that.
 const PEAKS: usize = 50;
 
 /// Arrows centred on their points, their lengths as the vectors', and what their length means.
@@ -31,9 +31,9 @@ pub fn arrows(
     scale: f64,
     glyphs: &[Glyph<Vec2>],
     spacing: f64,
-) -> (Vec<Item>, Vec<LegendEntry>) {
+) -> (Vec<CanvasItem>, Vec<LegendEntry>) {
     let longest = typical(glyphs.iter().map(|glyph| glyph.value.length()));
-    let (mut shafts, mut heads) = (Path::default(), Path::default());
+    let (mut shafts, mut heads) = (CanvasPath::default(), CanvasPath::default());
     for glyph in glyphs {
         let way = vec2(glyph.value.x, -glyph.value.y) / longest;
         let length = way.length();
@@ -44,9 +44,12 @@ pub fn arrows(
         let at = view.pixel_of_offset(glyph.offset);
         arrow(&mut shafts, &mut heads, [at - half, at + half], HEAD * scale);
     }
-    let pen = Pen::new(ARROW, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
+    let pen = StrokeStyle::new(ARROW, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
     let entry = LegendEntry::new(Symbol::Line(pen), format!("longest arrow {}", number(longest)));
-    let items = vec![Item::Line { path: shafts, pen }, Item::Fill { outline: heads, color: ARROW }];
+    let items = vec![
+        CanvasItem::Line { path: shafts, pen },
+        CanvasItem::Fill { outline: heads, color: ARROW },
+    ];
     (items, if longest > 0.0 { vec![entry] } else { Vec::new() })
 }
 
@@ -58,9 +61,9 @@ pub fn crosses(
     scale: f64,
     glyphs: &[Glyph<Principal>],
     spacing: f64,
-) -> (Vec<Item>, Vec<LegendEntry>) {
+) -> (Vec<CanvasItem>, Vec<LegendEntry>) {
     let longest = typical(glyphs.iter().map(|g| g.value.s1.abs().max(g.value.s2.abs())));
-    let (mut tension, mut compression) = (Path::default(), Path::default());
+    let (mut tension, mut compression) = (CanvasPath::default(), CanvasPath::default());
     for Glyph { offset, value: Principal { s1, s2, angle }, .. } in glyphs {
         let at = view.pixel_of_offset(*offset);
         let (sin, cos) = angle.sin_cos();
@@ -73,7 +76,7 @@ pub fn crosses(
             }
         }
     }
-    let pen = |color: Rgba| Pen::new(color, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
+    let pen = |color: Rgba| StrokeStyle::new(color, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
     let mut entries = Vec::new();
     for (path, color, name) in
         [(&tension, TENSION, "tension"), (&compression, COMPRESSION, "compression")]
@@ -86,7 +89,7 @@ pub fn crosses(
         last.label = format!("{}, longest {}", last.label, number(longest));
     }
     let lines = [(tension, TENSION), (compression, COMPRESSION)];
-    (lines.map(|(path, color)| Item::Line { path, pen: pen(color) }).into(), entries)
+    (lines.map(|(path, color)| CanvasItem::Line { path, pen: pen(color) }).into(), entries)
 }
 
 /// A number as bars write it, with its power of ten, in few digits.
@@ -95,7 +98,7 @@ fn number(value: f64) -> String {
     Notation::PLAIN.label(rounded)
 }
 
-/// The largest of the lengths but for a few peaks, as there are at tips; 0 if there is none.
+/// The largest of the lengths except for a few peaks, as there are at tips; 0 if there is none.
 fn typical(lengths: impl Iterator<Item = f64>) -> f64 {
     let mut all: Vec<f64> = lengths.filter(|length| length.is_finite()).collect();
     all.sort_by(f64::total_cmp);
@@ -113,8 +116,8 @@ mod tests {
         View::window(-1.0, -1.0, 1.0, 1.0, [200, 200]).unwrap()
     }
 
-    fn lines(item: &Item) -> Vec<Vec<Vec2>> {
-        let Item::Line { path, .. } = item else { panic!("lines") };
+    fn lines(item: &CanvasItem) -> Vec<Vec<Vec2>> {
+        let CanvasItem::Line { path, .. } = item else { panic!("lines") };
         path.pieces.clone()
     }
 
@@ -126,7 +129,7 @@ mod tests {
         let glyphs =
             [glyph(0.5, vec2(0.0, 2.0)), glyph(-0.5, vec2(1.0, 0.0)), glyph(0.0, Vec2::ZERO)];
         let (items, entries) = arrows(&view(), 1.0, &glyphs, 40.0);
-        let Item::Fill { outline, .. } = &items[1] else { panic!("heads") };
+        let CanvasItem::Fill { outline, .. } = &items[1] else { panic!("heads") };
         assert_eq!(outline.pieces.len(), 2, "none of a vector without length");
         let tip = |k: usize| outline.pieces[k][0];
         let shafts = lines(&items[0]);

@@ -6,11 +6,11 @@ use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::isoline::Isoline;
-use ppum_render::picture::Picture;
+use ppum_render::picture::ColoredRaster;
 use ppum_render::view::View;
 
 use crate::canvas::Halo;
-use crate::canvas::{Align, Item, Lettering, Path, Pen};
+use crate::canvas::{Align, CanvasItem, CanvasPath, StrokeStyle, TextItem};
 use crate::ticks::Notation;
 
 const LINE: Rgba = [18, 18, 22, 235];
@@ -21,7 +21,7 @@ const TEXT: f64 = 11.5;
 /// A line this many times as long as its label, and as that is high, has one.
 const ROOM: [f64; 2] = [2.5, 6.0];
 
-/// The pixels that labels may cover: those of the plate, away from cracks.
+/// The pixels that labels may cover: those of the body, away from cracks.
 #[derive(Clone, Debug)]
 pub struct Room {
     columns: usize,
@@ -31,10 +31,10 @@ pub struct Room {
 }
 
 impl Room {
-    /// The room of a picture: where it is not transparent. Levels are written in some notation:
-    /// that of the bar beside the picture, or a plain one where there is none.
+    /// The room of an image: where it is not transparent. Levels are written in some notation:
+    /// that of the bar beside the image, or a plain one where there is none.
     #[must_use]
-    pub fn new(picture: &Picture, cracks: &[Crack], notation: Notation) -> Self {
+    pub fn new(picture: &ColoredRaster, cracks: &[Crack], notation: Notation) -> Self {
         let image = &picture.image;
         let is_free = image.rgba.chunks_exact(4).map(|pixel| pixel[3] > 0).collect();
         let mut room = Self { columns: image.size[0] as usize, is_free, notation };
@@ -95,14 +95,14 @@ impl Room {
 /// Isolines as dark lines with a light seam, of one width everywhere; with their levels, if that is
 /// wanted, where there is room.
 #[must_use]
-pub fn isolines(view: &View, scale: f64, lines: &[Isoline], room: Option<Room>) -> Vec<Item> {
-    let path = Path { pieces: lines.iter().map(|line| points(view, line)).collect() };
-    let pen = Pen::new(LINE, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
-    let mut items = vec![Item::Line { path: path.clone(), pen }];
+pub fn isolines(view: &View, scale: f64, lines: &[Isoline], room: Option<Room>) -> Vec<CanvasItem> {
+    let path = CanvasPath { pieces: lines.iter().map(|line| points(view, line)).collect() };
+    let pen = StrokeStyle::new(LINE, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
+    let mut items = vec![CanvasItem::Line { path: path.clone(), pen }];
     if let Some(room) = room {
-        let mut taken = Taken { room, labels: Vec::new() };
+        let mut taken = OccupiedArea { room, labels: Vec::new() };
         for (line, points) in lines.iter().zip(&path.pieces) {
-            items.extend(label(view, scale, line.level, points, &mut taken).map(Item::Text));
+            items.extend(label(view, scale, line.level, points, &mut taken).map(CanvasItem::Text));
         }
     }
     items
@@ -135,24 +135,24 @@ const UNSEEN: f64 = 0.02;
 /// Most points that one chord stands for.
 const RUN: usize = 48;
 
-/// What labels keep away from.
-struct Taken {
+/// The areas that labels avoid.
+struct OccupiedArea {
     room: Room,
     /// Middles and half lengths of other labels.
     labels: Vec<(Vec2, f64)>,
 }
 
-/// The level along the straightest part of its line, away from other labels, cracks and the plate's
+/// The level along the straightest part of its line, away from other labels, cracks and the body's
 /// border; none where there is no room.
 fn label(
     view: &View,
     scale: f64,
     level: f64,
     points: &[Vec2],
-    taken: &mut Taken,
-) -> Option<Lettering> {
+    taken: &mut OccupiedArea,
+) -> Option<TextItem> {
     let size = TEXT * scale;
-    let line = Lettering::new(taken.room.notation.label(level), size, Vec2::ZERO, LINE);
+    let line = TextItem::new(taken.room.notation.label(level), size, Vec2::ZERO, LINE);
     let half = 0.5 * line.width();
     let arcs = arc_lengths(points);
     let length = *arcs.last()?;
@@ -190,7 +190,7 @@ fn label(
     taken.labels.push((middle, half));
     let down = along.left() * (0.36 * size);
     let halo = Some(Halo { color: GROUND, width: 0.25 * size });
-    Some(Lettering { at: middle + down, angle, halo, align: Align::Middle, ..line })
+    Some(TextItem { at: middle + down, angle, halo, align: Align::Middle, ..line })
 }
 
 /// Arc length at each point.
@@ -233,12 +233,12 @@ mod tests {
     fn closed_lines_are_closed_and_labels_lie_on_their_lines() {
         let lines = [circle(0.8, 2.5), circle(0.5, -1.0), circle(0.01, 7.0)];
         let items = isolines(&view(), 1.0, &lines, Some(room(&[])));
-        let Item::Line { path, .. } = &items[0] else { panic!("lines first") };
+        let CanvasItem::Line { path, .. } = &items[0] else { panic!("lines first") };
         assert!(path.pieces.iter().all(|p| p.len() > 2 && p.first() == p.last()));
-        let texts: Vec<&Lettering> = items
+        let texts: Vec<&TextItem> = items
             .iter()
             .filter_map(|item| match item {
-                Item::Text(text) => Some(text),
+                CanvasItem::Text(text) => Some(text),
                 _ => None,
             })
             .collect();
@@ -278,12 +278,16 @@ mod tests {
 
     const NOTATION: Notation = Notation::PLAIN;
 
-    /// A white picture but for a hole at its right.
+    /// A white image except for a hole at its right.
     fn room(cracks: &[Crack]) -> Room {
         let is_hole = |i: u32, j: u32| (f64::from(i) - 560.0).hypot(f64::from(j) - 300.0) < 100.0;
         let value = |i, j| if is_hole(i, j) { f64::NAN } else { 1.0 };
         let raster = Raster::from_fn([600, 600], value);
-        Room::new(&Picture::bare(&raster, &view(), &Style::default()).unwrap(), cracks, NOTATION)
+        Room::new(
+            &ColoredRaster::bare(&raster, &view(), &Style::default()).unwrap(),
+            cracks,
+            NOTATION,
+        )
     }
 
     /// Labels keep away from a box, wherever it is, with all of their letters.
@@ -297,7 +301,7 @@ mod tests {
             let (a, b) = (place(), place());
             let [min, max] = [a.min(b), a.max(b)];
             for item in isolines(&view(), 1.0, &lines, Some(room(&[]).without([min, max]))) {
-                let (true, [lo, hi]) = (matches!(item, Item::Text(_)), item.bounds()) else {
+                let (true, [lo, hi]) = (matches!(item, CanvasItem::Text(_)), item.bounds()) else {
                     continue;
                 };
                 found += 1;
@@ -318,7 +322,7 @@ mod tests {
         let places = |cracks: &[Crack], x: f64| -> Vec<Vec2> {
             let items = isolines(&view(), 1.0, &[vertical(x)], Some(room(cracks)));
             let texts = items.iter().filter_map(|item| match item {
-                Item::Text(text) => Some(text.at),
+                CanvasItem::Text(text) => Some(text.at),
                 _ => None,
             });
             texts.collect()
@@ -329,7 +333,7 @@ mod tests {
             assert!((at - vec2(560.0, 300.0)).length() > 108.0, "{at:?}");
         }
         let crack = |ends: [Vec2; 2]| Crack { points: ends.to_vec(), ends: [CrackEnd::Tip; 2] };
-        // a crack along the line, far beyond the picture, leaves no room
+        // a crack along the line, far beyond the image, leaves no room
         assert!(places(&[crack([vec2(-0.2, -1e9), vec2(-0.2, 1e9)])], -0.2).is_empty());
         assert_eq!(places(&[crack([vec2(0.2, -1.0), vec2(0.2, 1.0)])], -0.2).len(), 1);
         let half = places(&[crack([vec2(-0.2, 0.1), vec2(-0.2, 5.0)])], -0.2);

@@ -4,7 +4,7 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
-use crate::canvas::{Item, Lettering, Path, Pen};
+use crate::canvas::{CanvasItem, CanvasPath, StrokeStyle, TextItem};
 use crate::text::{self, CAP_HEIGHT};
 
 /// A line of a legend.
@@ -23,7 +23,7 @@ pub enum Symbol {
     /// A square of a colour.
     Square(Rgba),
     /// A piece of a line.
-    Line(Pen),
+    Line(StrokeStyle),
 }
 
 impl LegendEntry {
@@ -42,7 +42,7 @@ const GROUND: Rgba = [255, 255, 255, 225];
 const FRAME: Rgba = [120, 120, 126, 255];
 const INK: Rgba = [38, 38, 42, 255];
 
-/// Largest parts of a picture's width and height that a legend in it takes.
+/// Largest parts of an image's width and height that a legend in it takes.
 const PART: [f64; 2] = [0.75, 0.4];
 
 /// The corners, upper left and lower right, of a box with a line for each entry in the upper right
@@ -59,7 +59,7 @@ pub fn legend_box(view: &View, scale: f64, entries: &[LegendEntry]) -> Option<[V
 
 /// That box; nothing where there is none.
 #[must_use]
-pub fn legend(view: &View, scale: f64, entries: &[LegendEntry]) -> Vec<Item> {
+pub fn legend(view: &View, scale: f64, entries: &[LegendEntry]) -> Vec<CanvasItem> {
     let place = legend_box(view, scale, entries);
     place.map_or_else(Vec::new, |[min, _]| legend_at(min, entries, scale))
 }
@@ -80,36 +80,36 @@ pub(crate) fn legend_size(entries: &[LegendEntry], scale: f64) -> Vec2 {
 }
 
 /// A legend's box with its upper left corner at a place; nothing without entries.
-pub(crate) fn legend_at(corner: Vec2, entries: &[LegendEntry], scale: f64) -> Vec<Item> {
+pub(crate) fn legend_at(corner: Vec2, entries: &[LegendEntry], scale: f64) -> Vec<CanvasItem> {
     if entries.is_empty() {
         return Vec::new();
     }
     let letter =
-        |entry: &LegendEntry| Lettering::new(&entry.label, TEXT * scale, vec2(0.0, 0.0), INK);
+        |entry: &LegendEntry| TextItem::new(&entry.label, TEXT * scale, vec2(0.0, 0.0), INK);
     let size = legend_size(entries, scale);
-    let mut outline = Path::default();
+    let mut outline = CanvasPath::default();
     outline.rect(corner, corner + size);
     let mut items = vec![
-        Item::Fill { outline: outline.clone(), color: GROUND },
-        Item::Line { path: outline, pen: Pen::new(FRAME, scale) },
+        CanvasItem::Fill { outline: outline.clone(), color: GROUND },
+        CanvasItem::Line { path: outline, pen: StrokeStyle::new(FRAME, scale) },
     ];
     for (row, entry) in entries.iter().enumerate() {
         let middle = corner.y + (MARGIN + 0.5 * TEXT + ROW * row as f64) * scale;
         let left = corner.x + MARGIN * scale;
-        let mut path = Path::default();
+        let mut path = CanvasPath::default();
         let half = 0.5 * MARK * scale;
         items.push(match entry.symbol {
             Symbol::Square(color) => {
                 path.rect(vec2(left, middle - half), vec2(left + 2.0 * half, middle + half));
-                Item::Fill { outline: path, color }
+                CanvasItem::Fill { outline: path, color }
             }
             Symbol::Line(pen) => {
                 path.line(vec2(left, middle), vec2(left + 2.0 * half, middle));
-                Item::Line { path, pen }
+                CanvasItem::Line { path, pen }
             }
         });
         let base = vec2(left + (MARK + MARGIN) * scale, middle + 0.5 * CAP_HEIGHT * TEXT * scale);
-        items.push(Item::Text(Lettering { at: base, ..letter(entry) }));
+        items.push(CanvasItem::Text(TextItem { at: base, ..letter(entry) }));
     }
     items
 }
@@ -119,8 +119,7 @@ mod tests {
     use super::*;
     use ppum_testkit::random::Random;
 
-    /// Whatever the picture's shape, the box is whole and leaves most of the picture, or is
-    /// not there.
+    /// Whatever the image's shape, the box is whole and leaves most of the image, or is not there.
     #[test]
     fn legends_are_whole_or_not_there() {
         let mut random = Random(15);

@@ -1,5 +1,5 @@
-//! What is drawn over a picture: cracks, rims of holes, the cover and its enrichment, integration
-//! discs, supports and loads.
+//! Overlays of an image: cracks, rims of holes, the cover and its enrichment, integration discs,
+//! supports and loads.
 //!
 //! Each gives what is to be drawn on a page of the view's pixels. Widths of lines and sizes of
 //! marks and letters are multiples of a `scale`, not of pixels, so that in a figure they are
@@ -25,8 +25,8 @@ use ppum::domain::Hole;
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
 
-use crate::canvas::{Item, Path, Pen};
-pub use cover::{Enrichment, boxes, cells, centers, elements, enrichments, patches, points};
+use crate::canvas::{CanvasItem, CanvasPath, StrokeStyle};
+pub use cover::{EnrichmentClass, boxes, cells, centers, elements, enrichments, patches, points};
 pub use cuts::cuts;
 pub use deformed::{carried, deformed_cells, deformed_outline, faces, undeformed_outline};
 pub use glyphs::{arrows, crosses};
@@ -35,10 +35,11 @@ pub use legend::{LegendEntry, Symbol, legend, legend_box};
 pub(crate) use legend::{legend_at, legend_size};
 pub use rings::rings;
 use strokes::{CRACK, CRACK_WIDTH, RIM_WIDTH, SEAM, SEAM_WIDTH, TIP_RADIUS, arc};
-pub use supports::{Load, Support, loads, supports};
+pub use supports::{LoadMark, SupportMark, loads, supports};
 
-/// Scale of a bare picture's lines and letters: 1 up to 1024 × 768 pixels, lest they be unreadable,
-/// and growing with larger ones. In a figure it is [`Design::scale`](crate::figure::Design::scale).
+/// Scale of a bare image's lines and letters: 1 up to 1024 × 768 pixels, lest they be unreadable,
+/// and growing with larger ones. In a figure it is
+/// [`FigureStyle::scale`](crate::figure::FigureStyle::scale).
 #[must_use]
 pub fn line_scale(size: [u32; 2]) -> f64 {
     (f64::from(size[0]) / 1024.0).min(f64::from(size[1]) / 768.0).clamp(1.0, 20.0)
@@ -46,28 +47,29 @@ pub fn line_scale(size: [u32; 2]) -> f64 {
 
 /// The cracks as lines and their tips as dots.
 #[must_use]
-pub fn cracks(view: &View, scale: f64, cracks: &[Crack]) -> Vec<Item> {
+pub fn cracks(view: &View, scale: f64, cracks: &[Crack]) -> Vec<CanvasItem> {
     let segments = cracks.iter().flat_map(|crack| crack.points.windows(2));
     let seen = segments.filter_map(|ends| visible_part(view, ends[0], ends[1]));
-    let lines = Path { pieces: seen.map(Vec::from).collect() };
+    let lines = CanvasPath { pieces: seen.map(Vec::from).collect() };
     let ends = tips(cracks).map(|tip| cracks[tip.crack as usize].end_point(tip.end));
-    let dots = Path { pieces: ends.map(|end| vec![view.pixel(end)]).collect() };
-    let pen = |width: f64| Pen::new(CRACK, width * scale).with_halo(SEAM, SEAM_WIDTH * scale);
+    let dots = CanvasPath { pieces: ends.map(|end| vec![view.pixel(end)]).collect() };
+    let pen =
+        |width: f64| StrokeStyle::new(CRACK, width * scale).with_halo(SEAM, SEAM_WIDTH * scale);
     // seams below all lines
     let (lines_pen, dots_pen) = (pen(CRACK_WIDTH), pen(2.0 * TIP_RADIUS));
-    let plain = |pen: Pen| Pen { halo: None, ..pen };
+    let plain = |pen: StrokeStyle| StrokeStyle { halo: None, ..pen };
     vec![
-        Item::Line { path: lines.clone(), pen: lines_pen },
-        Item::Line { path: dots, pen: dots_pen },
-        Item::Line { path: lines, pen: plain(lines_pen) },
+        CanvasItem::Line { path: lines.clone(), pen: lines_pen },
+        CanvasItem::Line { path: dots, pen: dots_pen },
+        CanvasItem::Line { path: lines, pen: plain(lines_pen) },
     ]
 }
 
-/// The rims of holes as thin lines, but for sides on the lines x = a and y = b at which the body is
-/// mirrored.
+/// The rims of holes as thin lines, except for sides on the lines x = a and y = b at which the body
+/// is mirrored.
 #[must_use]
-pub fn rims(view: &View, scale: f64, holes: &[Hole], mirrors: [Option<f64>; 2]) -> Vec<Item> {
-    let mut path = Path::default();
+pub fn rims(view: &View, scale: f64, holes: &[Hole], mirrors: [Option<f64>; 2]) -> Vec<CanvasItem> {
+    let mut path = CanvasPath::default();
     for hole in holes {
         if let Hole::Circle { center, radius } = hole {
             path.pieces.push(arc(view, *center, *radius));
@@ -76,7 +78,7 @@ pub fn rims(view: &View, scale: f64, holes: &[Hole], mirrors: [Option<f64>; 2]) 
         let sides = hole.sides().filter(|ends| !is_mirrored_side(*ends, mirrors, touch));
         path.pieces.extend(sides.filter_map(|[a, b]| visible_part(view, a, b)).map(Vec::from));
     }
-    vec![Item::Line { path, pen: Pen::new(CRACK, RIM_WIDTH * scale) }]
+    vec![CanvasItem::Line { path, pen: StrokeStyle::new(CRACK, RIM_WIDTH * scale) }]
 }
 
 /// The part of a segment in or near the view, in continuous pixel coordinates.
@@ -114,7 +116,7 @@ mod tests {
     }
 
     /// The items on a page of one colour.
-    pub(super) fn on(color: Rgba, view: &View, items: Vec<Item>) -> Image {
+    pub(super) fn on(color: Rgba, view: &View, items: Vec<CanvasItem>) -> Image {
         Canvas { size: view.pixels, paper: color, items }.image()
     }
 

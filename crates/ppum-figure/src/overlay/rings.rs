@@ -6,7 +6,7 @@ use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
 use super::strokes::arc;
-use crate::canvas::{Item, Path, Pen};
+use crate::canvas::{CanvasItem, CanvasPath, StrokeStyle};
 
 const RING: Rgba = [225, 95, 20, 255];
 const SEAM: Rgba = [255, 255, 255, 170];
@@ -15,8 +15,13 @@ const WIDTH: f64 = 1.2;
 /// The borders of the rings of each tip: full lines around the disc that the integral covers,
 /// dashed ones inside of which the cut-off function is one.
 #[must_use]
-pub fn rings(view: &View, scale: f64, cracks: &[Crack], intensities: &[TipIntensity]) -> Vec<Item> {
-    let (mut outer, mut inner) = (Path::default(), Path::default());
+pub fn rings(
+    view: &View,
+    scale: f64,
+    cracks: &[Crack],
+    intensities: &[TipIntensity],
+) -> Vec<CanvasItem> {
+    let (mut outer, mut inner) = (CanvasPath::default(), CanvasPath::default());
     for intensity in intensities {
         let Some(crack) = cracks.get(intensity.tip.crack as usize) else { continue };
         let tip = crack.end_point(intensity.tip.end);
@@ -27,9 +32,9 @@ pub fn rings(view: &View, scale: f64, cracks: &[Crack], intensities: &[TipIntens
             }
         }
     }
-    let pen = Pen::new(RING, WIDTH * scale).with_halo(SEAM, 0.8 * scale);
+    let pen = StrokeStyle::new(RING, WIDTH * scale).with_halo(SEAM, 0.8 * scale);
     vec![
-        Item::Line { path: outer, pen },
-        Item::Line { path: inner, pen: pen.dashed(6.0 * scale, 4.0 * scale) },
+        CanvasItem::Line { path: outer, pen },
+        CanvasItem::Line { path: inner, pen: pen.dashed(6.0 * scale, 4.0 * scale) },
     ]
 }

@@ -7,7 +7,7 @@ use ppum_render::view::View;
 /// Dark line of a crack, and the light seam that parts it from dark colours.
 pub(super) const CRACK: Rgba = [16, 16, 20, 255];
 pub(super) const SEAM: Rgba = [255, 255, 255, 150];
-/// Widths and radii in pixels of a bare picture of at most 1024 × 768.
+/// Widths and radii in pixels of a bare image of at most 1024 × 768.
 pub(super) const CRACK_WIDTH: f64 = 1.8;
 pub(super) const TIP_RADIUS: f64 = 3.0;
 pub(super) const RIM_WIDTH: f64 = 1.0;

@@ -4,14 +4,14 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
-use crate::canvas::{Item, Path, Pen};
+use crate::canvas::{CanvasItem, CanvasPath, StrokeStyle};
 
 /// A point of the border with components that are held.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Support {
+pub struct SupportMark {
     /// The point.
     pub at: Vec2,
-    /// Unit normal out of the plate.
+    /// Unit normal out of the body.
     pub outward: Vec2,
     /// The components that are held, x and y.
     pub held: [bool; 2],
@@ -23,10 +23,10 @@ pub struct Support {
 
 /// A point of the border with a load.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Load {
+pub struct LoadMark {
     /// The point.
     pub at: Vec2,
-    /// Unit normal out of the plate.
+    /// Unit normal out of the body.
     pub outward: Vec2,
     /// Force per area of the border.
     pub traction: Vec2,
@@ -50,8 +50,8 @@ const SHORTEST: f64 = 2.0;
 /// one that stands on rollers holds the component along its own axis alone, and lies across the
 /// border where that is its tangent. Springs from the border to a hatched line yield.
 #[must_use]
-pub fn supports(view: &View, scale: f64, supports: &[Support]) -> Vec<Item> {
-    let (mut bodies, mut lines) = (Path::default(), Path::default());
+pub fn supports(view: &View, scale: f64, supports: &[SupportMark]) -> Vec<CanvasItem> {
+    let (mut bodies, mut lines) = (CanvasPath::default(), CanvasPath::default());
     for support in supports {
         let at = view.pixel(support.at);
         let rolling = match support.held {
@@ -79,18 +79,21 @@ pub fn supports(view: &View, scale: f64, supports: &[Support]) -> Vec<Item> {
             }
         }
     }
-    let pen = Pen::new(SUPPORT, WIDTH * scale).with_halo(SEAM, scale);
-    vec![Item::Fill { outline: bodies, color: SUPPORT }, Item::Line { path: lines, pen }]
+    let pen = StrokeStyle::new(SUPPORT, WIDTH * scale).with_halo(SEAM, scale);
+    vec![
+        CanvasItem::Fill { outline: bodies, color: SUPPORT },
+        CanvasItem::Line { path: lines, pen },
+    ]
 }
 
 /// Loads as arrows, the longest of one length whatever its traction: those that pull begin at the
 /// border, those that press end there.
 #[must_use]
-pub fn loads(view: &View, scale: f64, loads: &[Load]) -> Vec<Item> {
+pub fn loads(view: &View, scale: f64, loads: &[LoadMark]) -> Vec<CanvasItem> {
     let side = f64::from(view.pixels[0].min(view.pixels[1]));
     let longest = (ARROW * scale).min(ARROW_PART * side);
     let largest = loads.iter().map(|load| load.traction.length()).fold(0.0, f64::max);
-    let (mut shafts, mut heads) = (Path::default(), Path::default());
+    let (mut shafts, mut heads) = (CanvasPath::default(), CanvasPath::default());
     for load in loads {
         let way = on_page(load.traction / largest) * longest;
         if !way.is_finite() || way.length() < SHORTEST * scale {
@@ -101,12 +104,17 @@ pub fn loads(view: &View, scale: f64, loads: &[Load]) -> Vec<Item> {
         let [from, to] = if pulls { [at, at + way] } else { [at - way, at] };
         arrow(&mut shafts, &mut heads, [from, to], HEAD * scale);
     }
-    let pen = Pen::new(LOAD, WIDTH * scale).with_halo(SEAM, scale);
-    vec![Item::Line { path: shafts, pen }, Item::Fill { outline: heads, color: LOAD }]
+    let pen = StrokeStyle::new(LOAD, WIDTH * scale).with_halo(SEAM, scale);
+    vec![CanvasItem::Line { path: shafts, pen }, CanvasItem::Fill { outline: heads, color: LOAD }]
 }
 
 /// An arrow: a shaft, and a head that is no longer than the arrow.
-pub(crate) fn arrow(shafts: &mut Path, heads: &mut Path, [from, to]: [Vec2; 2], head: f64) {
+pub(crate) fn arrow(
+    shafts: &mut CanvasPath,
+    heads: &mut CanvasPath,
+    [from, to]: [Vec2; 2],
+    head: f64,
+) {
     let (along, length) = ((to - from).unit(), (to - from).length());
     let (head, across) = (head.min(length), along.left());
     let base = to - along * head;
@@ -129,7 +137,7 @@ fn nearest_axis(normal: Vec2) -> Vec2 {
 }
 
 /// A triangle with its tip at a point and its base away from it; the middle of the base.
-fn triangle(bodies: &mut Path, at: Vec2, axis: Vec2, scale: f64) -> Vec2 {
+fn triangle(bodies: &mut CanvasPath, at: Vec2, axis: Vec2, scale: f64) -> Vec2 {
     let (height, half) = (TRIANGLE * scale, 0.5 * TRIANGLE * scale);
     let (base, across) = (at + axis * height, axis.left());
     bodies.pieces.push(vec![at, base + across * half, base - across * half, at]);
@@ -137,7 +145,7 @@ fn triangle(bodies: &mut Path, at: Vec2, axis: Vec2, scale: f64) -> Vec2 {
 }
 
 /// A spring from a point along an axis, to its far end.
-fn spring(lines: &mut Path, at: Vec2, axis: Vec2, scale: f64) -> Vec2 {
+fn spring(lines: &mut CanvasPath, at: Vec2, axis: Vec2, scale: f64) -> Vec2 {
     let (length, across) = (1.5 * TRIANGLE * scale, axis.left() * (0.3 * TRIANGLE * scale));
     let sides = [0.0, 0.0, 1.0, -1.0, 1.0, -1.0, 0.0, 0.0];
     let last = (sides.len() - 1) as f64;
@@ -147,13 +155,13 @@ fn spring(lines: &mut Path, at: Vec2, axis: Vec2, scale: f64) -> Vec2 {
 }
 
 /// A straight line under a support.
-fn ground(lines: &mut Path, middle: Vec2, axis: Vec2, scale: f64) {
+fn ground(lines: &mut CanvasPath, middle: Vec2, axis: Vec2, scale: f64) {
     let across = axis.left() * (0.75 * TRIANGLE * scale);
     lines.line(middle - across, middle + across);
 }
 
 /// A line with hatching on its far side.
-fn hatched(lines: &mut Path, middle: Vec2, axis: Vec2, scale: f64) {
+fn hatched(lines: &mut CanvasPath, middle: Vec2, axis: Vec2, scale: f64) {
     ground(lines, middle, axis, scale);
     let (across, stroke) = (axis.left() * (TRIANGLE * scale), 0.3 * TRIANGLE * scale);
     for k in -1..=1 {
@@ -171,11 +179,11 @@ mod tests {
     }
 
     /// All points of the items' paths.
-    fn path_points(items: &[Item]) -> Vec<Vec2> {
-        let path = |item: &Item| match item {
-            Item::Fill { outline, .. } => outline.clone(),
-            Item::Line { path, .. } => path.clone(),
-            _ => Path::default(),
+    fn path_points(items: &[CanvasItem]) -> Vec<Vec2> {
+        let path = |item: &CanvasItem| match item {
+            CanvasItem::Fill { outline, .. } => outline.clone(),
+            CanvasItem::Line { path, .. } => path.clone(),
+            _ => CanvasPath::default(),
         };
         items.iter().flat_map(|item| path(item).pieces.into_iter().flatten()).collect()
     }
@@ -190,8 +198,11 @@ mod tests {
             let border = view().pixel(at).dot(vec2(outward.x, -outward.y));
             let kinds = [([true, true], false), ([outward.x != 0.0, outward.y != 0.0], false)];
             for (held, yields) in kinds.into_iter().chain([([false; 2], true)]) {
-                let items =
-                    supports(&view(), 1.0, &[Support { at, outward, held, axis: None, yields }]);
+                let items = supports(
+                    &view(),
+                    1.0,
+                    &[SupportMark { at, outward, held, axis: None, yields }],
+                );
                 let points = path_points(&items);
                 assert!(points.len() > 4);
                 for p in points {
@@ -200,18 +211,18 @@ mod tests {
             }
         }
         let (at, outward) = (vec2(0.0, 1.0), vec2(0.0, 1.0));
-        let free = Support { at, outward, held: [false; 2], axis: None, yields: false };
+        let free = SupportMark { at, outward, held: [false; 2], axis: None, yields: false };
         assert!(path_points(&supports(&view(), 1.0, &[free])).is_empty());
     }
 
-    /// Tension points away from the plate, pressure towards it; both are drawn outside.
+    /// Tension points away from the body, pressure towards it; both are drawn outside.
     #[test]
     fn arrows_show_the_way_of_the_load() {
         let (at, outward) = (vec2(0.0, 1.0), vec2(0.0, 1.0));
         for (traction, tip_row) in [(2.0, view().pixel(at).y - ARROW), (-2.0, view().pixel(at).y)] {
-            let load = Load { at, outward, traction: vec2(0.0, traction) };
+            let load = LoadMark { at, outward, traction: vec2(0.0, traction) };
             let items = loads(&view(), 1.0, &[load]);
-            let Item::Fill { outline, .. } = &items[1] else { panic!("heads") };
+            let CanvasItem::Fill { outline, .. } = &items[1] else { panic!("heads") };
             assert!((outline.pieces[0][0].y - tip_row).abs() < 1e-9);
             assert!(path_points(&items).iter().all(|p| p.y <= view().pixel(at).y + 1e-9));
         }
@@ -220,9 +231,9 @@ mod tests {
     #[test]
     fn lengths_go_with_the_loads() {
         let outward = vec2(0.0, 1.0);
-        let load = |x: f64, t: f64| Load { at: vec2(x, 1.0), outward, traction: vec2(0.0, t) };
+        let load = |x: f64, t: f64| LoadMark { at: vec2(x, 1.0), outward, traction: vec2(0.0, t) };
         let items = loads(&view(), 1.0, &[load(-0.5, 1.0), load(0.5, 4.0), load(0.0, 0.0)]);
-        let Item::Fill { outline, .. } = &items[1] else { panic!("heads") };
+        let CanvasItem::Fill { outline, .. } = &items[1] else { panic!("heads") };
         let reach: Vec<_> =
             outline.pieces.iter().map(|head| view().pixel(vec2(0.0, 1.0)).y - head[0].y).collect();
         assert!((reach[1] - ARROW).abs() < 1e-9 && (reach[0] - 0.25 * ARROW).abs() < 1e-9);

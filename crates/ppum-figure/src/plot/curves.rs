@@ -1,4 +1,4 @@
-//! What a plot shows.
+//! The content of a plot.
 
 use ppum_render::scale::Scale;
 

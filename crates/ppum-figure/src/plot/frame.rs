@@ -5,7 +5,7 @@ use ppum_render::image::Rgba;
 use ppum_render::scale::Normalization;
 
 use super::{Plot, PlotAxis, has_place};
-use crate::canvas::{Align, Item, Lettering, Path, Pen};
+use crate::canvas::{Align, CanvasItem, CanvasPath, StrokeStyle, TextItem};
 use crate::overlay::line_scale;
 use crate::text::{self, CAP_HEIGHT};
 use crate::ticks::{self, Tick, Ticks, power_of_ten};
@@ -93,8 +93,8 @@ impl PlotFrame {
     }
 
     /// Thin lines at the labelled ticks.
-    pub(super) fn grid(&self) -> Vec<Item> {
-        let mut path = Path::default();
+    pub(super) fn grid(&self) -> Vec<CanvasItem> {
+        let mut path = CanvasPath::default();
         for tick in &self.ticks[0].major {
             let x = self.across(tick.at).round() - 0.5;
             path.line(vec2(x, self.min[1]), vec2(x, self.max[1]));
@@ -103,12 +103,12 @@ impl PlotFrame {
             let y = self.down(tick.at).round() - 0.5;
             path.line(vec2(self.min[0], y), vec2(self.max[0], y));
         }
-        vec![Item::Line { path, pen: Pen::new(GRID, self.scale) }]
+        vec![CanvasItem::Line { path, pen: StrokeStyle::new(GRID, self.scale) }]
     }
 
     /// The frame and its ticks.
-    pub(super) fn lines(&self) -> Vec<Item> {
-        let mut path = Path::default();
+    pub(super) fn lines(&self) -> Vec<CanvasItem> {
+        let mut path = CanvasPath::default();
         let ([left, top], [right, bottom]) = (self.min.map(|c| c - 0.5), self.max.map(|c| c + 0.5));
         path.rect(vec2(left, top), vec2(right, bottom));
         let [x, y] = &self.ticks;
@@ -120,27 +120,27 @@ impl PlotFrame {
             let row = self.down(at).round() - 0.5;
             path.line(vec2(left, row), vec2(left - length * self.scale, row));
         }
-        vec![Item::Line { path, pen: Pen::new(INK, self.scale) }]
+        vec![CanvasItem::Line { path, pen: StrokeStyle::new(INK, self.scale) }]
     }
 
     /// Labels of ticks and axes, and the title.
-    pub(super) fn words(&self, plot: &Plot) -> Vec<Item> {
+    pub(super) fn words(&self, plot: &Plot) -> Vec<CanvasItem> {
         let mut words = Vec::new();
         let (size, cap) = (TICK_TEXT * self.scale, CAP_HEIGHT * TICK_TEXT * self.scale);
         let start = (TICK + GAP) * self.scale;
         for tick in &self.ticks[0].major {
             let at = vec2(self.across(tick.at), (self.max[1] + start + cap).round());
-            words.push(Lettering::new(&tick.label, size, at, INK).aligned(Align::Middle));
+            words.push(TextItem::new(&tick.label, size, at, INK).aligned(Align::Middle));
         }
         for tick in &self.ticks[1].major {
             let at = vec2(self.min[0] - start, (self.down(tick.at) + 0.5 * cap).round());
-            words.push(Lettering::new(&tick.label, size, at, INK).aligned(Align::End));
+            words.push(TextItem::new(&tick.label, size, at, INK).aligned(Align::End));
         }
         words.extend(self.labels(plot));
-        words.into_iter().map(Item::Text).collect()
+        words.into_iter().map(CanvasItem::Text).collect()
     }
 
-    fn labels(&self, plot: &Plot) -> Vec<Lettering> {
+    fn labels(&self, plot: &Plot) -> Vec<TextItem> {
         let (size, scale) = (LABEL_TEXT * self.scale, self.scale);
         let [wide, high] = [0, 1].map(|k| self.max[k] - self.min[k]);
         let fitted = |axis: &PlotAxis, k: usize, room: f64| {
@@ -152,12 +152,12 @@ impl PlotFrame {
         let title = text::fitted(&plot.title, TITLE_TEXT * scale, wide);
         let above = self.min[1] - 0.6 * MARGIN * scale;
         vec![
-            Lettering::new(fitted(&plot.x, 0, wide), size, vec2(middle[0], below.round()), INK)
+            TextItem::new(fitted(&plot.x, 0, wide), size, vec2(middle[0], below.round()), INK)
                 .aligned(Align::Middle),
-            Lettering::new(fitted(&plot.y, 1, high), size, vec2(beside.round(), middle[1]), INK)
+            TextItem::new(fitted(&plot.y, 1, high), size, vec2(beside.round(), middle[1]), INK)
                 .aligned(Align::Middle)
                 .upwards(),
-            Lettering::new(title, TITLE_TEXT * scale, vec2(self.min[0], above.round()), INK),
+            TextItem::new(title, TITLE_TEXT * scale, vec2(self.min[0], above.round()), INK),
         ]
     }
 }
@@ -193,7 +193,7 @@ fn marks(ticks: &Ticks) -> impl Iterator<Item = (f64, f64)> {
     major.chain(ticks.minor.iter().map(|&at| (at, MINOR_TICK)))
 }
 
-/// What is written along an axis: name, number that the labels count from, power of ten, unit.
+/// Returns the text along an axis: name, number that the labels count from, power of ten, unit.
 fn label(axis: &PlotAxis, ticks: &Ticks) -> String {
     let reference = match ticks.reference {
         0.0 => String::new(),

@@ -3,7 +3,7 @@
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_render::image::Rgba;
 
-use crate::canvas::{Item, Lettering, Path, Pen};
+use crate::canvas::{CanvasItem, CanvasPath, StrokeStyle, TextItem};
 use crate::overlay::{LegendEntry, Symbol};
 use crate::text::{self, CAP_HEIGHT};
 
@@ -28,7 +28,7 @@ pub(super) fn legend(
     entries: &[LegendEntry],
     curves: &[Vec<Vec2>],
     scale: f64,
-) -> Vec<Item> {
+) -> Vec<CanvasItem> {
     if entries.is_empty() {
         return Vec::new();
     }
@@ -41,11 +41,11 @@ pub(super) fn legend(
         (2.0 * MARGIN + ROW * entries.len() as f64 - (ROW - TEXT)) * scale,
     );
     let corner = place(pixels, size, curves, scale);
-    let mut outline = Path::default();
+    let mut outline = CanvasPath::default();
     outline.rect(corner, corner + size);
     let mut items = vec![
-        Item::Fill { outline: outline.clone(), color: GROUND },
-        Item::Line { path: outline, pen: Pen::new(FRAME, scale) },
+        CanvasItem::Fill { outline: outline.clone(), color: GROUND },
+        CanvasItem::Line { path: outline, pen: StrokeStyle::new(FRAME, scale) },
     ];
     for (row, entry) in entries.iter().enumerate() {
         let down = (MARGIN + 0.5 * TEXT + ROW * row as f64) * scale;
@@ -65,27 +65,27 @@ fn is_line(entry: &LegendEntry) -> bool {
     matches!(entry.symbol, Symbol::Line(_))
 }
 
-fn letter(entry: &LegendEntry, scale: f64) -> Lettering {
-    Lettering::new(&entry.label, TEXT * scale, vec2(0.0, 0.0), INK)
+fn letter(entry: &LegendEntry, scale: f64) -> TextItem {
+    TextItem::new(&entry.label, TEXT * scale, vec2(0.0, 0.0), INK)
 }
 
 /// The mark, `mark` long, and the label of an entry, from the middle of the mark's left end.
-fn line(entry: &LegendEntry, start: Vec2, mark: f64, scale: f64) -> [Item; 2] {
-    let (mut path, half) = (Path::default(), 0.5 * SQUARE * scale);
+fn line(entry: &LegendEntry, start: Vec2, mark: f64, scale: f64) -> [CanvasItem; 2] {
+    let (mut path, half) = (CanvasPath::default(), 0.5 * SQUARE * scale);
     let symbol = match entry.symbol {
         Symbol::Square(color) => {
             let middle = start + vec2(0.5 * mark, 0.0);
             path.rect(middle - vec2(half, half), middle + vec2(half, half));
-            Item::Fill { outline: path, color }
+            CanvasItem::Fill { outline: path, color }
         }
         Symbol::Line(pen) => {
             path.line(start, start + vec2(mark, 0.0));
-            Item::Line { path, pen }
+            CanvasItem::Line { path, pen }
         }
     };
     let right = mark + MARGIN * scale;
     let at = start + vec2(right, 0.5 * CAP_HEIGHT * TEXT * scale);
-    [symbol, Item::Text(Lettering { at, ..letter(entry, scale) })]
+    [symbol, CanvasItem::Text(TextItem { at, ..letter(entry, scale) })]
 }
 
 /// The upper left corner of a box of some size: in one of the page's corners or in the middle of a
@@ -129,11 +129,11 @@ mod tests {
     /// upper right one.
     #[test]
     fn the_free_corner_is_taken() {
-        let pen = Pen::new(INK, 1.0);
+        let pen = StrokeStyle::new(INK, 1.0);
         let entries =
             [LegendEntry::new(Symbol::Line(pen), "a"), LegendEntry::new(Symbol::Line(pen), "b")];
         let box_of = |curves: &[Vec<Vec2>]| match &legend([600, 400], &entries, curves, 1.0)[0] {
-            Item::Fill { outline, .. } => outline.pieces[0].clone(),
+            CanvasItem::Fill { outline, .. } => outline.pieces[0].clone(),
             _ => Vec::new(),
         };
         let corners = [vec2(600.0, 0.0), vec2(0.0, 0.0), vec2(0.0, 400.0), vec2(600.0, 400.0)];
@@ -158,14 +158,14 @@ mod tests {
     /// Labels of any length leave room, and keep their ends.
     #[test]
     fn long_labels_are_shortened_in_their_middle() {
-        let pen = Pen::new(INK, 2.0);
+        let pen = StrokeStyle::new(INK, 2.0);
         let entry =
             |end: &str| LegendEntry::new(Symbol::Line(pen), format!("{}{end}", "x + ".repeat(200)));
         let items = legend([700, 450], &[entry("_above"), entry("_below")], &[], 1.0);
-        let texts: Vec<&Lettering> = items
+        let texts: Vec<&TextItem> = items
             .iter()
             .filter_map(|item| match item {
-                Item::Text(text) => Some(text),
+                CanvasItem::Text(text) => Some(text),
                 _ => None,
             })
             .collect();

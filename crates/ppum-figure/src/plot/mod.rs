@@ -13,7 +13,7 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::scale::{Normalization, Scale};
 
-use crate::canvas::{Canvas, Item, Path, Pen};
+use crate::canvas::{Canvas, CanvasItem, CanvasPath, StrokeStyle};
 use crate::overlay::{LegendEntry, Symbol};
 use curves::has_place;
 pub use curves::{CurveStyle, Plot, PlotAxis, PlotCurve};
@@ -82,7 +82,7 @@ pub fn plot(plot: &Plot, size: [u32; 2]) -> Canvas {
 
 /// Where the curves of a plot lie on its page.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Area {
+pub struct PlotArea {
     /// The upper left corner.
     pub corner: Vec2,
     /// Width and height.
@@ -90,7 +90,7 @@ pub struct Area {
     norms: [Normalization; 2],
 }
 
-impl Area {
+impl PlotArea {
     /// The area of a plot that [`plot`] draws in this size.
     #[must_use]
     pub fn new(plot: &Plot, size: [u32; 2]) -> Self {
@@ -117,7 +117,7 @@ impl Area {
 }
 
 /// The curves with their legend, on a page of the frame's size.
-fn inside(plot: &Plot, frame: &PlotFrame) -> Item {
+fn inside(plot: &Plot, frame: &PlotFrame) -> CanvasItem {
     let mut canvas = Canvas::new(frame.pixels(), [0; 4]);
     let (mut entries, mut paths) = (Vec::new(), Vec::new());
     let bars = plot.curves.iter().filter(|curve| curve.look == CurveStyle::Bars).count();
@@ -128,7 +128,7 @@ fn inside(plot: &Plot, frame: &PlotFrame) -> Item {
         canvas.items.extend(if is_bar {
             let outline = bars_of(curve, [k, bars], frame);
             paths.extend(outline.pieces.clone());
-            vec![Item::Fill { outline, color }]
+            vec![CanvasItem::Fill { outline, color }]
         } else {
             let (items, path) = drawn(curve, pen, frame);
             paths.extend(path.pieces);
@@ -142,12 +142,12 @@ fn inside(plot: &Plot, frame: &PlotFrame) -> Item {
     if plot.curves.len() > 1 || entries.len() > 1 {
         canvas.items.extend(legend(frame.pixels(), &entries, &paths, frame.scale));
     }
-    Item::Inset { corner: frame.corner(), canvas }
+    CanvasItem::Inset { corner: frame.corner(), canvas }
 }
 
 /// The pen of curve k: colours in turn, and dashes where they come again.
-fn pen(look: CurveStyle, k: usize, scale: f64) -> Pen {
-    let pen = Pen::new(COLORS[k % COLORS.len()], WIDTH * scale);
+fn pen(look: CurveStyle, k: usize, scale: f64) -> StrokeStyle {
+    let pen = StrokeStyle::new(COLORS[k % COLORS.len()], WIDTH * scale);
     let again = k / COLORS.len() + usize::from(look == CurveStyle::Dashed);
     match again.checked_sub(1) {
         Some(k) => {
@@ -159,9 +159,9 @@ fn pen(look: CurveStyle, k: usize, scale: f64) -> Pen {
 }
 
 /// The bars of curve k of `count`, side by side around their places.
-fn bars_of(curve: &PlotCurve, [k, count]: [usize; 2], frame: &PlotFrame) -> Path {
+fn bars_of(curve: &PlotCurve, [k, count]: [usize; 2], frame: &PlotFrame) -> CanvasPath {
     let width = 0.8 / count as f64;
-    let mut path = Path::default();
+    let mut path = CanvasPath::default();
     for &[x, y] in curve.points.iter().filter(|p| p.iter().all(|v| v.is_finite())) {
         let left = x - 0.4 + k as f64 * width;
         path.rect(frame.position([left, 0.0]), frame.position([left + 0.9 * width, y]));
@@ -170,15 +170,15 @@ fn bars_of(curve: &PlotCurve, [k, count]: [usize; 2], frame: &PlotFrame) -> Path
 }
 
 /// The unbroken pieces of a curve, and its dots.
-fn drawn(curve: &PlotCurve, pen: Pen, frame: &PlotFrame) -> (Vec<Item>, Path) {
+fn drawn(curve: &PlotCurve, pen: StrokeStyle, frame: &PlotFrame) -> (Vec<CanvasItem>, CanvasPath) {
     let pieces = curve.points.split(|p| !frame.has_place(*p)).filter(|piece| !piece.is_empty());
     let positions = |piece: &[[f64; 2]]| thinned(piece.iter().map(|&p| frame.position(p)));
-    let path = Path { pieces: pieces.map(positions).collect() };
-    let mut items = vec![Item::Line { path: path.clone(), pen }];
+    let path = CanvasPath { pieces: pieces.map(positions).collect() };
+    let mut items = vec![CanvasItem::Line { path: path.clone(), pen }];
     if curve.look == CurveStyle::Dotted {
         let dots = path.pieces.iter().flatten().map(|&p| vec![p]).collect();
-        let pen = Pen::new(pen.color, 2.0 * DOT * frame.scale);
-        items.push(Item::Line { path: Path { pieces: dots }, pen });
+        let pen = StrokeStyle::new(pen.color, 2.0 * DOT * frame.scale);
+        items.push(CanvasItem::Line { path: CanvasPath { pieces: dots }, pen });
     }
     (items, path)
 }
@@ -238,10 +238,10 @@ mod tests {
     fn paths(page: &Canvas) -> Vec<Vec<Vec2>> {
         let mut found = Vec::new();
         for item in &page.items {
-            let Item::Inset { corner, canvas } = item else { continue };
+            let CanvasItem::Inset { corner, canvas } = item else { continue };
             let shift = vec2(f64::from(corner[0]), f64::from(corner[1]));
             for item in &canvas.items {
-                if let Item::Line { path, .. } = item {
+                if let CanvasItem::Line { path, .. } = item {
                     let moved = path.pieces.iter();
                     found.extend(moved.map(|p| p.iter().map(|&q| q + shift).collect::<Vec<_>>()));
                 }
@@ -257,7 +257,7 @@ mod tests {
         let mut plot_of_law = line(&law);
         plot_of_law.x = plot_of_law.x.logarithmic();
         let drawn = paths(&plot(&plot_of_law, [640, 480]));
-        let area = Area::new(&plot_of_law, [640, 480]);
+        let area = PlotArea::new(&plot_of_law, [640, 480]);
         for (point, position) in law.iter().zip(&drawn[0]) {
             let found = area.position(*point).expect("it has a place");
             assert!((found - *position).length() < 1e-9);
@@ -340,7 +340,7 @@ mod tests {
         let words = |size| {
             let is_mark = |text: &String| text.contains("180") || text == "−90" || text == "90";
             let texts = plot(&around, size).items.into_iter().filter_map(|item| match item {
-                Item::Text(lettering) => Some(lettering.text),
+                CanvasItem::Text(lettering) => Some(lettering.text),
                 _ => None,
             });
             texts.filter(is_mark).collect::<Vec<_>>()

@@ -5,8 +5,8 @@ use ppum::vec2::Vec2;
 /// Columns per pixel in which points are distinguished, since vector pages may be enlarged.
 const PER_PIXEL: f64 = 4.0;
 
-/// The points of a line. Of each run of points within one column only the first, last, highest and
-/// lowest are kept: the line looks the same, peaks included.
+/// The points of a line. For each run of points within one column, only the first, last, highest
+/// and lowest are kept: the line looks the same, peaks included.
 pub(super) fn thinned(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
     let mut kept = Vec::new();
     let mut run: Option<ColumnRun> = None;

@@ -14,14 +14,14 @@ use ppum::dataset::TipIntensity;
 use ppum::function::{Frame, Role, WESTERGAARD};
 use ppum::vec2::vec2;
 
-fn content() -> Content {
-    static CONTENT: LazyLock<Content> =
+fn content() -> ObjectTree {
+    static CONTENT: LazyLock<ObjectTree> =
         LazyLock::new(|| encode::content(&everything::dataset(1)).unwrap());
     CONTENT.clone()
 }
 
 /// The object that decoding complains about, the only one.
-fn complaint(content: Content) -> Option<String> {
+fn complaint(content: ObjectTree) -> Option<String> {
     let errors = diagnose(&content).1;
     assert!(errors.len() <= 1, "one follows from the other: {errors:?}");
     errors.into_iter().next().map(|error| match error {
@@ -69,7 +69,7 @@ fn covers_may_have_no_cells() {
     assert_eq!(crate::bytes::to_bytes(&read).expect("valid"), file);
 }
 
-/// What is missing is the only error, also among those about the meaning of the rest.
+/// The missing item is the only error, also among those about the meaning of the rest.
 #[test]
 fn nothing_follows_from_a_missing_item() {
     let complete = content();
@@ -97,7 +97,7 @@ fn a_wrong_type_or_rank_is_named() {
 /// As h5py writes a list of one text or number.
 #[test]
 fn scalars_may_be_arrays_of_one_element() {
-    let widen = |content: &mut Content| {
+    let widen = |content: &mut ObjectTree| {
         let scalars = content.values_mut().filter(|array| array.shape.is_empty());
         scalars.map(|array| array.shape.push(1)).count()
     };
@@ -108,7 +108,7 @@ fn scalars_may_be_arrays_of_one_element() {
     assert!(widen(&mut single) > 0, "the checksum too");
     checksum::verify(&single).unwrap();
     // numbers that are NaN are not equal to themselves
-    let text = |content: &Content| format!("{:?}", dataset(content).unwrap());
+    let text = |content: &ObjectTree| format!("{:?}", dataset(content).unwrap());
     assert!(text(&single) == text(&content()));
 }
 
@@ -167,19 +167,19 @@ fn lists_that_do_not_divide_are_named() {
 }
 
 /// The complaint of decoding, or of the check of the dataset, after one change.
-fn complaint_after(change: impl FnOnce(&mut Content)) -> String {
+fn complaint_after(change: impl FnOnce(&mut ObjectTree)) -> String {
     let mut damaged = content();
     change(&mut damaged);
     let Err(error) = crate::bytes::checked(&damaged) else { panic!("the change must be found") };
     error.to_string()
 }
 
-fn put(content: &mut Content, key: &str, array: Array) {
+fn put(content: &mut ObjectTree, key: &str, array: Array) {
     content.insert(key.to_owned(), array);
 }
 
 /// Puts a text in the place of the last one of an array that is not empty.
-fn put_last(content: &mut Content, key: &str, text: &str) {
+fn put_last(content: &mut ObjectTree, key: &str, text: &str) {
     let ArrayValues::Text(texts) = &mut content.get_mut(key).expect(key).values else {
         panic!("{key} holds texts")
     };
@@ -246,7 +246,7 @@ fn tables_have_a_limit() {
 #[test]
 fn formulas_are_read_with_the_tables() {
     let functions = "steps/0000/functions/formula";
-    type Change = fn(&mut Content);
+    type Change = fn(&mut ObjectTree);
     let cases: [(&str, Change); 8] = [
         ("equation@young: ", |c| put(c, "equation@young", text("1 + curv*x"))),
         ("equation@poisson: ", |c| put(c, "equation@poisson", text("table(line, x)"))),
@@ -308,7 +308,7 @@ fn plain_datasets_have_no_objects_of_version_1_1() {
     }
 }
 
-/// Of what is new in 1.3 files without components have nothing.
+/// Files without components have none of the items that are new in 1.3.
 #[test]
 fn cuts_are_written_where_there_are_components() {
     let holds_cuts = |seed: u64| {
@@ -385,7 +385,7 @@ fn names_give_the_roles_in_older_files() {
     }
     let mut older = content();
     older.retain(|key, _| !key.ends_with("functions/role"));
-    let roles = |content: &Content| -> Vec<_> {
+    let roles = |content: &ObjectTree| -> Vec<_> {
         let steps = dataset(content).expect("a dataset").steps;
         steps[0].functions.iter().filter_map(|function| function.kind.role()).collect()
     };
@@ -393,11 +393,10 @@ fn names_give_the_roles_in_older_files() {
     assert!(roles(&older).iter().all(|role| [Role::Tip, Role::User].contains(role)));
 }
 
-/// What is not known of a tip is NaN beside what is known of others, and not there where
-/// nothing is.
+/// Unknown terms of a tip are NaN beside known ones, and absent where none is known.
 #[test]
 fn terms_of_tips_that_are_not_known() {
-    let known = |content: Content| {
+    let known = |content: ObjectTree| {
         let step = &dataset(&content).expect("a dataset").steps[0];
         let terms = |tip: &TipIntensity| [tip.t_stress, tip.j, tip.error];
         step.intensities.iter().map(terms).collect::<Vec<_>>()
@@ -438,7 +437,7 @@ fn versions() {
     assert!(with([1, 0]).is_ok() && with([1, 9]).is_ok());
     assert!(matches!(with([2, 1]), Err(ReadError::TooNew { major: 2, minor: 1 })));
     assert!(matches!(with([0, 1]), Err(ReadError::Object { .. })));
-    assert!(matches!(check_version(&Content::new()), Err(ReadError::NotADataset)));
+    assert!(matches!(check_version(&ObjectTree::new()), Err(ReadError::NotADataset)));
 }
 
 #[test]
@@ -453,11 +452,11 @@ fn unknown_groups_are_ignored() {
 #[test]
 fn the_checksum_is_optional_but_must_be_right() {
     assert!(checksum::verify(&content()).is_ok());
-    let mut sealed = content();
-    checksum::seal(&mut sealed);
-    assert!(checksum::verify(&sealed).is_ok());
-    sealed.insert("@title".into(), Array::scalar("another".to_owned()));
-    assert!(matches!(checksum::verify(&sealed), Err(ReadError::Checksum { .. })));
+    let mut with_checksum = content();
+    checksum::seal(&mut with_checksum);
+    assert!(checksum::verify(&with_checksum).is_ok());
+    with_checksum.insert("@title".into(), Array::scalar("another".to_owned()));
+    assert!(matches!(checksum::verify(&with_checksum), Err(ReadError::Checksum { .. })));
 }
 
 #[test]
@@ -470,7 +469,7 @@ fn a_domain_with_holes_is_of_another_kind() {
 
 #[test]
 fn holes_that_make_no_sense_are_named() {
-    let circles_all = |c: &mut Content| {
+    let circles_all = |c: &mut ObjectTree| {
         put(c, "domain/holes/kind", Array::vector(["circle"; 4].map(str::to_owned)));
     };
     let complaint = complaint_after(circles_all);
@@ -478,6 +477,6 @@ fn holes_that_make_no_sense_are_named() {
         complaint.contains("domain/holes/offsets") && complaint.contains("not 4"),
         "{complaint}"
     );
-    let flat = |c: &mut Content| put(c, "domain/holes/radius", Array::vector([0.0; 4]));
+    let flat = |c: &mut ObjectTree| put(c, "domain/holes/radius", Array::vector([0.0; 4]));
     assert!(complaint_after(flat).contains("domain/holes/radius[0]"));
 }

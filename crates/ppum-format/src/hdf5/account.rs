@@ -26,7 +26,7 @@ const FREE_READINGS: u64 = 1 << 24;
 
 /// Times the length of the file that its structures may take in memory where it is read in
 /// parts, beside
-/// [`FREE_READINGS`]: they are read once, but for those on the border of two pages.
+/// [`FREE_READINGS`]: they are read once, except for those on the border of two pages.
 const LOADINGS: u64 = 2;
 
 /// A reading costs as much as this many bytes at least.

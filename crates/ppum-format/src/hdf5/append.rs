@@ -2,19 +2,21 @@
 //!
 //! Nothing of the file moves or changes but its superblock. Behind the end come the objects of the
 //! step, then a new header of the group `steps`, with one link more, and a new header of the root,
-//! which leads to that one. The superblock then names the new root and the new end. What was known
-//! by the old one is still there, unchanged.
+//! which leads to that one. The superblock then names the new root and the new end. Everything that
+//! the old trunk described is still there, unchanged.
 //!
 //! So that the length of a file stays linear in its steps the header of `steps` itself holds few
 //! links: as soon as there are [`LINKS`] of them they move to a block of their own, which continues
 //! in the block before.
 
 use super::account::memory_of;
-use super::messages::{Addition, CONTINUATION, LINK, LINK_INFO, Message, NO_HEAP, block, header};
+use super::messages::{
+    Addition, CONTINUATION, HeaderMessage, LINK, LINK_INFO, NO_HEAP, block, header,
+};
 use super::objects::group;
 use super::read::Ranges;
 use super::write::{END, ROOT, SUPERBLOCK, superblock};
-use crate::content::Content;
+use crate::content::ObjectTree;
 use crate::error::WriteError;
 use crate::lookup3::lookup3;
 
@@ -35,10 +37,10 @@ pub(crate) struct Trunk {
     /// Where the file ends.
     end: u64,
     /// Messages of the root but the link to `steps`.
-    root: Vec<Message>,
+    root: Vec<HeaderMessage>,
     /// Messages of `steps` but the links in its own header.
-    steps: Vec<Message>,
-    links: Vec<Message>,
+    steps: Vec<HeaderMessage>,
+    links: Vec<HeaderMessage>,
 }
 
 /// The bytes of a step that are appended to a file.
@@ -65,24 +67,25 @@ impl Trunk {
         let address = root.remove(at).link_to(STEPS)?;
         let all = messages(file, address)?;
         // a group whose links are in a heap would not show one in its header
-        let is_plain = |message: &Message| message.kind != LINK_INFO || message.body == NO_HEAP;
+        let is_plain =
+            |message: &HeaderMessage| message.kind != LINK_INFO || message.body == NO_HEAP;
         let (links, steps): (Vec<_>, Vec<_>) = all.into_iter().partition(|m| m.kind == LINK);
         steps.iter().all(is_plain).then_some(Self { end, root, steps, links })
     }
 
-    /// What makes a step part of the file, and the trunk of the file that has it.
+    /// Writes the objects that make a step part of the file, and the trunk of the file that has it.
     pub(crate) fn step(
         &self,
-        content: &Content,
+        content: &ObjectTree,
         path: &str,
     ) -> Result<(AppendedStep, Self), WriteError> {
         let (addition, address) = self.objects(content, path)?;
         let name = path.rsplit('/').next().unwrap_or(path);
-        self.clone().grown(addition, Message::link(name, address))
+        self.clone().grown(addition, HeaderMessage::link(name, address))
     }
 
     /// The objects of the step, compressed as long as they can be read again.
-    fn objects(&self, content: &Content, path: &str) -> Result<(Addition, u64), WriteError> {
+    fn objects(&self, content: &ObjectTree, path: &str) -> Result<(Addition, u64), WriteError> {
         let stored = |compressed| {
             let mut addition = Addition::new(self.end);
             let address = group(&mut addition, content, path, compressed)?;
@@ -97,14 +100,14 @@ impl Trunk {
     fn grown(
         mut self,
         mut addition: Addition,
-        link: Message,
+        link: HeaderMessage,
     ) -> Result<(AppendedStep, Self), WriteError> {
         if self.links.len() >= LINKS {
             self.move_links(&mut addition)?;
         }
         self.links.push(link);
         let steps = addition.put(&header(&[self.steps.as_slice(), &self.links].concat())?);
-        let link = Message::link(STEPS, steps);
+        let link = HeaderMessage::link(STEPS, steps);
         let root = addition.put(&header(&[self.root.as_slice(), &[link]].concat())?);
         let end = std::mem::replace(&mut self.end, addition.end());
         let start = superblock(self.end, root).to_vec();
@@ -118,7 +121,7 @@ impl Trunk {
         moved.extend(self.steps.extract_if(.., |message| message.kind == CONTINUATION));
         let bytes = block(&moved)?;
         let address = addition.put(&bytes);
-        self.steps.push(Message::continuation(address, bytes.len() as u64));
+        self.steps.push(HeaderMessage::continuation(address, bytes.len() as u64));
         Ok(())
     }
 }
@@ -130,7 +133,7 @@ fn word(bytes: &[u8], at: usize) -> u64 {
 
 /// The messages of a header as this program writes it, without those of the blocks that it
 /// continues in.
-fn messages(file: &dyn Ranges, address: u64) -> Option<Vec<Message>> {
+fn messages(file: &dyn Ranges, address: u64) -> Option<Vec<HeaderMessage>> {
     let mut start = [0; HEADER_START];
     fill(file, address, &mut start)?;
     let width = 1 << (start[5] & 3);
@@ -149,7 +152,7 @@ fn messages(file: &dyn Ranges, address: u64) -> Option<Vec<Message>> {
 
 /// The messages of a header with those of the blocks that it continues in: who adds something of
 /// his own to the root may have moved some there.
-fn gathered(file: &dyn Ranges, mut messages: Vec<Message>) -> Option<Vec<Message>> {
+fn gathered(file: &dyn Ranges, mut messages: Vec<HeaderMessage>) -> Option<Vec<HeaderMessage>> {
     // more blocks would be a header that goes round in a circle
     for _ in 0..MOST_BLOCKS {
         let Some(at) = messages.iter().position(|m| m.kind == CONTINUATION) else {
@@ -186,12 +189,12 @@ const HEADER_START: usize = 10;
 /// at hand.
 const LONGEST_HEADER: usize = 1 << 20;
 
-fn parsed(mut bytes: &[u8]) -> Option<Vec<Message>> {
+fn parsed(mut bytes: &[u8]) -> Option<Vec<HeaderMessage>> {
     let mut messages = Vec::new();
     // what is shorter than a prefix is a gap
     while let Some((&[kind, low, high, flags], rest)) = bytes.split_first_chunk() {
         let (body, rest) = rest.split_at_checked(usize::from(u16::from_le_bytes([low, high])))?;
-        messages.push(Message { kind, flags, body: body.to_vec() });
+        messages.push(HeaderMessage { kind, flags, body: body.to_vec() });
         bytes = rest;
     }
     Some(messages)

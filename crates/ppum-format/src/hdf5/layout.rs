@@ -6,7 +6,7 @@
 use rayon::prelude::*;
 use zlib_rs::{DeflateConfig, ReturnCode, compress_bound, compress_slice};
 
-use super::messages::{ALIGNMENT, Addition, Message, NOWHERE, sealed};
+use super::messages::{ALIGNMENT, Addition, HeaderMessage, NOWHERE, with_checksum};
 use super::values::{bytes, number, size};
 use crate::content::{Array, ArrayValues};
 use crate::error::WriteError;
@@ -66,11 +66,11 @@ const PARTS: usize = 2;
 const PART: usize = 1 << 14;
 
 /// Puts values behind the end. Their layout.
-pub(super) fn contiguous(addition: &mut Addition, values: &[u8]) -> Message {
+pub(super) fn contiguous(addition: &mut Addition, values: &[u8]) -> HeaderMessage {
     let address = if values.is_empty() { NOWHERE } else { addition.put(values) };
     let place = [address.to_le_bytes(), (values.len() as u64).to_le_bytes()].concat();
     // version and class
-    Message::new(LAYOUT, [[3, 1].as_slice(), &place].concat())
+    HeaderMessage::new(LAYOUT, [[3, 1].as_slice(), &place].concat())
 }
 
 /// Layout and filters of a large array, whose values are put behind the end; none of a small one.
@@ -79,7 +79,7 @@ pub(super) fn large(
     name: &str,
     array: &Array,
     compressed: bool,
-) -> Result<Option<Vec<Message>>, WriteError> {
+) -> Result<Option<Vec<HeaderMessage>>, WriteError> {
     if compressed && is_chunked(array) && array.shape.len() <= 2 {
         return chunked(addition, name, array).map(Some);
     }
@@ -88,9 +88,13 @@ pub(super) fn large(
 }
 
 /// A chunk that is stored: its address and length.
-type Stored = (u64, u64);
+type StoredChunk = (u64, u64);
 
-fn chunked(addition: &mut Addition, name: &str, array: &Array) -> Result<Vec<Message>, WriteError> {
+fn chunked(
+    addition: &mut Addition,
+    name: &str,
+    array: &Array,
+) -> Result<Vec<HeaderMessage>, WriteError> {
     let (size, shape) = (size(&array.values), chunk(&array.shape));
     let chunk_bytes = size as u64 * shape.iter().product::<u64>();
     let values = bytes(array);
@@ -101,7 +105,7 @@ fn chunked(addition: &mut Addition, name: &str, array: &Array) -> Result<Vec<Mes
     let packed = chunks.par_iter().map(|values| deflated(&shuffled(values, size)));
     let packed: Option<Vec<_>> = packed.collect();
     let packed = packed.ok_or_else(|| WriteError::object(name, "cannot be compressed"))?;
-    let stored: Vec<Stored> =
+    let stored: Vec<StoredChunk> =
         packed.iter().map(|packed| (addition.put(packed), packed.len() as u64)).collect();
     let index = match stored.as_slice() {
         &[(address, length)] => single(address, length),
@@ -115,7 +119,7 @@ fn chunked(addition: &mut Addition, name: &str, array: &Array) -> Result<Vec<Mes
     let mut layout = vec![4, 2, flags, extents.len() as u8, width as u8];
     layout.extend(extents.iter().flat_map(|n| n.to_le_bytes().into_iter().take(width)));
     layout.extend(index);
-    Ok(vec![Message::new(FILTERS, filters(size)), Message::new(LAYOUT, layout)])
+    Ok(vec![HeaderMessage::new(FILTERS, filters(size)), HeaderMessage::new(LAYOUT, layout)])
 }
 
 /// The filters: shuffle, which is told the size of elements, and deflate, which is told its level.
@@ -171,7 +175,7 @@ fn single(address: u64, length: u64) -> Vec<u8> {
 const PAGE_BITS: u8 = 10;
 
 /// An index of fixed length.
-fn fixed(addition: &mut Addition, chunks: &[Stored], chunk_bytes: u64) -> Vec<u8> {
+fn fixed(addition: &mut Addition, chunks: &[StoredChunk], chunk_bytes: u64) -> Vec<u8> {
     let count = chunks.len() as u64;
     let page_bits = PAGE_BITS.max((count - 1).ilog2() as u8 + 1);
     // as wide as HDF5 has it: room for what filters lengthen
@@ -183,7 +187,7 @@ fn fixed(addition: &mut Addition, chunks: &[Stored], chunk_bytes: u64) -> Vec<u8
     // the block of entries comes next
     let block = (header + head.len() as u64 + 8 + 4).next_multiple_of(ALIGNMENT);
     head.extend(block.to_le_bytes());
-    addition.put(&sealed(head));
+    addition.put(&with_checksum(head));
     let mut body = b"FADB\0\x01".to_vec();
     body.extend(header.to_le_bytes());
     for (address, length) in chunks {
@@ -191,7 +195,7 @@ fn fixed(addition: &mut Addition, chunks: &[Stored], chunk_bytes: u64) -> Vec<u8
         body.extend(&length.to_le_bytes()[..width]);
         body.extend([0; 4]);
     }
-    addition.put(&sealed(body));
+    addition.put(&with_checksum(body));
     [[3, page_bits].as_slice(), &header.to_le_bytes()].concat()
 }
 

@@ -18,13 +18,13 @@ pub(super) const NOWHERE: u64 = u64::MAX;
 
 /// A message of a header.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Message {
+pub(super) struct HeaderMessage {
     pub(super) kind: u8,
     pub(super) flags: u8,
     pub(super) body: Vec<u8>,
 }
 
-impl Message {
+impl HeaderMessage {
     pub(super) fn new(kind: u8, body: Vec<u8>) -> Self {
         Self { kind, flags: 0, body }
     }
@@ -41,8 +41,8 @@ impl Message {
         Self::new(LINK, body)
     }
 
-    /// The address that it leads to, if it is a hard link of this name as [`Message::link`] makes
-    /// it, or with the character set of the name.
+    /// The address that it leads to, if it is a hard link of this name as [`HeaderMessage::link`]
+    /// makes it, or with the character set of the name.
     pub(super) fn link_to(&self, name: &str) -> Option<u64> {
         let rest = match self.body.as_slice() {
             [1, 0, rest @ ..] | [1, 0x10, _, rest @ ..] if self.kind == LINK => rest,
@@ -61,9 +61,9 @@ impl Message {
 }
 
 /// Messages, each with its kind, size and flags in front.
-fn encoded(messages: &[Message]) -> Result<Vec<u8>, WriteError> {
+fn encoded(messages: &[HeaderMessage]) -> Result<Vec<u8>, WriteError> {
     let mut bytes = Vec::new();
-    for Message { kind, flags, body } in messages {
+    for HeaderMessage { kind, flags, body } in messages {
         let Ok(size) = u16::try_from(body.len()) else {
             let message =
                 "an attribute or the name of an array has more than 65,000 bytes".to_owned();
@@ -81,19 +81,19 @@ fn encoded(messages: &[Message]) -> Result<Vec<u8>, WriteError> {
 const HEADER: [u8; 6] = *b"OHDR\x02\x02";
 
 /// The header of an object.
-pub(super) fn header(messages: &[Message]) -> Result<Vec<u8>, WriteError> {
+pub(super) fn header(messages: &[HeaderMessage]) -> Result<Vec<u8>, WriteError> {
     let messages = encoded(messages)?;
     let length = (messages.len() as u32).to_le_bytes();
-    Ok(sealed([HEADER.as_slice(), &length, &messages].concat()))
+    Ok(with_checksum([HEADER.as_slice(), &length, &messages].concat()))
 }
 
 /// A block in which a header continues.
-pub(super) fn block(messages: &[Message]) -> Result<Vec<u8>, WriteError> {
-    Ok(sealed([b"OCHK".as_slice(), &encoded(messages)?].concat()))
+pub(super) fn block(messages: &[HeaderMessage]) -> Result<Vec<u8>, WriteError> {
+    Ok(with_checksum([b"OCHK".as_slice(), &encoded(messages)?].concat()))
 }
 
-/// The same with its checksum.
-pub(super) fn sealed(mut bytes: Vec<u8>) -> Vec<u8> {
+/// Returns the bytes with their checksum.
+pub(super) fn with_checksum(mut bytes: Vec<u8>) -> Vec<u8> {
     let sum = lookup3(&bytes);
     bytes.extend(sum.to_le_bytes());
     bytes

@@ -4,9 +4,9 @@
 use std::collections::BTreeMap;
 
 use super::layout::{contiguous, large};
-use super::messages::{Addition, LINK_INFO, Message, NO_HEAP, header};
+use super::messages::{Addition, HeaderMessage, LINK_INFO, NO_HEAP, header};
 use super::values::{bytes, datatype, long_text};
-use crate::content::{Array, Content, ObjectKind, join, key};
+use crate::content::{Array, ObjectKind, ObjectTree, join, key};
 use crate::error::WriteError;
 
 /// Kinds of messages.
@@ -20,7 +20,7 @@ const ATTRIBUTE_INFO: u8 = 0x15;
 /// Puts a group with all that is in it behind the end. The address of its header.
 pub(super) fn group(
     addition: &mut Addition,
-    content: &Content,
+    content: &ObjectTree,
     path: &str,
     compressed: bool,
 ) -> Result<u64, WriteError> {
@@ -36,24 +36,24 @@ pub(super) fn group(
 }
 
 /// Where large arrays are: their layout and filters.
-type Layouts<'c> = BTreeMap<&'c str, Vec<Message>>;
+type Layouts<'c> = BTreeMap<&'c str, Vec<HeaderMessage>>;
 
 fn headers(
     addition: &mut Addition,
-    content: &Content,
+    content: &ObjectTree,
     path: &str,
     layouts: &Layouts,
 ) -> Result<u64, WriteError> {
     // without the message about attributes programs of HDF5 such as h5repack count none
     let mut messages = vec![
-        Message::new(LINK_INFO, NO_HEAP.to_vec()),
-        Message::new(GROUP_INFO, vec![0; 2]),
-        Message::new(ATTRIBUTE_INFO, NO_HEAP.to_vec()),
+        HeaderMessage::new(LINK_INFO, NO_HEAP.to_vec()),
+        HeaderMessage::new(GROUP_INFO, vec![0; 2]),
+        HeaderMessage::new(ATTRIBUTE_INFO, NO_HEAP.to_vec()),
     ];
     for name in content.attributes(path) {
         let full = key(path, name, ObjectKind::Attribute);
         let attribute = attribute(addition, &full, name, &content[&full])?;
-        messages.push(Message::new(ATTRIBUTE, attribute));
+        messages.push(HeaderMessage::new(ATTRIBUTE, attribute));
     }
     let mut members: Vec<&str> = content.members(path).collect();
     members.sort_unstable();
@@ -63,7 +63,7 @@ fn headers(
             Some(array) => dataset(addition, &full, array, layouts)?,
             None => headers(addition, content, &full, layouts)?,
         };
-        messages.push(Message::link(name, address));
+        messages.push(HeaderMessage::link(name, address));
     }
     Ok(addition.put(&header(&messages)?))
 }
@@ -100,10 +100,10 @@ fn dataset(
         None => vec![contiguous(addition, &bytes(array))],
     };
     let mut messages = vec![
-        Message::new(DATASPACE, dataspace(&array.shape)),
-        Message::new(DATATYPE, datatype(name, array)?),
+        HeaderMessage::new(DATASPACE, dataspace(&array.shape)),
+        HeaderMessage::new(DATATYPE, datatype(name, array)?),
         // version; values that nobody writes, of which there are none, are not defined
-        Message::new(FILL_VALUE, vec![3, 0x0a]),
+        HeaderMessage::new(FILL_VALUE, vec![3, 0x0a]),
     ];
     messages.extend(layout);
     Ok(addition.put(&header(&messages)?))

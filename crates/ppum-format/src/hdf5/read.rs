@@ -25,19 +25,19 @@ mod types;
 use std::collections::BTreeMap;
 
 use super::account::{Account, memory};
-use crate::content::{Array, ArrayValues, Content, join, step_of};
+use crate::content::{Array, ArrayValues, ObjectTree, join, step_of};
 use crate::error::ReadError;
 use crate::limits::MAX_LENGTH;
-use error::{Hdf5Error, Parsed, fail};
+use error::{Hdf5Error, ReadResult, fail};
 use header::{DATASPACE, DATATYPE, GROUP_INFO, Header, LAYOUT, LINK, LINK_INFO, SYMBOL_TABLE};
-use links::{Target, links};
-use source::Hdf5File;
+use links::{LinkTarget, links};
+use source::Hdf5Source;
 use storage::elements;
-use store::Chain;
 pub(crate) use store::Ranges;
-use superblock::Start;
-use texts::Texts;
-use types::{DatatypeClass, Space, Type};
+use store::StoredParts;
+use superblock::Superblock;
+use texts::TextCollections;
+use types::{Dataspace, DatatypeClass, Type};
 
 /// Root group that is neither read nor part of the checksum: for additions by anybody.
 const USER: &str = "user";
@@ -46,18 +46,18 @@ const USER: &str = "user";
 const DEPTH: usize = 8;
 
 /// All arrays and attributes of a file, whatever they mean.
-pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Content, ReadError> {
+pub(crate) fn from_bytes(bytes: &[u8]) -> Result<ObjectTree, ReadError> {
     let account = Account::for_file(bytes.len() as u64);
-    let start = Start::of_bytes(bytes).map_err(unreadable)?;
+    let start = Superblock::of_bytes(bytes).map_err(unreadable)?;
     let source = start.memory(bytes, &account).map_err(unreadable)?;
-    let mut walk = Walk::new(source, ReadChoice::All);
+    let mut walk = FileWalk::new(source, ReadChoice::All);
     walk.root(start.root)?;
     Ok(walk.content)
 }
 
-/// The same of a file of so many bytes, of which no more than that is read.
-pub(crate) fn from_file(file: &dyn Ranges, length: u64) -> Result<Content, ReadError> {
-    let start = Start::of_file(file, length).map_err(unreadable)?;
+/// Reads a file of so many bytes, and no more than that.
+pub(crate) fn from_file(file: &dyn Ranges, length: u64) -> Result<ObjectTree, ReadError> {
+    let start = Superblock::of_file(file, length).map_err(unreadable)?;
     let (content, _) = parts(start, file, length, |walk| walk.root(start.root))?;
     Ok(content)
 }
@@ -69,9 +69,9 @@ fn unreadable(Hdf5Error(message): Hdf5Error) -> ReadError {
 /// Whatever a file holds beside its steps, and where these are.
 #[derive(Debug)]
 pub(crate) struct Outline {
-    start: Start,
+    start: Superblock,
     length: u64,
-    pub(crate) content: Content,
+    pub(crate) content: ObjectTree,
     /// The numbered members of `steps`, each with the address of its header.
     steps: BTreeMap<String, u64>,
 }
@@ -79,7 +79,7 @@ pub(crate) struct Outline {
 impl Outline {
     /// Reads a file of so many bytes.
     pub(crate) fn read(file: &dyn Ranges, length: u64) -> Result<Self, ReadError> {
-        let start = Start::of_file(file, length).map_err(unreadable)?;
+        let start = Superblock::of_file(file, length).map_err(unreadable)?;
         let (content, steps) = parts(start, file, length, |walk| {
             walk.choice = ReadChoice::NoSteps;
             walk.root(start.root)
@@ -102,38 +102,38 @@ impl Outline {
         file: &dyn Ranges,
         path: &str,
         only: Option<&'static [&'static str]>,
-    ) -> Result<Content, ReadError> {
+    ) -> Result<ObjectTree, ReadError> {
         let &address = self.steps.get(path).ok_or_else(|| error(path, "is missing"))?;
         let (content, _) = parts(self.start, file, self.length, |walk| {
             walk.choice = only.map_or(ReadChoice::All, ReadChoice::Only);
-            walk.object(&Target::Object(address), path.to_owned(), DEPTH - 1)
+            walk.object(&LinkTarget::Object(address), path.to_owned(), DEPTH - 1)
         })?;
         Ok(content)
     }
 }
 
-/// What a walk over the parts of a file finds.
+/// Returns the findings of a walk over the parts of a file.
 fn parts(
-    start: Start,
+    start: Superblock,
     file: &dyn Ranges,
     length: u64,
-    visit: impl FnOnce(&mut Walk<'_>) -> Result<(), ReadError>,
-) -> Result<(Content, BTreeMap<String, u64>), ReadError> {
+    visit: impl FnOnce(&mut FileWalk<'_>) -> Result<(), ReadError>,
+) -> Result<(ObjectTree, BTreeMap<String, u64>), ReadError> {
     let account = Account::for_file(length.min(MAX_LENGTH));
-    let chain = Chain::default();
+    let chain = StoredParts::default();
     let parts = start.parts(file, length, &chain);
     let source = start.source(&parts, &account).map_err(unreadable)?;
-    let mut walk = Walk::new(source, ReadChoice::All);
+    let mut walk = FileWalk::new(source, ReadChoice::All);
     visit(&mut walk)?;
     Ok((walk.content, walk.steps))
 }
 
 /// A walk over a file that is not trusted: each object and array is paid for out of what a file of
 /// this length can hold, before anything is allocated.
-struct Walk<'f> {
-    content: Content,
-    source: Hdf5File<'f>,
-    texts: Texts<'f>,
+struct FileWalk<'f> {
+    content: ObjectTree,
+    source: Hdf5Source<'f>,
+    texts: TextCollections<'f>,
     choice: ReadChoice,
     /// Steps that were left out.
     steps: BTreeMap<String, u64>,
@@ -145,7 +145,7 @@ enum ReadChoice {
     All,
     /// All but what the numbered members of `steps` hold.
     NoSteps,
-    /// Of a step these members.
+    /// Only these members of a step.
     Only(&'static [&'static str]),
 }
 
@@ -156,9 +156,9 @@ enum ObjectType {
     NamedType,
 }
 
-impl<'f> Walk<'f> {
-    fn new(source: Hdf5File<'f>, choice: ReadChoice) -> Self {
-        let (content, texts) = (Content::new(), Texts::new(source));
+impl<'f> FileWalk<'f> {
+    fn new(source: Hdf5Source<'f>, choice: ReadChoice) -> Self {
+        let (content, texts) = (ObjectTree::new(), TextCollections::new(source));
         Self { content, source, texts, choice, steps: BTreeMap::new() }
     }
 
@@ -202,8 +202,8 @@ impl<'f> Walk<'f> {
         names.nth(2).is_none_or(|member| members.contains(&member))
     }
 
-    fn object(&mut self, target: &Target, path: String, depth: usize) -> Result<(), ReadError> {
-        let Target::Object(address) = *target else { return Err(elsewhere(&path)) };
+    fn object(&mut self, target: &LinkTarget, path: String, depth: usize) -> Result<(), ReadError> {
+        let LinkTarget::Object(address) = *target else { return Err(elsewhere(&path)) };
         if matches!(self.choice, ReadChoice::NoSteps) && step_of(&path).is_some() {
             self.visit(&path)?;
             return match self.steps.insert(path.clone(), address) {
@@ -241,9 +241,9 @@ impl<'f> Walk<'f> {
         Ok(())
     }
 
-    fn array(&mut self, header: &Header<'f>) -> Parsed<Array> {
+    fn array(&mut self, header: &Header<'f>) -> ReadResult<Array> {
         let kind = Type::parse(header.get(DATATYPE)?)?;
-        let Some(space) = Space::parse(header.get(DATASPACE)?)? else {
+        let Some(space) = Dataspace::parse(header.get(DATASPACE)?)? else {
             return Ok(Array { shape: vec![], values: ArrayValues::Other("null".into()) });
         };
         if let DatatypeClass::Other(name) = kind.kind {

@@ -1,12 +1,12 @@
 //! The function table.
 
 use ppum::crack::{End, TipId};
-use ppum::function::{Cut, Declared, Frame, Function, FunctionKind, Role, native};
+use ppum::function::{Cut, Frame, Function, FunctionKind, NonsmoothPoints, Role, native};
 use ppum::vec2::Vec2;
 
 use crate::column::{ColumnNames, TableColumns, table};
 use crate::reader::GroupReader;
-use crate::stored::{FrameKind, FunctionTag, Worded, value};
+use crate::stored::{FrameKind, FunctionTag, StoredWord, value};
 
 /// A row of the function table; what a kind does not use says nothing.
 #[derive(Clone, Default)]
@@ -22,7 +22,7 @@ pub(crate) struct StoredFunction {
     parameters: Vec<String>,
     parameter_values: Vec<f64>,
     cuts: Vec<Cut>,
-    declared: Declared,
+    declared: NonsmoothPoints,
     levels: [Option<u32>; 2],
     role: Option<Role>,
 }
@@ -89,8 +89,8 @@ impl StoredFunction {
         })
     }
 
-    /// The function of row k. What its kind does not use must say nothing: a row that says more
-    /// than its kind was damaged, or written for another kind.
+    /// The function of row k. Columns that its kind does not use must say nothing: a row that says
+    /// more than its kind was damaged, or written for another kind.
     pub(crate) fn function(mut self, group: &GroupReader, k: usize) -> Option<Function> {
         if group.is_wrong("kind") {
             return None;
@@ -181,7 +181,7 @@ impl StoredFunction {
 }
 
 /// The value of a word that must be there.
-fn needed<T: Worded>(group: &GroupReader, name: &str, found: Option<T>) -> Option<T> {
+fn needed<T: StoredWord>(group: &GroupReader, name: &str, found: Option<T>) -> Option<T> {
     found.or_else(|| value(T::WORDS, "").map_err(|mistake| group.error(name, mistake)).ok())
 }
 

@@ -37,11 +37,11 @@ fn is_checksum(name: &str) -> bool {
     ["@sha256", "@sha256_rest"].iter().any(|end| name.ends_with(end))
 }
 
-type Below<'a> = &'a mut dyn FnMut(usize) -> usize;
+type RandomBelow<'a> = &'a mut dyn FnMut(usize) -> usize;
 
 /// A damaged file.
 #[derive(Clone, Debug)]
-pub(crate) struct Damaged {
+pub(crate) struct DamagedFile {
     /// Its bytes.
     pub(crate) bytes: Vec<u8>,
     /// The kind of damage, e.g. `truncated`.
@@ -52,7 +52,7 @@ pub(crate) struct Damaged {
 
 /// A copy with one to three arrays changed; none if the file cannot be read, or the result
 /// not written.
-pub(super) fn damaged(file: &[u8], below: Below) -> Option<Damaged> {
+pub(super) fn damaged(file: &[u8], below: RandomBelow) -> Option<DamagedFile> {
     let arrays = Arrays::from_bytes(file).ok()?;
     let all = arrays.iter().map(|(name, shape, values)| {
         (name.to_owned(), Array { shape: shape.to_vec(), values: values.clone() })
@@ -81,11 +81,15 @@ pub(super) fn damaged(file: &[u8], below: Below) -> Option<Damaged> {
         arrays.seal();
     }
     let bytes = arrays.to_bytes().ok()?;
-    Some(Damaged { bytes, what: what.join(", "), is_sealed: is_sealed || !is_whole || count == 0 })
+    Some(DamagedFile {
+        bytes,
+        what: what.join(", "),
+        is_sealed: is_sealed || !is_whole || count == 0,
+    })
 }
 
 /// One array changed; there is one at least.
-fn change(content: &mut Content, below: Below) -> Option<String> {
+fn change(content: &mut Content, below: RandomBelow) -> Option<String> {
     let names: Vec<String> = content.keys().cloned().collect();
     let name = names[below(names.len())].clone();
     let other = names[below(names.len())].clone();
@@ -137,8 +141,8 @@ fn change(content: &mut Content, below: Below) -> Option<String> {
     Some(format!("{name}: {what}"))
 }
 
-/// The same number of values of another type.
-fn of_another_type(values: &ArrayValues, below: Below) -> ArrayValues {
+/// Returns as many values of another type.
+fn of_another_type(values: &ArrayValues, below: RandomBelow) -> ArrayValues {
     let n = len(values);
     match below(6) {
         0 => ArrayValues::F64(vec![0.5; n]),
@@ -150,7 +154,7 @@ fn of_another_type(values: &ArrayValues, below: Below) -> ArrayValues {
     }
 }
 
-fn reshape(array: &mut Array, below: Below) {
+fn reshape(array: &mut Array, below: RandomBelow) {
     match below(4) {
         0 => array.shape.push(1),
         1 => array.shape.insert(0, 1),
@@ -160,7 +164,7 @@ fn reshape(array: &mut Array, below: Below) {
 }
 
 /// Fewer or more rows.
-fn resize(array: &mut Array, below: Below) {
+fn resize(array: &mut Array, below: RandomBelow) {
     let Some(rows) = array.shape.first().copied() else { return };
     let row: u64 = array.shape[1..].iter().product();
     let rows = match below(4) {
@@ -175,7 +179,7 @@ fn resize(array: &mut Array, below: Below) {
 }
 
 /// Zeros of the same type and rank, far more than there were: they shrink to nothing.
-fn zeros(array: &Array, below: Below) -> Array {
+fn zeros(array: &Array, below: RandomBelow) -> Array {
     let rows = 1_u64 << (16 + below(6));
     let mut shape = array.shape.clone();
     if let Some(first) = shape.first_mut() {
@@ -193,7 +197,7 @@ fn zeros(array: &Array, below: Below) -> Array {
     Array { shape, values }
 }
 
-fn swap(values: &mut ArrayValues, below: Below) {
+fn swap(values: &mut ArrayValues, below: RandomBelow) {
     let n = len(values);
     if n == 0 {
         return;
@@ -202,7 +206,7 @@ fn swap(values: &mut ArrayValues, below: Below) {
     with_values!(values, v => v.swap(a, b));
 }
 
-fn each(values: &mut ArrayValues, below: Below) {
+fn each(values: &mut ArrayValues, below: RandomBelow) {
     match values {
         ArrayValues::F64(v) => {
             let value = number(v.first().copied().unwrap_or(1.0), below);
@@ -217,7 +221,7 @@ fn each(values: &mut ArrayValues, below: Below) {
     }
 }
 
-fn one(values: &mut ArrayValues, below: Below) {
+fn one(values: &mut ArrayValues, below: RandomBelow) {
     let n = len(values);
     if n == 0 {
         return;
@@ -235,7 +239,7 @@ fn one(values: &mut ArrayValues, below: Below) {
 }
 
 /// A number that is none, or is far too large or small, or wrong.
-fn number(old: f64, below: Below) -> f64 {
+fn number(old: f64, below: RandomBelow) -> f64 {
     const NUMBERS: [f64; 12] = [
         f64::NAN,
         f64::INFINITY,
@@ -259,7 +263,7 @@ fn number(old: f64, below: Below) -> f64 {
     }
 }
 
-fn integer(below: Below) -> u64 {
+fn integer(below: RandomBelow) -> u64 {
     match below(8) {
         0 => 0,
         1 => 1,
@@ -273,7 +277,7 @@ fn integer(below: Below) -> u64 {
 }
 
 /// Words of the format, formulas that are none, and texts that try to break their reader.
-fn text(below: Below) -> String {
+fn text(below: RandomBelow) -> String {
     const WORDS: &str = "||one|side|formula|tip|world|fixed|start|last|mouth|junction|linear|cubic|box|ppum|\
         elasticity|poisson|shepard-box|plane-stress|displacement|potential|ux|u|x|t|theta|0|-1|1e999|1/0|0/0|\
         x +|sqrt(|y/r|1/x|table(curve, x)|dtable(surface, 9, 9, x, y)|table(surface, 1/0, x)|side(7)|side(0)|\

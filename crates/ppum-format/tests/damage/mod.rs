@@ -13,13 +13,13 @@ mod forge;
 #[path = "../../src/lookup3.rs"]
 mod lookup3;
 
-pub(crate) use content::Damaged;
+pub(crate) use content::DamagedFile;
 use forge::{EXTREMES, number};
 pub(crate) use forge::{object_headers, seal, sealed_parts};
 
 /// A copy of a file with one to three damages of one kind. `below(n)` is a random number below n;
 /// the same numbers make the same damage.
-pub(crate) fn damaged(file: &[u8], below: &mut dyn FnMut(usize) -> usize) -> Damaged {
+pub(crate) fn damaged(file: &[u8], below: &mut dyn FnMut(usize) -> usize) -> DamagedFile {
     if below(2) == 0
         && let Some(damaged) = content::damaged(file, below)
     {
@@ -31,7 +31,7 @@ pub(crate) fn damaged(file: &[u8], below: &mut dyn FnMut(usize) -> usize) -> Dam
         (change.1)(&mut bytes, below);
     }
     let is_sealed = change.0 == FORGED || checksums(&bytes) < checksums(file);
-    Damaged { bytes, what: change.0.to_owned(), is_sealed }
+    DamagedFile { bytes, what: change.0.to_owned(), is_sealed }
 }
 
 /// The number of places in a file that are called like an attribute with a checksum.
@@ -39,12 +39,12 @@ fn checksums(bytes: &[u8]) -> usize {
     bytes.windows(6).filter(|w| w == b"sha256").count()
 }
 
-type Change = fn(&mut Vec<u8>, &mut dyn FnMut(usize) -> usize);
+type ByteDamage = fn(&mut Vec<u8>, &mut dyn FnMut(usize) -> usize);
 
 /// Kind of a damage that may hide the checksum.
 const FORGED: &str = "forged header";
 
-const CHANGES: [(&str, Change); 9] = [
+const CHANGES: [(&str, ByteDamage); 9] = [
     ("bits", |bytes, below| bits(bytes, below)),
     ("run of bytes", |bytes, below| run(bytes, below)),
     ("truncated", truncated),

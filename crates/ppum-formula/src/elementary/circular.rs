@@ -27,7 +27,7 @@ const COS: [f64; 6] = [
 ];
 
 /// sin r and cos r as pairs, n modulo 4 from −2 to 2, and whether n is odd.
-struct Circle<R: Double> {
+struct SinCos<R: Double> {
     sin: [R; 2],
     cos: [R; 2],
     n: R,
@@ -35,45 +35,45 @@ struct Circle<R: Double> {
 }
 
 #[inline(always)]
-fn circle<R: Double>(x: R) -> Circle<R> {
+fn circle<R: Double>(x: R) -> SinCos<R> {
     let Quadrant { n, high, low } = quadrant(x);
-    let (one, half) = (x.lit(1.0), x.lit(0.5));
+    let (one, half) = (x.broadcast(1.0), x.broadcast(0.5));
     let z = high * high;
     let [near, rest] = sum(one, -(z * half));
     let sin = sum(high, high * z * polynomial(z, SIN) + low * near);
     let cos = sum(near, rest + (z * z * polynomial(z, COS) - high * low));
-    Circle { sin, cos, n, is_odd: half.ge((n.abs() - one).abs()) }
+    SinCos { sin, cos, n, is_odd: half.ge((n.abs() - one).abs()) }
 }
 
 /// Sine.
 #[inline(always)]
 pub(super) fn sin<R: Double>(x: R) -> R {
-    let Circle { sin, cos, n, is_odd } = circle(x);
+    let SinCos { sin, cos, n, is_odd } = circle(x);
     let value = R::select(is_odd, cos[0], sin[0]);
     // quadrants 2, −2 and −1
-    let negative = (n - n.lit(0.5)).abs().gt(n.lit(1.0));
+    let negative = (n - n.broadcast(0.5)).abs().gt(n.broadcast(1.0));
     // of zero, whose sign is lost, and of NaN it is x
-    R::select(x.abs().gt(x.lit(0.0)), R::select(negative, -value, value), x)
+    R::select(x.abs().gt(x.broadcast(0.0)), R::select(negative, -value, value), x)
 }
 
 /// Cosine.
 #[inline(always)]
 pub(super) fn cos<R: Double>(x: R) -> R {
-    let Circle { sin, cos, n, is_odd } = circle(x);
+    let SinCos { sin, cos, n, is_odd } = circle(x);
     let value = R::select(is_odd, sin[0], cos[0]);
     // quadrants 1, 2 and −2
-    let negative = (n + n.lit(0.5)).abs().gt(n.lit(1.0));
+    let negative = (n + n.broadcast(0.5)).abs().gt(n.broadcast(1.0));
     R::select(negative, -value, value)
 }
 
 /// Tangent.
 #[inline(always)]
 pub(super) fn tan<R: Double>(x: R) -> R {
-    let Circle { sin, cos, is_odd, .. } = circle(x);
+    let SinCos { sin, cos, is_odd, .. } = circle(x);
     let pick = |a: R, b: R| R::select(is_odd, a, b);
     let above = [pick(-cos[0], sin[0]), pick(-cos[1], sin[1])];
     let below = [pick(sin[0], cos[0]), pick(sin[1], cos[1])];
     let [high, low] = quotient(above, below);
     // the quotient's parts of the smallest numbers are none
-    R::select(x.abs().gt(x.lit(1e-300)), high + low, x)
+    R::select(x.abs().gt(x.broadcast(1e-300)), high + low, x)
 }

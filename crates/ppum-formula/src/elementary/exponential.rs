@@ -26,7 +26,7 @@ const COSH: [f64; 5] = [
 ];
 
 /// A number x = k ln 2 + r.
-pub(super) struct Reduced<R> {
+pub(super) struct ReducedArgument<R> {
     /// k
     pub(super) k: R,
     /// r to 53 bits.
@@ -39,28 +39,28 @@ pub(super) struct Reduced<R> {
 
 /// Reduces x + `low`, of a magnitude below 2²⁰.
 #[inline(always)]
-pub(super) fn reduce<R: Double>(x: R, low: R) -> Reduced<R> {
-    let k = whole(x * x.lit(std::f64::consts::LOG2_E));
-    let near = x - k * x.lit(LN_2[0]);
-    let rest = low - k * x.lit(LN_2[1]);
+pub(super) fn reduce<R: Double>(x: R, low: R) -> ReducedArgument<R> {
+    let k = whole(x * x.broadcast(std::f64::consts::LOG2_E));
+    let near = x - k * x.broadcast(LN_2[0]);
+    let rest = low - k * x.broadcast(LN_2[1]);
     let [r, low] = sum(near, rest);
     let z = r * r;
-    let even = z * (x.lit(0.5) + z * polynomial(z, COSH));
+    let even = z * (x.broadcast(0.5) + z * polynomial(z, COSH));
     // what r lacks counts with the derivative, cosh r
     let odd = r * z * polynomial(z, SINH) + (low + low * even);
-    Reduced { k, r, odd, even }
+    ReducedArgument { k, r, odd, even }
 }
 
 /// `x` within ±`limit`, NaN as it is.
 #[inline(always)]
 fn within<R: Double>(x: R, limit: f64) -> R {
-    x.lit(limit).min(x.lit(-limit).max(x))
+    x.broadcast(limit).min(x.broadcast(-limit).max(x))
 }
 
 /// e^x
 #[inline(always)]
 pub(super) fn exp<R: Double>(x: R) -> R {
-    let zero = x.lit(0.0);
+    let zero = x.broadcast(0.0);
     exp_of_sum(x, zero)
 }
 
@@ -68,18 +68,19 @@ pub(super) fn exp<R: Double>(x: R) -> R {
 #[inline(always)]
 pub(super) fn exp_of_sum<R: Double>(x: R, low: R) -> R {
     // beyond ±760 the result is 0 or ∞
-    let Reduced { k, r, odd, even } = reduce(within(x, 760.0), low);
-    let [high, low] = sum(x.lit(1.0), r);
+    let ReducedArgument { k, r, odd, even } = reduce(within(x, 760.0), low);
+    let [high, low] = sum(x.broadcast(1.0), r);
     let value = high + (low + (even + odd));
     // in two steps, for results that are no normal numbers
-    let half = whole(k * x.lit(0.5));
+    let half = whole(k * x.broadcast(0.5));
     value * half.power_of_two() * (k - half).power_of_two()
 }
 
 /// An eighth of 2^k + 2^−k and of 2^k − 2^−k, as pairs.
 #[inline(always)]
 fn powers<R: Double>(k: R) -> [[R; 2]; 2] {
-    let (zero, one, three, least) = (k.lit(0.0), k.lit(1.0), k.lit(3.0), k.lit(-1022.0));
+    let (zero, one, three, least) =
+        (k.broadcast(0.0), k.broadcast(1.0), k.broadcast(3.0), k.broadcast(-1022.0));
     let size = k.abs();
     let (up, down) = ((size - three).power_of_two(), least.max(-size - three).power_of_two());
     let side = R::select(zero.gt(k), -one, one);
@@ -89,37 +90,37 @@ fn powers<R: Double>(k: R) -> [[R; 2]; 2] {
 /// sinh x = sinh(k ln 2) cosh r + cosh(k ln 2) sinh r
 #[inline(always)]
 pub(super) fn sinh<R: Double>(x: R) -> R {
-    let Reduced { k, r, odd, even } = reduce(within(x, 711.0), x.lit(0.0));
+    let ReducedArgument { k, r, odd, even } = reduce(within(x, 711.0), x.broadcast(0.0));
     let [[c, _], [s, s_low]] = powers(k);
     // c is short where s is no larger
     let [short, more] = halves(r);
     let [high, low] = sum(s, c * short);
     let value = high + (low + (s_low + (s * even + c * (odd + more))));
     // the eighth of the smallest numbers is none; of zero and of NaN it is x
-    R::select(x.abs().gt(x.lit(1e-300)), value * x.lit(4.0), x)
+    R::select(x.abs().gt(x.broadcast(1e-300)), value * x.broadcast(4.0), x)
 }
 
 /// cosh x = cosh(k ln 2) cosh r + sinh(k ln 2) sinh r
 #[inline(always)]
 pub(super) fn cosh<R: Double>(x: R) -> R {
-    let Reduced { k, r, odd, even } = reduce(within(x, 711.0), x.lit(0.0));
+    let ReducedArgument { k, r, odd, even } = reduce(within(x, 711.0), x.broadcast(0.0));
     let [[c, c_low], [s, _]] = powers(k);
     let [high, low] = sum(c, s * r);
     let value = high + (low + (c_low + (c * even + s * odd)));
-    value * x.lit(4.0)
+    value * x.broadcast(4.0)
 }
 
 /// tanh x = e / (e + 2) with e = e^2x − 1
 #[inline(always)]
 pub(super) fn tanh<R: Double>(x: R) -> R {
-    let (one, two) = (x.lit(1.0), x.lit(2.0));
+    let (one, two) = (x.broadcast(1.0), x.broadcast(2.0));
     // from 22 on it is 1
-    let Reduced { k, r, odd, even } = reduce(within(x.abs(), 22.0) * two, x.lit(0.0));
+    let ReducedArgument { k, r, odd, even } = reduce(within(x.abs(), 22.0) * two, x.broadcast(0.0));
     let power = k.power_of_two();
     let [high, low] = sum(power - one, power * r);
     let rest = low + power * (even + odd);
     let e = sum(high, rest);
     let [below, more] = sum(e[0].max(two), e[0].min(two));
     let [high, low] = quotient(e, [below, more + e[1]]);
-    R::select(x.abs().gt(x.lit(1e-300)), high + low, x).copysign(x)
+    R::select(x.abs().gt(x.broadcast(1e-300)), high + low, x).copysign(x)
 }

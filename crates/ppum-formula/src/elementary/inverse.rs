@@ -49,29 +49,29 @@ const TAN_EIGHTH: f64 = std::f64::consts::SQRT_2 - 1.0;
 #[inline(always)]
 fn turned<R: Double>(k: R, s: R, [t, low]: [R; 2]) -> R {
     let z = t * t;
-    let [high, rest] = sum(k * t.lit(QUARTER[0]), s * t);
-    high + (rest + (s * (t * z * polynomial(z, ARCTAN) + low) + k * t.lit(QUARTER[1])))
+    let [high, rest] = sum(k * t.broadcast(QUARTER[0]), s * t);
+    high + (rest + (s * (t * z * polynomial(z, ARCTAN) + low) + k * t.broadcast(QUARTER[1])))
 }
 
 /// The arc tangent, from −π/2 to π/2.
 #[inline(always)]
 pub(super) fn atan<R: Double>(x: R) -> R {
-    let (one, a) = (x.lit(1.0), x.abs());
+    let (one, a) = (x.broadcast(1.0), x.abs());
     // beyond it is π/2
-    first_octants(x.lit(1e18).min(a), one, one).copysign(x)
+    first_octants(x.broadcast(1e18).min(a), one, one).copysign(x)
 }
 
 /// The angle of the point (x, y), from −π to π.
 #[inline(always)]
 pub(super) fn atan2<R: Double>(y: R, x: R) -> R {
-    let (zero, one) = (x.lit(0.0), x.lit(1.0));
+    let (zero, one) = (x.broadcast(0.0), x.broadcast(1.0));
     let (width, height) = (x.abs(), y.abs());
     // sums and their parts must be normal numbers; infinities of both are as far as each other
-    let (up, down) = (x.lit(POWER_400), x.lit(1.0 / POWER_400));
+    let (up, down) = (x.broadcast(POWER_400), x.broadcast(1.0 / POWER_400));
     let longer = width.max(height);
-    let large = R::select(longer.gt(x.lit(1e250)), down, one);
-    let scale = R::select(x.lit(1e-200).gt(longer), up, large);
-    let are_infinite = width.min(height).ge(x.lit(f64::INFINITY));
+    let large = R::select(longer.gt(x.broadcast(1e250)), down, one);
+    let scale = R::select(x.broadcast(1e-200).gt(longer), up, large);
+    let are_infinite = width.min(height).ge(x.broadcast(f64::INFINITY));
     let scaled = |a: R| R::select(are_infinite, one, a * scale);
     let (width, height) = (scaled(width), scaled(height));
     let side = R::select(zero.gt(one.copysign(x)), -one, one);
@@ -83,10 +83,10 @@ pub(super) fn atan2<R: Double>(y: R, x: R) -> R {
 /// π/4 − arctan((b − a)/(b + a)) or arctan(a/b) from one of the axes.
 #[inline(always)]
 fn first_octants<R: Double>(y: R, x: R, side: R) -> R {
-    let (zero, one, two) = (x.lit(0.0), x.lit(1.0), x.lit(2.0));
+    let (zero, one, two) = (x.broadcast(0.0), x.broadcast(1.0), x.broadcast(2.0));
     let is_steep = y.gt(x);
     let (a, b) = (R::select(is_steep, x, y), R::select(is_steep, y, x));
-    let is_middle = a.gt(b * x.lit(TAN_EIGHTH));
+    let is_middle = a.gt(b * x.broadcast(TAN_EIGHTH));
     let pick = |m: R, n: R| R::select(is_middle, m, n);
     let (less, more) = (sum(-b, a), sum(b, a));
     let above = [pick(less[0], a), pick(less[1], zero)];
@@ -97,21 +97,21 @@ fn first_octants<R: Double>(y: R, x: R, side: R) -> R {
     let s = R::select(is_steep, -one, one);
     let [t, low] = quotient(above, below);
     // a quotient that small needs no more bits, nor has its rest any
-    let low = R::select(t.abs().gt(x.lit(1e-60)), low, zero);
+    let low = R::select(t.abs().gt(x.broadcast(1e-60)), low, zero);
     turned(two - side * (two - k), s * side, [t, low])
 }
 
 /// √z and arcsin √z − √z for z ≤ ¼, where |x| ≤ ½ has z = x², and beyond 1 − |x| = 2z. The root is
 /// a sum, its first part short.
-struct Root<R: Double> {
+struct RootAndArcsine<R: Double> {
     is_outer: R::Mask,
     high: R,
     rest: R,
 }
 
 #[inline(always)]
-fn root<R: Double>(x: R) -> Root<R> {
-    let (zero, one, half) = (x.lit(0.0), x.lit(1.0), x.lit(0.5));
+fn root<R: Double>(x: R) -> RootAndArcsine<R> {
+    let (zero, one, half) = (x.broadcast(0.0), x.broadcast(1.0), x.broadcast(0.5));
     let a = x.abs();
     let is_outer = a.gt(half);
     let z = R::select(is_outer, (one - a) * half, a * a);
@@ -120,14 +120,14 @@ fn root<R: Double>(x: R) -> Root<R> {
     let lost = (z - short * short) / R::select(s.gt(zero), s + short, one);
     let high = R::select(is_outer, short, a);
     let rest = s * z * polynomial(z, ARCSIN) + R::select(is_outer, lost, zero);
-    Root { is_outer, high, rest }
+    RootAndArcsine { is_outer, high, rest }
 }
 
 /// The arc sine: of |x| > ½ it is π/2 − 2 arcsin √((1 − |x|)/2).
 #[inline(always)]
 pub(super) fn asin<R: Double>(x: R) -> R {
-    let (zero, one, two) = (x.lit(0.0), x.lit(1.0), x.lit(2.0));
-    let Root { is_outer, high, rest } = root(x);
+    let (zero, one, two) = (x.broadcast(0.0), x.broadcast(1.0), x.broadcast(2.0));
+    let RootAndArcsine { is_outer, high, rest } = root(x);
     let (k, s) = (R::select(is_outer, two, zero), R::select(is_outer, -two, one));
     quarters(k, s * high, s * rest).copysign(x)
 }
@@ -135,8 +135,9 @@ pub(super) fn asin<R: Double>(x: R) -> R {
 /// The arc cosine: of |x| > ½ it is 2 arcsin √((1 − x)/2), or π less that of −x.
 #[inline(always)]
 pub(super) fn acos<R: Double>(x: R) -> R {
-    let (zero, one, two, four) = (x.lit(0.0), x.lit(1.0), x.lit(2.0), x.lit(4.0));
-    let Root { is_outer, high, rest } = root(x);
+    let (zero, one, two, four) =
+        (x.broadcast(0.0), x.broadcast(1.0), x.broadcast(2.0), x.broadcast(4.0));
+    let RootAndArcsine { is_outer, high, rest } = root(x);
     let negative = zero.gt(x);
     let k = R::select(is_outer, R::select(negative, four, zero), two);
     let outer = R::select(negative, -two, two);
@@ -147,6 +148,6 @@ pub(super) fn acos<R: Double>(x: R) -> R {
 /// k π/4 + high + low
 #[inline(always)]
 fn quarters<R: Double>(k: R, high: R, rest: R) -> R {
-    let [high, low] = sum(k * k.lit(QUARTER[0]), high);
-    high + (low + (rest + k * k.lit(QUARTER[1])))
+    let [high, low] = sum(k * k.broadcast(QUARTER[0]), high);
+    high + (low + (rest + k * k.broadcast(QUARTER[1])))
 }

@@ -2,8 +2,8 @@
 //!
 //! One text for all vectors and for one number: sums, products, quotients and roots alone, each
 //! rounded as written, so that all instruction sets give the same bits and no library of the
-//! platform is asked. What is not for straight text, as arguments beyond 10⁵ of the circular
-//! functions or powers of zero, is found lane by lane, where a vector has such a lane.
+//! platform is asked. Special arguments, such as those beyond 10⁵ of the circular functions or
+//! powers of zero, are evaluated lane by lane, where a vector has such a lane.
 //!
 //! Polynomials are best approximations in the relative sense (Remez) of what stands beside them.
 //! Constants that are needed to more than 53 bits are pairs; the first of a pair that multiplies
@@ -81,20 +81,20 @@ const LN_2: [f64; 2] = [0.693_147_180_369_123_8, 1.908_214_929_270_587_7e-10];
 #[inline(always)]
 fn polynomial<R: Double, const N: usize>(x: R, c: [f64; N]) -> R {
     let square = x * x;
-    let mut sums = [x.lit(c[N - 2]), x.lit(c[N - 1])];
+    let mut sums = [x.broadcast(c[N - 2]), x.broadcast(c[N - 1])];
     let mut k = N - 2;
     while k >= 2 {
         k -= 2;
-        sums = [sums[0] * square + x.lit(c[k]), sums[1] * square + x.lit(c[k + 1])];
+        sums = [sums[0] * square + x.broadcast(c[k]), sums[1] * square + x.broadcast(c[k + 1])];
     }
     let sum = sums[0] + sums[1] * x;
-    if k == 0 { sum } else { sum * x + x.lit(c[0]) }
+    if k == 0 { sum } else { sum * x + x.broadcast(c[0]) }
 }
 
 /// The whole number nearest to one below 2⁵¹; of two as near the even one.
 #[inline(always)]
 fn whole<R: Double>(x: R) -> R {
     // 3 · 2⁵¹: doubles near it are the whole numbers
-    let shift = x.lit(6_755_399_441_055_744.0);
+    let shift = x.broadcast(6_755_399_441_055_744.0);
     (x + shift) - shift
 }

@@ -37,7 +37,7 @@ pub(super) fn quotient<R: Double>(above: [R; 2], below: [R; 2]) -> [R; 2] {
 #[inline(always)]
 pub(super) fn halves<R: Double>(a: R) -> [R; 2] {
     // 2²⁷ + 1
-    let spread = a * a.lit(134_217_729.0);
+    let spread = a * a.broadcast(134_217_729.0);
     let high = spread - (spread - a);
     [high, a - high]
 }

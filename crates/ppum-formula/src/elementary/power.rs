@@ -8,13 +8,13 @@ use crate::real::Double;
 /// x^y, as IEEE 754 defines `pow`.
 #[inline(always)]
 pub(super) fn pow<R: Double>(x: R, y: R) -> R {
-    let (zero, one, infinity) = (x.lit(0.0), x.lit(1.0), x.lit(f64::INFINITY));
+    let (zero, one, infinity) = (x.broadcast(0.0), x.broadcast(1.0), x.broadcast(f64::INFINITY));
     let size = x.abs();
     // from there on the result is 0 or ∞, unless x is 1
-    let far = x.lit(1e19);
+    let far = x.broadcast(1e19);
     let exponent = far.min((-far).max(y));
     let [high, low] = product_of_pairs(log_pair(size), [exponent, zero]);
-    let low = R::select(x.lit(760.0).gt(high.abs()), low, zero);
+    let low = R::select(x.broadcast(760.0).gt(high.abs()), low, zero);
     let value = with_sign(exp_of_sum(high, low), x, y);
     let is_finite = R::select(infinity.gt(size), R::select(infinity.gt(y.abs()), one, zero), zero);
     let is_usual = R::select(size.gt(zero), is_finite, zero);
@@ -28,14 +28,14 @@ pub(super) fn pow<R: Double>(x: R, y: R) -> R {
 /// |x|^y with the sign of x^y; NaN where x < 0 and y is not whole.
 #[inline(always)]
 fn with_sign<R: Double>(value: R, x: R, y: R) -> R {
-    let negative = x.lit(0.0).gt(x);
+    let negative = x.broadcast(0.0).gt(x);
     if !R::any(negative) {
         return value;
     }
-    let half = y * y.lit(0.5);
+    let half = y * y.broadcast(0.5);
     let is_even = half.floor().ge(half);
     let signed = R::select(is_even, value, -value);
-    R::select(negative, R::select(y.floor().ge(y), signed, x.lit(f64::NAN)), value)
+    R::select(negative, R::select(y.floor().ge(y), signed, x.broadcast(f64::NAN)), value)
 }
 
 /// x^y where one of them is zero, infinite or NaN.

@@ -12,7 +12,7 @@ pub(super) struct Quadrant<R> {
     pub(super) n: R,
     /// r to 53 bits.
     pub(super) high: R,
-    /// What r lacks.
+    /// The part that r lacks.
     pub(super) low: R,
 }
 
@@ -26,7 +26,7 @@ const PARTS: [f64; 3] =
 /// The remainder of any number; NaN of what is not finite.
 #[inline(always)]
 pub(super) fn quadrant<R: Double>(x: R) -> Quadrant<R> {
-    if R::any(x.abs().gt(x.lit(NEAR))) {
+    if R::any(x.abs().gt(x.broadcast(NEAR))) {
         let [n, high, low] = x.map_to(one);
         return Quadrant { n, high, low };
     }
@@ -42,15 +42,15 @@ fn one(x: f64) -> [f64; 3] {
 
 #[inline(always)]
 fn near<R: Double>(x: R) -> Quadrant<R> {
-    let n = whole(x * x.lit(std::f64::consts::FRAC_2_PI));
-    let first = x - n * x.lit(PARTS[0]);
-    let second = n * x.lit(PARTS[1]);
+    let n = whole(x * x.broadcast(std::f64::consts::FRAC_2_PI));
+    let first = x - n * x.broadcast(PARTS[0]);
+    let second = n * x.broadcast(PARTS[1]);
     let middle = first - second;
     // what the difference has lost (Knuth)
     let back = middle - first;
     let lost = (first - (middle - back)) - (second + back);
-    let [high, low] = sum(middle, lost - n * x.lit(PARTS[2]));
-    Quadrant { n: n - x.lit(4.0) * whole(n * x.lit(0.25)), high, low }
+    let [high, low] = sum(middle, lost - n * x.broadcast(PARTS[2]));
+    Quadrant { n: n - x.broadcast(4.0) * whole(n * x.broadcast(0.25)), high, low }
 }
 
 /// 2/π after the binary point, and a word of zeros before it.

@@ -19,42 +19,42 @@ const CUBE_ROOT_2: f64 = 1.259_921_049_894_873_2;
 /// c)/c.
 #[inline(always)]
 pub(super) fn cbrt<R: Double>(x: R) -> R {
-    let (zero, one, third) = (x.lit(0.0), x.lit(1.0), x.lit(1.0 / 3.0));
+    let (zero, one, third) = (x.broadcast(0.0), x.broadcast(1.0), x.broadcast(1.0 / 3.0));
     let a = x.abs();
-    let tiny = x.lit(1e-300).gt(a);
-    let scaled = R::select(tiny, a * x.lit(f64::from_bits(0x4350_0000_0000_0000)), a);
+    let tiny = x.broadcast(1e-300).gt(a);
+    let scaled = R::select(tiny, a * x.broadcast(f64::from_bits(0x4350_0000_0000_0000)), a);
     let e = scaled.exponent();
-    let m = scaled * x.lit(0.5) * (one - e).power_of_two();
+    let m = scaled * x.broadcast(0.5) * (one - e).power_of_two();
     // e = 3q + j
     let q = whole(e * third);
-    let j = e - q * x.lit(3.0);
+    let j = e - q * x.broadcast(3.0);
     let of_j = |up: f64, down: f64| {
-        R::select(j.gt(zero), x.lit(up), R::select(zero.gt(j), x.lit(down), one))
+        R::select(j.gt(zero), x.broadcast(up), R::select(zero.gt(j), x.broadcast(down), one))
     };
     let rough = polynomial(m, ROUGH) * of_j(CUBE_ROOT_2, 1.0 / CUBE_ROOT_2);
     // 2³⁶ + 1 leaves 17 bits
-    let spread = rough * x.lit(68_719_476_737.0);
+    let spread = rough * x.broadcast(68_719_476_737.0);
     let y = spread - (spread - rough);
     let cube = y * y * y;
     let d = (m * of_j(2.0, 0.5) - cube) / cube;
-    let more = d * (third - d * (x.lit(1.0 / 9.0) - d * x.lit(5.0 / 81.0)));
-    let q = q - R::select(tiny, x.lit(18.0), zero);
+    let more = d * (third - d * (x.broadcast(1.0 / 9.0) - d * x.broadcast(5.0 / 81.0)));
+    let q = q - R::select(tiny, x.broadcast(18.0), zero);
     let root = (y + y * more) * q.power_of_two();
-    let is_plain = R::select(x.lit(f64::INFINITY).gt(a), one, zero);
+    let is_plain = R::select(x.broadcast(f64::INFINITY).gt(a), one, zero);
     R::select(a.gt(zero), R::select(is_plain.gt(zero), root, a), a).copysign(x)
 }
 
 /// √(a² + b²) without overflow; ∞ if one is infinite, whatever the other.
 #[inline(always)]
 pub(super) fn hypot<R: Double>(a: R, b: R) -> R {
-    let (one, infinity) = (a.lit(1.0), a.lit(f64::INFINITY));
+    let (one, infinity) = (a.broadcast(1.0), a.broadcast(f64::INFINITY));
     let (up, down) = (
-        a.lit(f64::from_bits(0x6570_0000_0000_0000)),
-        a.lit(f64::from_bits(0x1A70_0000_0000_0000)),
+        a.broadcast(f64::from_bits(0x6570_0000_0000_0000)),
+        a.broadcast(f64::from_bits(0x1A70_0000_0000_0000)),
     );
     let (x, y) = (a.abs(), b.abs());
     let larger = x.max(y);
-    let (large, small) = (larger.gt(a.lit(1e150)), a.lit(1e-150).gt(larger));
+    let (large, small) = (larger.gt(a.broadcast(1e150)), a.broadcast(1e-150).gt(larger));
     let scale = R::select(large, down, R::select(small, up, one));
     let back = R::select(large, up, R::select(small, down, one));
     let (p, q) = (x * scale, y * scale);

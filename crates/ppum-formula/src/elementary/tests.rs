@@ -1,16 +1,16 @@
 //! Elementary functions against extended precision, and vectors against single numbers.
 
-use ppum_testkit::extended::{Double as Extended, elementary as extended};
+use ppum_testkit::extended::{DoubleDouble as Extended, elementary as extended};
 use ppum_testkit::random::Random;
 
 use super::*;
-use crate::real::{Job, Real, levels};
+use crate::real::{LaneJob, Real, levels};
 
 /// Results by the names of instruction sets.
-type Results = Vec<(&'static str, Vec<f64>)>;
+type ResultsBySimd = Vec<(&'static str, Vec<f64>)>;
 
 /// A function of one or two numbers with what it is tested against.
-struct Case {
+struct ElementaryCase {
     name: &'static str,
     /// Largest error allowed, units in the last place: above what some ten thousand points
     /// have shown.
@@ -21,14 +21,14 @@ struct Case {
     exact: fn([f64; 2]) -> (Extended, i32),
     /// std's function, for rules and for comparison.
     std: fn([f64; 2]) -> f64,
-    run: fn(&[[f64; 2]]) -> Results,
+    run: fn(&[[f64; 2]]) -> ResultsBySimd,
 }
 
 /// Results on all instruction sets.
 #[derive(Clone, Copy)]
 struct Apply<'a, F, const N: usize>(F, &'a [[f64; 2]]);
 
-impl<F: DoubleFunction<N>, const N: usize> Job<f64> for Apply<'_, F, N> {
+impl<F: DoubleFunction<N>, const N: usize> LaneJob<f64> for Apply<'_, F, N> {
     type Output = Vec<f64>;
 
     #[inline(always)]
@@ -40,7 +40,7 @@ impl<F: DoubleFunction<N>, const N: usize> Job<f64> for Apply<'_, F, N> {
             for (i, operand) in operands.iter_mut().enumerate() {
                 *operand = zero.with_lanes(|k| at(k, i));
             }
-            R::in_double(operands, self.0).store(results);
+            R::via_f64(operands, self.0).store(results);
         }
         results.truncate(self.1.len());
         results
@@ -221,7 +221,7 @@ fn exact_hypot([a, b]: [f64; 2]) -> (Extended, i32) {
 /// Name, largest error allowed, arguments, std's function, exact result.
 macro_rules! cases {
     ($($function:ident $bound:literal $points:ident, |$x:ident, $y:tt| $std:expr, $exact:expr;)+) => {
-        vec![$(Case {
+        vec![$(ElementaryCase {
             name: stringify!($function),
             bound: $bound,
             points: $points,
@@ -232,7 +232,7 @@ macro_rules! cases {
     };
 }
 
-fn cases() -> Vec<Case> {
+fn cases() -> Vec<ElementaryCase> {
     cases! {
         Exp 0.8 exponential_points, |x, _| x.exp(), exact_exp(x);
         Log 0.8 logarithm_points, |x, _| x.ln(), (exact_log(x), 0);

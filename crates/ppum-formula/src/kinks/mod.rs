@@ -16,11 +16,11 @@ use crate::formula::Formula;
 use crate::graph::{Graph, NodeId, Op};
 use crate::operation::{Binary, Comparison, Unary};
 use crate::print;
-use crate::program::Program;
+use crate::program::FormulaProgram;
 use roots::Scan;
 
-/// Most kinks of a formula that are looked for, and most operations of all together. What has more
-/// is not drawn by hand, and no quadrature could follow it.
+/// Most kinks of a formula that are looked for, and most operations of all together. A formula with
+/// more is not drawn by hand, and no quadrature could follow it.
 const MAX_KINKS: usize = 1024;
 const MAX_OPERATIONS: usize = 1 << 16;
 
@@ -32,7 +32,7 @@ const MAX_SETS: usize = 4 * MAX_KINKS;
 pub struct Kink {
     /// A formula of the same scope; the set is where it vanishes.
     pub value: Formula,
-    /// Of `floor(u)` the u: the set is where it is a whole number.
+    /// The u of `floor(u)`: the set is where it is a whole number.
     steps: Option<Formula>,
 }
 
@@ -155,10 +155,10 @@ impl Formula {
         kinks.found
     }
 
-    fn kink(&self, graph: &mut Graph, set: Set) -> Kink {
+    fn kink(&self, graph: &mut Graph, set: NodeSet) -> Kink {
         match set {
-            Set::Zero(node) => Kink { value: self.part(graph, node), steps: None },
-            Set::Whole(node) => {
+            NodeSet::Zero(node) => Kink { value: self.part(graph, node), steps: None },
+            NodeSet::Whole(node) => {
                 let pi = graph.constant(PI);
                 let turn = graph.binary(Binary::Mul, pi, node);
                 let wave = graph.unary(Unary::Sin, turn);
@@ -169,7 +169,7 @@ impl Formula {
 
     /// The formula of a node.
     fn part(&self, graph: &Graph, node: NodeId) -> Self {
-        let program = Program::new(graph, &[node]);
+        let program = FormulaProgram::new(graph, &[node]);
         let text = print::print(&program, &self.scope);
         Self { text, scope: Arc::clone(&self.scope), program }
     }
@@ -177,7 +177,7 @@ impl Formula {
 
 /// A set given by a node.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum Set {
+enum NodeSet {
     Zero(NodeId),
     /// The set on which it is a whole number.
     Whole(NodeId),
@@ -186,8 +186,8 @@ enum Set {
 /// The sets found so far, in order.
 struct Sets {
     graph: Graph,
-    found: Vec<Set>,
-    known: HashSet<Set>,
+    found: Vec<NodeSet>,
+    known: HashSet<NodeSet>,
 }
 
 impl Sets {
@@ -268,9 +268,9 @@ impl Sets {
     fn whole(&mut self, node: NodeId) {
         if !self.is_full()
             && self.graph.value(node).is_none()
-            && self.known.insert(Set::Whole(node))
+            && self.known.insert(NodeSet::Whole(node))
         {
-            self.found.push(Set::Whole(node));
+            self.found.push(NodeSet::Whole(node));
         }
     }
 
@@ -325,7 +325,7 @@ impl Sets {
     fn zero(&mut self, node: NodeId) {
         let mut parts = vec![node];
         while let Some(node) = parts.pop() {
-            if self.is_full() || !self.known.insert(Set::Zero(node)) {
+            if self.is_full() || !self.known.insert(NodeSet::Zero(node)) {
                 continue;
             }
             if let Some((bent, level)) = self.levelled(node) {
@@ -350,7 +350,7 @@ impl Sets {
                 Op::Binary(Binary::Mul | Binary::Div, a, b) => parts.extend([b, a]),
                 Op::Binary(Binary::Pow, a, _) => parts.push(a),
                 Op::Binary(Binary::Sub, a, b) if self.graph.value(a) == Some(0.0) => parts.push(b),
-                _ => self.found.push(Set::Zero(node)),
+                _ => self.found.push(NodeSet::Zero(node)),
             }
         }
     }

@@ -10,7 +10,7 @@
 use std::sync::Arc;
 
 use crate::elementary;
-use crate::real::{Double, DoubleFunction, Job, Numbers, Real, Scalar};
+use crate::real::{Double, DoubleFunction, LaneJob, LaneNumber, NumberKind, Real};
 use crate::table::Table;
 
 /// Vectors of a block: enough that a step's work outweighs its start.
@@ -32,7 +32,7 @@ pub(crate) struct Tape {
 /// One operation on all points of a block.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Instruction {
-    pub(crate) action: Action,
+    pub(crate) action: TapeAction,
     /// Registers, or indices of constants.
     pub(crate) operands: [u32; 4],
     /// The operands that are constants: bit k stands for operand k.
@@ -43,10 +43,10 @@ pub(crate) struct Instruction {
 
 /// Runs a tape; `registers` are its registers one after the other. It is not generic, so that the
 /// interpreter is compiled here and not in every crate that uses it.
-pub(crate) fn interpret(tape: &Tape, registers: Numbers<'_>) {
+pub(crate) fn interpret(tape: &Tape, registers: NumberKind<'_>) {
     match registers {
-        Numbers::Double(registers) => f64::dispatch(TapeRun { tape, registers }),
-        Numbers::Single(registers) => f32::dispatch(TapeRun { tape, registers }),
+        NumberKind::Double(registers) => f64::dispatch(TapeRun { tape, registers }),
+        NumberKind::Single(registers) => f32::dispatch(TapeRun { tape, registers }),
     }
 }
 
@@ -55,16 +55,16 @@ struct TapeRun<'r, T> {
     registers: &'r mut [T],
 }
 
-impl<T: Scalar> Job<T> for TapeRun<'_, T> {
+impl<T: LaneNumber> LaneJob<T> for TapeRun<'_, T> {
     type Output = ();
 
     #[inline(always)]
     fn run<R: Real<Scalar = T>>(self, zero: R) {
         let (registers, _) = R::arrays_mut(self.registers).as_chunks_mut();
         let mut part = 0;
-        while part < Machine::<R>::PARTS {
+        while part < TapeMachine::<R>::PARTS {
             let registers = &mut registers[part..];
-            let mut machine = Machine { tape: self.tape, registers, zero };
+            let mut machine = TapeMachine { tape: self.tape, registers, zero };
             for op in &self.tape.instructions {
                 machine.run(op);
             }
@@ -77,20 +77,20 @@ impl<T: Scalar> Job<T> for TapeRun<'_, T> {
 type Register<R> = [<R as Real>::Array; VECTORS];
 
 /// A tape with its registers, from the first of their parts on that it computes.
-struct Machine<'r, R: Real> {
+struct TapeMachine<'r, R: Real> {
     tape: &'r Tape,
     registers: &'r mut [Register<R>],
     zero: R,
 }
 
-impl<R: Real> Machine<'_, R> {
+impl<R: Real> TapeMachine<'_, R> {
     /// Parts of a register that are computed one after the other: without vectors a block has more
     /// points than [`VECTORS`].
     const PARTS: usize = R::Scalar::VECTOR / R::LANES;
 }
 
 /// A function of `N` numbers on lanes.
-trait Function<const N: usize>: Copy {
+trait LaneFunction<const N: usize>: Copy {
     fn apply<R: Real>(self, operands: [R; N]) -> R;
 }
 
@@ -110,15 +110,15 @@ struct Each<R> {
 impl<R: Real> Operand<R> for Each<R> {
     #[inline(always)]
     fn at(self, registers: &[Register<R>], k: usize) -> R {
-        self.zero.load_array(&registers[self.register * Machine::<R>::PARTS][k])
+        self.zero.load_array(&registers[self.register * TapeMachine::<R>::PARTS][k])
     }
 }
 
-/// The same number at all points.
+/// A number that is the same at all points.
 #[derive(Clone, Copy)]
-struct Same<R>(R);
+struct UniformNumber<R>(R);
 
-impl<R: Real> Operand<R> for Same<R> {
+impl<R: Real> Operand<R> for UniformNumber<R> {
     #[inline(always)]
     fn at(self, _: &[Register<R>], _: usize) -> R {
         self.0
@@ -129,14 +129,14 @@ impl<R: Real> Operand<R> for Same<R> {
 macro_rules! function {
     ([$($a:ident),+] $value:expr) => {{
         #[derive(Clone, Copy)]
-        struct Body;
-        impl Function<{ [$(stringify!($a)),+].len() }> for Body {
+        struct ScalarFunction;
+        impl LaneFunction<{ [$(stringify!($a)),+].len() }> for ScalarFunction {
             #[inline(always)]
             fn apply<R: Real>(self, [$($a),+]: [R; [$(stringify!($a)),+].len()]) -> R {
                 $value
             }
         }
-        Body
+        ScalarFunction
     }};
 }
 
@@ -145,7 +145,7 @@ macro_rules! actions {
     ($($name:ident = $run:ident [$($a:ident),+] $value:expr;)+) => {
         /// The action of a step. Conditions are the numbers 1 and 0.
         #[derive(Clone, Copy, Debug, PartialEq)]
-        pub(crate) enum Action {
+        pub(crate) enum TapeAction {
             $($name,)+
             /// An integer power.
             Power(i32),
@@ -155,16 +155,16 @@ macro_rules! actions {
             Table { table: u32, orders: [u8; 2] },
         }
 
-        impl<R: Real> Machine<'_, R> {
+        impl<R: Real> TapeMachine<'_, R> {
             #[inline(always)]
             fn run(&mut self, op: &Instruction) {
                 match op.action {
-                    $(Action::$name => self.$run(function!([$($a),+] $value), op),)+
-                    Action::Power(n) => self.one(Power(n), op),
-                    Action::Fill => self.each1(function!([a] a), self.same(op, 0), op),
-                    Action::Table { table, orders } => {
+                    $(TapeAction::$name => self.$run(function!([$($a),+] $value), op),)+
+                    TapeAction::Power(n) => self.one(Power(n), op),
+                    TapeAction::Fill => self.each1(function!([a] a), self.same(op, 0), op),
+                    TapeAction::Table { table, orders } => {
                         let tape = self.tape;
-                        self.long(LookUp { table: &tape.tables[table as usize], orders }, op);
+                        self.long(TableLookUp { table: &tape.tables[table as usize], orders }, op);
                     }
                 }
             }
@@ -180,7 +180,7 @@ actions! {
     Floor = one [a] a.floor();
     Sign = one [a] sign(a);
     Square = one [a] a * a;
-    Not = one [a] a.lit(1.0) - a;
+    Not = one [a] a.broadcast(1.0) - a;
     Add = two [a, b] a + b;
     Sub = two [a, b] a - b;
     Mul = two [a, b] a * b;
@@ -188,39 +188,39 @@ actions! {
     // NaN is not ≥ itself
     Min = two [a, b] R::select(a.ge(a), R::select(b.gt(a), a, b), a);
     Max = two [a, b] R::select(a.ge(a), R::select(a.gt(b), a, b), a);
-    Less = two [a, b] R::select(b.gt(a), a.lit(1.0), a.lit(0.0));
-    LessEqual = two [a, b] R::select(b.ge(a), a.lit(1.0), a.lit(0.0));
-    Equal = two [a, b] R::select(b.ge(a), R::select(a.ge(b), a.lit(1.0), a.lit(0.0)), a.lit(0.0));
+    Less = two [a, b] R::select(b.gt(a), a.broadcast(1.0), a.broadcast(0.0));
+    LessEqual = two [a, b] R::select(b.ge(a), a.broadcast(1.0), a.broadcast(0.0));
+    Equal = two [a, b] R::select(b.ge(a), R::select(a.ge(b), a.broadcast(1.0), a.broadcast(0.0)), a.broadcast(0.0));
     MulAdd = three [a, b, c] a * b + c;
     MulSub = three [a, b, c] a * b - c;
     SubMul = three [a, b, c] c - a * b;
     MulMul = three [a, b, c] a * b * c;
     MulDiv = three [a, b, c] a * b / c;
-    Select = three [c, a, b] R::select(c.gt(c.lit(0.0)), a, b);
+    Select = three [c, a, b] R::select(c.gt(c.broadcast(0.0)), a, b);
     MulAddMul = four [a, b, c, d] a * b + c * d;
     MulSubMul = four [a, b, c, d] a * b - c * d;
-    Cbrt = long [a] R::in_double([a], elementary::Cbrt);
-    Exp = long [a] R::in_double([a], elementary::Exp);
-    Log = long [a] R::in_double([a], elementary::Log);
-    Log10 = long [a] R::in_double([a], elementary::Log10);
-    Sin = long [a] R::in_double([a], elementary::Sin);
-    Cos = long [a] R::in_double([a], elementary::Cos);
-    Tan = long [a] R::in_double([a], elementary::Tan);
-    Asin = long [a] R::in_double([a], elementary::Asin);
-    Acos = long [a] R::in_double([a], elementary::Acos);
-    Atan = long [a] R::in_double([a], elementary::Atan);
-    Sinh = long [a] R::in_double([a], elementary::Sinh);
-    Cosh = long [a] R::in_double([a], elementary::Cosh);
-    Tanh = long [a] R::in_double([a], elementary::Tanh);
-    Pow = long [a, b] R::in_double([a, b], elementary::Pow);
-    Atan2 = long [a, b] R::in_double([a, b], elementary::Atan2);
+    Cbrt = long [a] R::via_f64([a], elementary::Cbrt);
+    Exp = long [a] R::via_f64([a], elementary::Exp);
+    Log = long [a] R::via_f64([a], elementary::Log);
+    Log10 = long [a] R::via_f64([a], elementary::Log10);
+    Sin = long [a] R::via_f64([a], elementary::Sin);
+    Cos = long [a] R::via_f64([a], elementary::Cos);
+    Tan = long [a] R::via_f64([a], elementary::Tan);
+    Asin = long [a] R::via_f64([a], elementary::Asin);
+    Acos = long [a] R::via_f64([a], elementary::Acos);
+    Atan = long [a] R::via_f64([a], elementary::Atan);
+    Sinh = long [a] R::via_f64([a], elementary::Sinh);
+    Cosh = long [a] R::via_f64([a], elementary::Cosh);
+    Tanh = long [a] R::via_f64([a], elementary::Tanh);
+    Pow = long [a, b] R::via_f64([a, b], elementary::Pow);
+    Atan2 = long [a, b] R::via_f64([a, b], elementary::Atan2);
     Hypot = long [a, b] hypot(a, b);
 }
 
 /// −1, 0 or +1; NaN of NaN.
 #[inline(always)]
 fn sign<R: Real>(a: R) -> R {
-    let (zero, one) = (a.lit(0.0), a.lit(1.0));
+    let (zero, one) = (a.broadcast(0.0), a.broadcast(1.0));
     R::select(a.gt(zero), one, R::select(zero.gt(a), -one, a))
 }
 
@@ -229,12 +229,12 @@ fn sign<R: Real>(a: R) -> R {
 /// numbers alone.
 #[inline(always)]
 fn hypot<R: Real>(a: R, b: R) -> R {
-    let (least, greatest) = (a.lit(LEAST_SQUARE), a.lit(GREATEST_SQUARE));
+    let (least, greatest) = (a.broadcast(LEAST_SQUARE), a.broadcast(GREATEST_SQUARE));
     let sum = a * a + b * b;
-    let usual = R::select(greatest.gt(sum), sum, a.lit(0.0));
+    let usual = R::select(greatest.gt(sum), sum, a.broadcast(0.0));
     let root = sum.sqrt();
     if R::any(least.ge(usual)) {
-        return R::select(usual.gt(least), root, R::in_double([a, b], elementary::Hypot));
+        return R::select(usual.gt(least), root, R::via_f64([a, b], elementary::Hypot));
     }
     root
 }
@@ -248,10 +248,10 @@ pub(crate) const GREATEST_SQUARE: f64 = 1e30;
 #[derive(Clone, Copy)]
 struct Power(i32);
 
-impl Function<1> for Power {
+impl LaneFunction<1> for Power {
     #[inline(always)]
     fn apply<R: Real>(self, [a]: [R; 1]) -> R {
-        let one = a.lit(1.0);
+        let one = a.broadcast(1.0);
         let (mut square, mut rest, mut product) = (a, self.0.unsigned_abs(), one);
         while rest > 0 {
             if rest & 1 == 1 {
@@ -266,19 +266,19 @@ impl Function<1> for Power {
 
 /// A derivative of a table.
 #[derive(Clone, Copy)]
-struct LookUp<'t> {
+struct TableLookUp<'t> {
     table: &'t Table,
     orders: [u8; 2],
 }
 
-impl Function<2> for LookUp<'_> {
+impl LaneFunction<2> for TableLookUp<'_> {
     #[inline(always)]
     fn apply<R: Real>(self, operands: [R; 2]) -> R {
-        R::in_double(operands, self)
+        R::via_f64(operands, self)
     }
 }
 
-impl DoubleFunction<2> for LookUp<'_> {
+impl DoubleFunction<2> for TableLookUp<'_> {
     #[inline(always)]
     fn apply<R: Double>(self, [x, y]: [R; 2]) -> R {
         self.table.derivatives(self.orders, x, y)
@@ -286,24 +286,24 @@ impl DoubleFunction<2> for LookUp<'_> {
 }
 
 /// The loops over the vectors of a block, for each pattern of constants that a tape may have.
-impl<R: Real> Machine<'_, R> {
+impl<R: Real> TapeMachine<'_, R> {
     #[inline(always)]
     fn each(&self, op: &Instruction, operand: usize) -> Each<R> {
         Each { register: op.operands[operand] as usize, zero: self.zero }
     }
 
     #[inline(always)]
-    fn same(&self, op: &Instruction, operand: usize) -> Same<R> {
-        Same(self.zero.lit(self.tape.constants[op.operands[operand] as usize]))
+    fn same(&self, op: &Instruction, operand: usize) -> UniformNumber<R> {
+        UniformNumber(self.zero.broadcast(self.tape.constants[op.operands[operand] as usize]))
     }
 
     #[inline(always)]
-    fn one(&mut self, f: impl Function<1>, op: &Instruction) {
+    fn one(&mut self, f: impl LaneFunction<1>, op: &Instruction) {
         self.each1(f, self.each(op, 0), op);
     }
 
     #[inline(always)]
-    fn two(&mut self, f: impl Function<2>, op: &Instruction) {
+    fn two(&mut self, f: impl LaneFunction<2>, op: &Instruction) {
         match op.constants {
             0b00 => self.each2(f, self.each(op, 0), self.each(op, 1), op),
             0b01 => self.each2(f, self.same(op, 0), self.each(op, 1), op),
@@ -312,7 +312,7 @@ impl<R: Real> Machine<'_, R> {
     }
 
     #[inline(always)]
-    fn three(&mut self, f: impl Function<3>, op: &Instruction) {
+    fn three(&mut self, f: impl LaneFunction<3>, op: &Instruction) {
         let a = self.each(op, 0);
         match op.constants {
             0b000 => self.each3(f, a, self.each(op, 1), self.each(op, 2), op),
@@ -323,7 +323,7 @@ impl<R: Real> Machine<'_, R> {
     }
 
     #[inline(always)]
-    fn four(&mut self, f: impl Function<4>, op: &Instruction) {
+    fn four(&mut self, f: impl LaneFunction<4>, op: &Instruction) {
         let (a, b) = (self.each(op, 0), self.each(op, 1));
         let (c, d) = (self.each(op, 2), self.each(op, 3));
         let mut k = 0;
@@ -338,7 +338,7 @@ impl<R: Real> Machine<'_, R> {
     /// A function of many operations, any of its operands a constant: a loop, not eight times
     /// its text.
     #[inline(always)]
-    fn long<const N: usize>(&mut self, f: impl Function<N>, op: &Instruction) {
+    fn long<const N: usize>(&mut self, f: impl LaneFunction<N>, op: &Instruction) {
         let mut k = 0;
         while k < VECTORS {
             let (mut operands, mut i) = ([self.zero; N], 0);
@@ -356,7 +356,7 @@ impl<R: Real> Machine<'_, R> {
     }
 
     #[inline(always)]
-    fn each1(&mut self, f: impl Function<1>, a: impl Operand<R>, op: &Instruction) {
+    fn each1(&mut self, f: impl LaneFunction<1>, a: impl Operand<R>, op: &Instruction) {
         let mut k = 0;
         while k < VECTORS {
             self.store(f.apply([a.at(self.registers, k)]), op, k);
@@ -367,7 +367,7 @@ impl<R: Real> Machine<'_, R> {
     #[inline(always)]
     fn each2(
         &mut self,
-        f: impl Function<2>,
+        f: impl LaneFunction<2>,
         a: impl Operand<R>,
         b: impl Operand<R>,
         op: &Instruction,
@@ -383,7 +383,7 @@ impl<R: Real> Machine<'_, R> {
     #[inline(always)]
     fn each3(
         &mut self,
-        f: impl Function<3>,
+        f: impl LaneFunction<3>,
         a: impl Operand<R>,
         b: impl Operand<R>,
         c: impl Operand<R>,

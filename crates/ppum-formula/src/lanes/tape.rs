@@ -7,16 +7,16 @@
 
 use std::sync::Arc;
 
-use super::interpret::{Action, Instruction, Tape};
+use super::interpret::{Instruction, Tape, TapeAction};
 use crate::graph::{NodeId, Op};
 use crate::operation::{Binary, Comparison, Unary};
-use crate::program::Program;
+use crate::program::FormulaProgram;
 
 impl Tape {
     /// The tape of a program with a number of inputs.
-    pub(crate) fn new(program: &Program, n_inputs: usize) -> Self {
+    pub(crate) fn new(program: &FormulaProgram, n_inputs: usize) -> Self {
         let lowered = lowered(program);
-        let mut writer = Writer::new(program, &lowered, n_inputs);
+        let mut writer = TapeWriter::new(program, &lowered, n_inputs);
         for (id, form) in (0..).map(NodeId).zip(&lowered) {
             if let Some(form) = form {
                 writer.instruction(id, form);
@@ -42,15 +42,15 @@ impl Tape {
 /// The action that computes an operation, and its operands.
 #[derive(Clone, Debug)]
 struct LoweredOperation {
-    action: Action,
+    action: TapeAction,
     operands: Vec<NodeId>,
 }
 
 /// The forms of the operations; none for constants, inputs, and products that are part of
 /// the form of their only user.
-fn lowered(program: &Program) -> Vec<Option<LoweredOperation>> {
+fn lowered(program: &FormulaProgram) -> Vec<Option<LoweredOperation>> {
     let mut lowered = vec![None; program.ops().len()];
-    let mut products = Products::new(program);
+    let mut products = FusedProducts::new(program);
     for id in (0..program.ops().len()).rev() {
         if !products.is_absorbed[id] {
             lowered[id] = form(program.ops()[id], &mut products);
@@ -60,15 +60,15 @@ fn lowered(program: &Program) -> Vec<Option<LoweredOperation>> {
 }
 
 /// The products that can be computed by their only user.
-struct Products<'a> {
+struct FusedProducts<'a> {
     ops: &'a [Op],
     /// Number of times each operation is an operand; outputs count as many.
     uses: Vec<u32>,
     is_absorbed: Vec<bool>,
 }
 
-impl<'a> Products<'a> {
-    fn new(program: &'a Program) -> Self {
+impl<'a> FusedProducts<'a> {
+    fn new(program: &'a FormulaProgram) -> Self {
         let ops = program.ops();
         let mut uses = vec![0; ops.len()];
         for operand in ops.iter().flat_map(Op::operands) {
@@ -98,14 +98,14 @@ impl<'a> Products<'a> {
     }
 
     /// A step that computes the product `p` and another operation.
-    fn three(&mut self, op: Action, p: NodeId, other: NodeId) -> Option<LoweredOperation> {
+    fn three(&mut self, op: TapeAction, p: NodeId, other: NodeId) -> Option<LoweredOperation> {
         let [a, b] = self.factors(p)?;
         self.is_absorbed[p.index()] = true;
         Some(LoweredOperation { action: op, operands: vec![a, b, other] })
     }
 
     /// A step that computes the products `p` and `q` and their sum or difference.
-    fn four(&mut self, op: Action, p: NodeId, q: NodeId) -> Option<LoweredOperation> {
+    fn four(&mut self, op: TapeAction, p: NodeId, q: NodeId) -> Option<LoweredOperation> {
         let [[a, b], [c, d]] = [self.factors(p)?, self.factors(q)?];
         if self.is_constant(b) || self.is_constant(d) {
             return None;
@@ -116,20 +116,20 @@ impl<'a> Products<'a> {
     }
 }
 
-fn form(op: Op, products: &mut Products<'_>) -> Option<LoweredOperation> {
+fn form(op: Op, products: &mut FusedProducts<'_>) -> Option<LoweredOperation> {
     let joined = match op {
         Op::Binary(Binary::Add, a, b) => products
-            .four(Action::MulAddMul, a, b)
-            .or_else(|| products.three(Action::MulAdd, a, b))
-            .or_else(|| products.three(Action::MulAdd, b, a)),
+            .four(TapeAction::MulAddMul, a, b)
+            .or_else(|| products.three(TapeAction::MulAdd, a, b))
+            .or_else(|| products.three(TapeAction::MulAdd, b, a)),
         Op::Binary(Binary::Sub, a, b) => products
-            .four(Action::MulSubMul, a, b)
-            .or_else(|| products.three(Action::MulSub, a, b))
-            .or_else(|| products.three(Action::SubMul, b, a)),
-        Op::Binary(Binary::Mul, a, b) => {
-            products.three(Action::MulMul, a, b).or_else(|| products.three(Action::MulMul, b, a))
-        }
-        Op::Binary(Binary::Div, a, b) => products.three(Action::MulDiv, a, b),
+            .four(TapeAction::MulSubMul, a, b)
+            .or_else(|| products.three(TapeAction::MulSub, a, b))
+            .or_else(|| products.three(TapeAction::SubMul, b, a)),
+        Op::Binary(Binary::Mul, a, b) => products
+            .three(TapeAction::MulMul, a, b)
+            .or_else(|| products.three(TapeAction::MulMul, b, a)),
+        Op::Binary(Binary::Div, a, b) => products.three(TapeAction::MulDiv, a, b),
         _ => None,
     };
     joined.or_else(|| {
@@ -139,59 +139,59 @@ fn form(op: Op, products: &mut Products<'_>) -> Option<LoweredOperation> {
 }
 
 /// The action of an operation by itself; none for constants and inputs.
-fn action(op: Op) -> Option<Action> {
+fn action(op: Op) -> Option<TapeAction> {
     Some(match op {
         Op::Constant(_) | Op::Input(_) | Op::Truth(_) => return None,
         Op::Unary(op, _) => unary(op),
-        Op::Power(_, 2) => Action::Square,
-        Op::Power(_, n) => Action::Power(n),
+        Op::Power(_, 2) => TapeAction::Square,
+        Op::Power(_, n) => TapeAction::Power(n),
         Op::Binary(op, ..) => binary(op),
-        Op::Table { table, orders, .. } => Action::Table { table, orders },
-        Op::Select(..) => Action::Select,
-        Op::Compare(Comparison::Less, ..) => Action::Less,
-        Op::Compare(Comparison::LessEqual, ..) => Action::LessEqual,
-        Op::Compare(Comparison::Equal, ..) => Action::Equal,
+        Op::Table { table, orders, .. } => TapeAction::Table { table, orders },
+        Op::Select(..) => TapeAction::Select,
+        Op::Compare(Comparison::Less, ..) => TapeAction::Less,
+        Op::Compare(Comparison::LessEqual, ..) => TapeAction::LessEqual,
+        Op::Compare(Comparison::Equal, ..) => TapeAction::Equal,
         // of the numbers 1 and 0
-        Op::Not(_) => Action::Not,
-        Op::And(..) => Action::Mul,
-        Op::Or(..) => Action::Max,
+        Op::Not(_) => TapeAction::Not,
+        Op::And(..) => TapeAction::Mul,
+        Op::Or(..) => TapeAction::Max,
     })
 }
 
-fn unary(op: Unary) -> Action {
+fn unary(op: Unary) -> TapeAction {
     match op {
-        Unary::Neg => Action::Neg,
-        Unary::Sqrt => Action::Sqrt,
-        Unary::Abs => Action::Abs,
-        Unary::Sign => Action::Sign,
-        Unary::Floor => Action::Floor,
-        Unary::Cbrt => Action::Cbrt,
-        Unary::Exp => Action::Exp,
-        Unary::Log => Action::Log,
-        Unary::Log10 => Action::Log10,
-        Unary::Sin => Action::Sin,
-        Unary::Cos => Action::Cos,
-        Unary::Tan => Action::Tan,
-        Unary::Asin => Action::Asin,
-        Unary::Acos => Action::Acos,
-        Unary::Atan => Action::Atan,
-        Unary::Sinh => Action::Sinh,
-        Unary::Cosh => Action::Cosh,
-        Unary::Tanh => Action::Tanh,
+        Unary::Neg => TapeAction::Neg,
+        Unary::Sqrt => TapeAction::Sqrt,
+        Unary::Abs => TapeAction::Abs,
+        Unary::Sign => TapeAction::Sign,
+        Unary::Floor => TapeAction::Floor,
+        Unary::Cbrt => TapeAction::Cbrt,
+        Unary::Exp => TapeAction::Exp,
+        Unary::Log => TapeAction::Log,
+        Unary::Log10 => TapeAction::Log10,
+        Unary::Sin => TapeAction::Sin,
+        Unary::Cos => TapeAction::Cos,
+        Unary::Tan => TapeAction::Tan,
+        Unary::Asin => TapeAction::Asin,
+        Unary::Acos => TapeAction::Acos,
+        Unary::Atan => TapeAction::Atan,
+        Unary::Sinh => TapeAction::Sinh,
+        Unary::Cosh => TapeAction::Cosh,
+        Unary::Tanh => TapeAction::Tanh,
     }
 }
 
-fn binary(op: Binary) -> Action {
+fn binary(op: Binary) -> TapeAction {
     match op {
-        Binary::Add => Action::Add,
-        Binary::Sub => Action::Sub,
-        Binary::Mul => Action::Mul,
-        Binary::Div => Action::Div,
-        Binary::Min => Action::Min,
-        Binary::Max => Action::Max,
-        Binary::Pow => Action::Pow,
-        Binary::Atan2 => Action::Atan2,
-        Binary::Hypot => Action::Hypot,
+        Binary::Add => TapeAction::Add,
+        Binary::Sub => TapeAction::Sub,
+        Binary::Mul => TapeAction::Mul,
+        Binary::Div => TapeAction::Div,
+        Binary::Min => TapeAction::Min,
+        Binary::Max => TapeAction::Max,
+        Binary::Pow => TapeAction::Pow,
+        Binary::Atan2 => TapeAction::Atan2,
+        Binary::Hypot => TapeAction::Hypot,
     }
 }
 
@@ -204,7 +204,7 @@ enum ResultLocation {
 }
 
 /// Assigns registers while it writes the steps in order.
-struct Writer {
+struct TapeWriter {
     instructions: Vec<Instruction>,
     constants: Vec<f64>,
     /// The place of each operation so far.
@@ -219,8 +219,12 @@ struct Writer {
     n_slots: u32,
 }
 
-impl Writer {
-    fn new(program: &Program, lowered: &[Option<LoweredOperation>], n_inputs: usize) -> Self {
+impl TapeWriter {
+    fn new(
+        program: &FormulaProgram,
+        lowered: &[Option<LoweredOperation>],
+        n_inputs: usize,
+    ) -> Self {
         let mut last_use = vec![0; lowered.len()];
         for (user, form) in (0..).zip(lowered) {
             for operand in form.iter().flat_map(|form| &form.operands) {
@@ -295,12 +299,12 @@ impl Writer {
     }
 
     /// Fills the outputs that are constants, inputs, or equal to earlier outputs.
-    fn copy_outputs(&mut self, program: &Program) {
+    fn copy_outputs(&mut self, program: &FormulaProgram) {
         for (to, node) in (0..).zip(program.outputs()) {
             let (action, operand) = match self.locations[node.index()] {
                 ResultLocation::Register(register) if register == to => continue,
-                ResultLocation::Register(register) => (Action::Copy, register),
-                ResultLocation::Constant(constant) => (Action::Fill, constant),
+                ResultLocation::Register(register) => (TapeAction::Copy, register),
+                ResultLocation::Constant(constant) => (TapeAction::Fill, constant),
                 ResultLocation::Nowhere => unreachable!("outputs are no slots"),
             };
             self.instructions.push(Instruction {

@@ -1,7 +1,7 @@
 //! The syntax tree of a formula, names resolved.
 
 use crate::error::TextSpan;
-use crate::library::Function;
+use crate::library::LibraryFunction;
 
 /// A parsed formula. Nodes stand in an arena, operands before what uses them; so a pass is a loop,
 /// and neither a pass nor a drop can exhaust the stack.
@@ -45,7 +45,7 @@ pub(crate) enum ExprKind {
     /// An operator between operands.
     Infix(Infix, ExprId, ExprId),
     /// A function of its arguments; their number is right.
-    Call(Function, Vec<ExprId>),
+    Call(LibraryFunction, Vec<ExprId>),
     /// A derivative of a table: its index in the scope, the orders, the arguments.
     Table { table: u32, orders: [u8; 2], x: ExprId, y: Option<ExprId> },
 }

@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock};
 use crate::error::FormulaError;
 use crate::language::ast::Ast;
 use crate::language::lower::checked;
-use crate::language::scope::{COS_HALF, Defined, Dependent, SIN_HALF, Scope, ScopeError};
+use crate::language::scope::{COS_HALF, DefinedFunction, Dependent, SIN_HALF, Scope, ScopeError};
 
 /// cos θ and sin θ of the polar angle: name, definition, derivatives. The direction of the origin
 /// itself is +x, so that √r sin θ has the value 0 there; NaN stays NaN.
@@ -52,8 +52,8 @@ impl Scope {
         scope
     }
 
-    fn whole_angle(&self, rules: impl Fn(&[&str; 2]) -> Arc<[Ast]>) -> Arc<[Defined]> {
-        let define = |(name, text, texts): &(&'static str, &str, [&str; 2])| Defined {
+    fn whole_angle(&self, rules: impl Fn(&[&str; 2]) -> Arc<[Ast]>) -> Arc<[DefinedFunction]> {
+        let define = |(name, text, texts): &(&'static str, &str, [&str; 2])| DefinedFunction {
             name,
             definition: self.built_in(text),
             rules: rules(texts),

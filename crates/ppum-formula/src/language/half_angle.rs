@@ -69,7 +69,7 @@ pub(crate) fn expand(
     if !fits || !matches!(op, Unary::Sin | Unary::Cos | Unary::Tan) {
         return None;
     }
-    let turn = Turn::of_halves(halves.abs() as u32, scope, graph)?;
+    let turn = UnitRotation::of_halves(halves.abs() as u32, scope, graph)?;
     let sin = if halves < 0.0 { graph.neg(turn.sin) } else { turn.sin };
     Some(match op {
         Unary::Sin => sin,
@@ -80,12 +80,12 @@ pub(crate) fn expand(
 
 /// e^{iφ} of some angle φ.
 #[derive(Clone, Copy)]
-struct Turn {
+struct UnitRotation {
     cos: NodeId,
     sin: NodeId,
 }
 
-impl Turn {
+impl UnitRotation {
     /// e^{ikθ/2}, k > 0.
     fn of_halves(halves: u32, scope: &Scope, graph: &mut Graph) -> Option<Self> {
         let [cos, sin] = scope.half_angles()?;

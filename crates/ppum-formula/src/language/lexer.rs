@@ -1,6 +1,6 @@
 //! Text → tokens.
 
-use crate::error::{FormulaError, Mistake, TextSpan};
+use crate::error::{ErrorKind, FormulaError, TextSpan};
 use crate::library::foreign;
 
 /// A piece of the text that the grammar knows.
@@ -155,7 +155,7 @@ impl Lexer<'_> {
         let whole = length_while(self.rest(), |c| in_name(c) || c == '.');
         let name = self.rest()[..whole].rsplit('.').find(|part| !part.is_empty()).unwrap_or(name);
         let instead = foreign(name).unwrap_or(name).to_owned();
-        Err(self.error(whole, Mistake::Module { instead }))
+        Err(self.error(whole, ErrorKind::Module { instead }))
     }
 
     /// Digits with at most one point, then at most one exponent.
@@ -174,7 +174,7 @@ impl Lexer<'_> {
         }
         match text[..length].parse::<f64>() {
             Ok(value) if value.is_finite() => Ok(self.take(Kind::Number(value), length)),
-            _ => Err(self.error(length, Mistake::InvalidNumber)),
+            _ => Err(self.error(length, ErrorKind::InvalidNumber)),
         }
     }
 
@@ -188,17 +188,17 @@ impl Lexer<'_> {
                 Ok(self.take(*kind, sign.len()))
             }
             (_, Some((sign, instead))) => {
-                Err(self.error(sign.len(), Mistake::Unexpected { expected: instead }))
+                Err(self.error(sign.len(), ErrorKind::Unexpected { expected: instead }))
             }
             _ => {
                 let length = text.chars().next().map_or(0, char::len_utf8);
                 let expected = "a number, a name or an operator";
-                Err(self.error(length, Mistake::Unexpected { expected }))
+                Err(self.error(length, ErrorKind::Unexpected { expected }))
             }
         }
     }
 
-    fn error(&self, length: usize, mistake: Mistake) -> FormulaError {
+    fn error(&self, length: usize, mistake: ErrorKind) -> FormulaError {
         let span = TextSpan { start: self.position, end: self.position + length };
         FormulaError::new(self.source, span, mistake)
     }
@@ -235,7 +235,7 @@ mod tests {
             assert_eq!(kinds(text), [Kind::Number(value), Kind::End], "{text}");
         }
         for text in ["1e", "1e+", ".", "1e999"] {
-            assert_eq!(tokens(text).expect_err(text).mistake, Mistake::InvalidNumber);
+            assert_eq!(tokens(text).expect_err(text).mistake, ErrorKind::InvalidNumber);
         }
     }
 
@@ -276,7 +276,7 @@ mod tests {
         ] {
             let error = tokens(text).expect_err(text);
             assert_eq!(error.found, found);
-            assert_eq!(error.mistake, Mistake::Unexpected { expected: remedy });
+            assert_eq!(error.mistake, ErrorKind::Unexpected { expected: remedy });
         }
     }
 }

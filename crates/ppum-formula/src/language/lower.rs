@@ -1,12 +1,12 @@
 //! Syntax tree → expression graph: types are checked, functions become operations.
 
-use crate::error::{FormulaError, Mistake};
+use crate::error::{ErrorKind, FormulaError};
 use crate::graph::{Graph, NodeId};
 use crate::language::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix};
 use crate::language::half_angle::{self, Multiple};
 use crate::language::parser::parse;
 use crate::language::scope::Scope;
-use crate::library::Function;
+use crate::library::LibraryFunction;
 use crate::operation::{Binary, Comparison};
 
 /// Parses a formula and checks that its type is a number.
@@ -20,21 +20,21 @@ pub(crate) fn checked(source: &str, scope: &Scope) -> Result<Ast, FormulaError> 
 
 /// A node of the wrong type.
 #[derive(Debug)]
-pub(crate) struct MistakeAt {
+pub(crate) struct TypeErrorAt {
     expr: ExprId,
-    mistake: Mistake,
+    mistake: ErrorKind,
 }
 
-impl MistakeAt {
-    /// The mistake as an error in the text.
+impl TypeErrorAt {
+    /// Converts it to an error at a place in the text.
     pub(crate) fn locate(self, source: &str, ast: &Ast) -> FormulaError {
         FormulaError::new(source, ast.nodes[self.expr.index()].span, self.mistake)
     }
 }
 
 /// Adds a formula of a scope to a graph; gives the node of its value.
-pub(crate) fn lower(ast: &Ast, scope: &Scope, graph: &mut Graph) -> Result<NodeId, MistakeAt> {
-    Lowering::new(ast, scope, graph)?.number(ast.root)
+pub(crate) fn lower(ast: &Ast, scope: &Scope, graph: &mut Graph) -> Result<NodeId, TypeErrorAt> {
+    Lowerer::new(ast, scope, graph)?.number(ast.root)
 }
 
 /// Adds a condition to a graph; gives the node of 1 where it holds, 0 elsewhere.
@@ -42,8 +42,8 @@ pub(crate) fn lower_condition(
     ast: &Ast,
     scope: &Scope,
     graph: &mut Graph,
-) -> Result<NodeId, MistakeAt> {
-    let condition = Lowering::new(ast, scope, graph)?.condition(ast.root)?;
+) -> Result<NodeId, TypeErrorAt> {
+    let condition = Lowerer::new(ast, scope, graph)?.condition(ast.root)?;
     let (one, zero) = (graph.constant(1.0), graph.constant(0.0));
     Ok(graph.select(condition, one, zero))
 }
@@ -59,7 +59,7 @@ impl Scope {
     }
 }
 
-struct Lowering<'a> {
+struct Lowerer<'a> {
     graph: &'a mut Graph,
     scope: &'a Scope,
     /// The input θ, if there are half angles.
@@ -70,8 +70,8 @@ struct Lowering<'a> {
     multiples: Vec<Multiple>,
 }
 
-impl<'a> Lowering<'a> {
-    fn new(ast: &Ast, scope: &'a Scope, graph: &'a mut Graph) -> Result<Self, MistakeAt> {
+impl<'a> Lowerer<'a> {
+    fn new(ast: &Ast, scope: &'a Scope, graph: &'a mut Graph) -> Result<Self, TypeErrorAt> {
         let theta = scope.half_angles().and_then(|_| scope.input("theta"));
         let (nodes, multiples) = (Vec::with_capacity(ast.nodes.len()), Vec::new());
         let mut lowering = Self { graph, scope, theta, nodes, multiples };
@@ -84,7 +84,7 @@ impl<'a> Lowering<'a> {
         Ok(lowering)
     }
 
-    fn expr(&mut self, expr: &Expr) -> Result<NodeId, MistakeAt> {
+    fn expr(&mut self, expr: &Expr) -> Result<NodeId, TypeErrorAt> {
         match &expr.kind {
             ExprKind::Number(value) => Ok(self.graph.constant(*value)),
             ExprKind::Input(index) => Ok(self.graph.input(*index)),
@@ -106,24 +106,29 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    fn number(&self, expr: ExprId) -> Result<NodeId, MistakeAt> {
-        self.typed(expr, false, Mistake::ConditionForNumber)
+    fn number(&self, expr: ExprId) -> Result<NodeId, TypeErrorAt> {
+        self.typed(expr, false, ErrorKind::ConditionForNumber)
     }
 
-    fn condition(&self, expr: ExprId) -> Result<NodeId, MistakeAt> {
-        self.typed(expr, true, Mistake::NumberForCondition)
+    fn condition(&self, expr: ExprId) -> Result<NodeId, TypeErrorAt> {
+        self.typed(expr, true, ErrorKind::NumberForCondition)
     }
 
-    fn typed(&self, expr: ExprId, condition: bool, mistake: Mistake) -> Result<NodeId, MistakeAt> {
+    fn typed(
+        &self,
+        expr: ExprId,
+        condition: bool,
+        mistake: ErrorKind,
+    ) -> Result<NodeId, TypeErrorAt> {
         let node = self.nodes[expr.index()];
         if self.graph.op(node).is_condition() == condition {
             Ok(node)
         } else {
-            Err(MistakeAt { expr, mistake })
+            Err(TypeErrorAt { expr, mistake })
         }
     }
 
-    fn prefix(&mut self, prefix: Prefix, a: ExprId) -> Result<NodeId, MistakeAt> {
+    fn prefix(&mut self, prefix: Prefix, a: ExprId) -> Result<NodeId, TypeErrorAt> {
         match prefix {
             Prefix::Plus => self.number(a),
             Prefix::Minus => self.number(a).map(|a| self.graph.neg(a)),
@@ -131,7 +136,7 @@ impl<'a> Lowering<'a> {
         }
     }
 
-    fn infix(&mut self, infix: Infix, a: ExprId, b: ExprId) -> Result<NodeId, MistakeAt> {
+    fn infix(&mut self, infix: Infix, a: ExprId, b: ExprId) -> Result<NodeId, TypeErrorAt> {
         if let Infix::And | Infix::Or = infix {
             let (a, b) = (self.condition(a)?, self.condition(b)?);
             let joined =
@@ -158,23 +163,27 @@ impl<'a> Lowering<'a> {
         })
     }
 
-    fn call(&mut self, function: Function, arguments: &[ExprId]) -> Result<NodeId, MistakeAt> {
+    fn call(
+        &mut self,
+        function: LibraryFunction,
+        arguments: &[ExprId],
+    ) -> Result<NodeId, TypeErrorAt> {
         match (function, arguments) {
-            (Function::Unary(op), &[argument]) => {
+            (LibraryFunction::Unary(op), &[argument]) => {
                 let a = self.number(argument)?;
                 let of = self.multiples[argument.index()];
                 let products = half_angle::expand(op, of, self.scope, self.graph);
                 Ok(products.unwrap_or_else(|| self.graph.unary(op, a)))
             }
-            (Function::Binary(op), &[a, b]) => {
+            (LibraryFunction::Binary(op), &[a, b]) => {
                 let (a, b) = (self.number(a)?, self.number(b)?);
                 Ok(self.graph.binary(op, a, b))
             }
-            (Function::If, &[c, a, b]) => {
+            (LibraryFunction::If, &[c, a, b]) => {
                 let (c, a, b) = (self.condition(c)?, self.number(a)?, self.number(b)?);
                 Ok(self.graph.select(c, a, b))
             }
-            (Function::Clamp, &[x, low, high]) => {
+            (LibraryFunction::Clamp, &[x, low, high]) => {
                 let (x, low, high) = (self.number(x)?, self.number(low)?, self.number(high)?);
                 let raised = self.graph.binary(Binary::Max, x, low);
                 Ok(self.graph.binary(Binary::Min, raised, high))

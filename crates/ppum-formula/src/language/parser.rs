@@ -1,17 +1,17 @@
 //! Tokens → syntax tree, by precedence climbing. Names are resolved on the way.
 
-use crate::error::{FormulaError, Mistake, TextSpan, nearest};
+use crate::error::{ErrorKind, FormulaError, TextSpan, nearest};
 use crate::language::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix, precedence};
 use crate::language::lexer::{Token, TokenKind, tokens};
-use crate::language::scope::{Meaning, Scope};
-use crate::library::{self, Function};
+use crate::language::scope::{NameMeaning, Scope};
+use crate::library::{self, LibraryFunction};
 use crate::limits::MAX_DEPTH;
 use crate::limits::MAX_LENGTH;
 
 /// Parses a formula whose names are those of `scope`.
 pub(crate) fn parse(source: &str, scope: &Scope) -> Result<Ast, FormulaError> {
     if source.len() > MAX_LENGTH {
-        return Err(FormulaError::new(source, TextSpan { start: 0, end: 0 }, Mistake::TooLong));
+        return Err(FormulaError::new(source, TextSpan { start: 0, end: 0 }, ErrorKind::TooLong));
     }
     let tokens = tokens(source)?;
     let mut parser =
@@ -32,11 +32,11 @@ struct Parser<'a> {
     depth: usize,
 }
 
-type Parsed = Result<ExprId, FormulaError>;
+type ParseResult = Result<ExprId, FormulaError>;
 
 impl<'a> Parser<'a> {
     /// `let name = expression; … expression`; what `let` binds holds to the end of the block.
-    fn block(&mut self) -> Parsed {
+    fn block(&mut self) -> ParseResult {
         let outer = self.locals.len();
         while self.accept(TokenKind::Let) {
             self.binding()?;
@@ -51,7 +51,7 @@ impl<'a> Parser<'a> {
         let span = self.expect(TokenKind::Name, "a new name")?.span;
         let name = self.text(span);
         if library::is_reserved(name) || self.scope.meaning(name).is_some() || self.is_local(name) {
-            return Err(self.error(span, Mistake::NameTaken));
+            return Err(self.error(span, ErrorKind::NameTaken));
         }
         self.expect(TokenKind::Assign, "`=`")?;
         self.locals.push((name, None));
@@ -63,7 +63,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Operands joined by operators that bind at least as tightly as `weakest`.
-    fn expression(&mut self, weakest: u8) -> Parsed {
+    fn expression(&mut self, weakest: u8) -> ParseResult {
         let mut left = self.operand()?;
         while let Some(infix) = infix(self.peek().kind) {
             let strength = precedence::of(infix);
@@ -88,14 +88,14 @@ impl<'a> Parser<'a> {
     fn refuse_comparison(&self) -> Result<(), FormulaError> {
         match infix(self.peek().kind) {
             Some(next) if next.is_comparison() => {
-                Err(self.error(self.peek().span, Mistake::ChainedComparison))
+                Err(self.error(self.peek().span, ErrorKind::ChainedComparison))
             }
             _ => Ok(()),
         }
     }
 
     /// An atom, or an operand with its sign.
-    fn operand(&mut self) -> Parsed {
+    fn operand(&mut self) -> ParseResult {
         let token = self.peek();
         let (prefix, strength) = match token.kind {
             TokenKind::Minus => (Prefix::Minus, precedence::POWER),
@@ -110,7 +110,7 @@ impl<'a> Parser<'a> {
     }
 
     /// A number, a name, a call or a block in parentheses.
-    fn atom(&mut self) -> Parsed {
+    fn atom(&mut self) -> ParseResult {
         let token = self.peek();
         match token.kind {
             TokenKind::Number(value) => {
@@ -133,33 +133,35 @@ impl<'a> Parser<'a> {
             }
             _ => {
                 let expected = "a number, a name or `(`";
-                Err(self.error(token.span, Mistake::Unexpected { expected }))
+                Err(self.error(token.span, ErrorKind::Unexpected { expected }))
             }
         }
     }
 
-    fn name(&mut self, span: TextSpan) -> Parsed {
+    fn name(&mut self, span: TextSpan) -> ParseResult {
         let name = self.text(span);
         if let Some(&(_, value)) = self.locals.iter().rev().find(|(local, _)| *local == name) {
-            return value.ok_or_else(|| self.error(span, Mistake::SelfReference));
+            return value.ok_or_else(|| self.error(span, ErrorKind::SelfReference));
         }
         let kind = match (self.scope.meaning(name), library::constant(name)) {
-            (Some(Meaning::Input(index)), _) => ExprKind::Input(index),
-            (Some(Meaning::Table(_)), _) => return Err(self.error(span, Mistake::TableForNumber)),
-            (Some(Meaning::Value(value)), _) | (None, Some(value)) => ExprKind::Number(value),
+            (Some(NameMeaning::Input(index)), _) => ExprKind::Input(index),
+            (Some(NameMeaning::Table(_)), _) => {
+                return Err(self.error(span, ErrorKind::TableForNumber));
+            }
+            (Some(NameMeaning::Value(value)), _) | (None, Some(value)) => ExprKind::Number(value),
             (None, None) => return Err(self.error(span, self.unknown_name(name))),
         };
         Ok(self.push(kind, span))
     }
 
     /// The arguments of the function whose name stands at `name`.
-    fn call(&mut self, name: TextSpan) -> Parsed {
+    fn call(&mut self, name: TextSpan) -> ParseResult {
         let function = self.function(name)?;
         self.expect(TokenKind::Open, "`(`")?;
         let Some(expected) = function.arity() else {
             return match function {
-                Function::Side => self.side(name),
-                _ => self.table(name, function == Function::TableDerivative),
+                LibraryFunction::Side => self.side(name),
+                _ => self.table(name, function == LibraryFunction::TableDerivative),
             };
         };
         let mut arguments = Vec::new();
@@ -171,7 +173,7 @@ impl<'a> Parser<'a> {
         let given = arguments.len();
         if given != expected {
             let suggestion = self.with_arguments(name, given);
-            return Err(self.error(name, Mistake::ArgumentCount { expected, given, suggestion }));
+            return Err(self.error(name, ErrorKind::ArgumentCount { expected, given, suggestion }));
         }
         Ok(self.push(ExprKind::Call(function, arguments), name.to(close.span)))
     }
@@ -187,7 +189,7 @@ impl<'a> Parser<'a> {
 
     /// `name, x)`, `name, x, y)` or, of a derivative, `name, m, x)`, `name, m, n, x, y)` after the
     /// parenthesis of `table(`; its name stands at `function`.
-    fn table(&mut self, function: TextSpan, derivative: bool) -> Parsed {
+    fn table(&mut self, function: TextSpan, derivative: bool) -> ParseResult {
         let name = self.expect(TokenKind::Name, "the name of a table")?.span;
         let table = self.table_named(name)?;
         let n = self.scope.tables()[table as usize].n_arguments();
@@ -197,7 +199,7 @@ impl<'a> Parser<'a> {
         if arguments.len() != expected {
             let given = arguments.len() + 1;
             let form = table_form(self.text(name), n, derivative).into();
-            return Err(self.error(function, Mistake::TableArguments { form, given }));
+            return Err(self.error(function, ErrorKind::TableArguments { form, given }));
         }
         let mut orders = [0; 2];
         for (order, &argument) in orders.iter_mut().zip(&arguments[..expected - n]) {
@@ -208,14 +210,14 @@ impl<'a> Parser<'a> {
     }
 
     /// `k)` after the parenthesis of `side(`; its name stands at `function`.
-    fn side(&mut self, function: TextSpan) -> Parsed {
+    fn side(&mut self, function: TextSpan) -> ParseResult {
         let cracks = self.scope.n_sides();
         if cracks == 0 {
-            return Err(self.error(function, Mistake::NoCracks));
+            return Err(self.error(function, ErrorKind::NoCracks));
         }
         if self.peek().kind == TokenKind::Close {
             let expected = "the number of a crack";
-            return Err(self.error(self.peek().span, Mistake::Unexpected { expected }));
+            return Err(self.error(self.peek().span, ErrorKind::Unexpected { expected }));
         }
         let argument = self.nested(Self::block)?;
         let close = self.expect(TokenKind::Close, "an operator or `)`")?;
@@ -225,21 +227,21 @@ impl<'a> Parser<'a> {
         };
         match input {
             Some(input) => Ok(self.push(ExprKind::Input(input), function.to(close.span))),
-            None => Err(self.error(self.span(argument), Mistake::UnknownCrack { cracks })),
+            None => Err(self.error(self.span(argument), ErrorKind::UnknownCrack { cracks })),
         }
     }
 
     fn table_named(&self, span: TextSpan) -> Result<u32, FormulaError> {
         let name = self.text(span);
-        if let Some(Meaning::Table(table)) = self.scope.meaning(name) {
+        if let Some(NameMeaning::Table(table)) = self.scope.meaning(name) {
             return Ok(table);
         }
         let names: Vec<&str> = self.scope.table_names().collect();
         let mistake = if names.is_empty() {
-            Mistake::NoTables
+            ErrorKind::NoTables
         } else {
             let suggestion = nearest(name, names.iter().copied()).map(String::into_boxed_str);
-            Mistake::UnknownTable { suggestion, known: names.join(", ").into() }
+            ErrorKind::UnknownTable { suggestion, known: names.join(", ").into() }
         };
         Err(self.error(span, mistake))
     }
@@ -250,20 +252,22 @@ impl<'a> Parser<'a> {
             ExprKind::Number(order) if (0.0..=9.0).contains(&order) && order.fract() == 0.0 => {
                 Ok(order as u8)
             }
-            _ => Err(self.error(self.span(argument), Mistake::InvalidOrder)),
+            _ => Err(self.error(self.span(argument), ErrorKind::InvalidOrder)),
         }
     }
 
-    fn function(&self, span: TextSpan) -> Result<Function, FormulaError> {
+    fn function(&self, span: TextSpan) -> Result<LibraryFunction, FormulaError> {
         let name = self.text(span);
-        let mistake = match Function::named(name) {
+        let mistake = match LibraryFunction::named(name) {
             Some(function) => return Ok(function),
-            None if self.scope.table_names().any(|known| known == name) => Mistake::TableForNumber,
-            None if self.known_names().any(|known| known == name) => Mistake::NotAFunction,
+            None if self.scope.table_names().any(|known| known == name) => {
+                ErrorKind::TableForNumber
+            }
+            None if self.known_names().any(|known| known == name) => ErrorKind::NotAFunction,
             None => {
                 let names = library::FUNCTIONS.iter().map(|&(known, _)| known);
                 let foreign = library::foreign(name).map(str::to_owned);
-                Mistake::UnknownFunction { suggestion: foreign.or_else(|| nearest(name, names)) }
+                ErrorKind::UnknownFunction { suggestion: foreign.or_else(|| nearest(name, names)) }
             }
         };
         Err(self.error(span, mistake))
@@ -271,22 +275,22 @@ impl<'a> Parser<'a> {
 
     /// The function of a similar name that takes this many arguments.
     fn with_arguments(&self, name: TextSpan, given: usize) -> Option<&'static str> {
-        let fits = |function: Function| function.arity() == Some(given);
+        let fits = |function: LibraryFunction| function.arity() == Some(given);
         let fitting = library::FUNCTIONS.iter().filter(|(_, function)| fits(*function));
         let found = nearest(self.text(name), fitting.map(|&(known, _)| known))?;
         library::FUNCTIONS.iter().map(|&(known, _)| known).find(|&known| known == found)
     }
 
-    fn unknown_name(&self, name: &str) -> Mistake {
-        if Function::named(name).is_some() {
-            return Mistake::MissingArguments;
+    fn unknown_name(&self, name: &str) -> ErrorKind {
+        if LibraryFunction::named(name).is_some() {
+            return ErrorKind::MissingArguments;
         }
         if self.peek().kind == TokenKind::Assign {
-            return Mistake::MissingLet;
+            return ErrorKind::MissingLet;
         }
         let table =
             || nearest(name, self.scope.table_names()).map(|name| format!("table({name}, …)"));
-        Mistake::UnknownName { suggestion: nearest(name, self.known_names()).or_else(table) }
+        ErrorKind::UnknownName { suggestion: nearest(name, self.known_names()).or_else(table) }
     }
 
     /// Every name that stands for a value here.
@@ -304,9 +308,9 @@ impl<'a> Parser<'a> {
 
     /// Goes one level deeper. Every recursion of the grammar passes here, or through the few
     /// levels of precedence.
-    fn nested(&mut self, inner: impl FnOnce(&mut Self) -> Parsed) -> Parsed {
+    fn nested(&mut self, inner: impl FnOnce(&mut Self) -> ParseResult) -> ParseResult {
         if self.depth == MAX_DEPTH {
-            return Err(self.error(self.peek().span, Mistake::TooDeep));
+            return Err(self.error(self.peek().span, ErrorKind::TooDeep));
         }
         self.depth += 1;
         let value = inner(self)?;
@@ -350,12 +354,12 @@ impl<'a> Parser<'a> {
         if !self.accept(kind) {
             let compares = token.kind == TokenKind::Assign && expected.starts_with("an operator");
             let expected = if compares { "`==` to compare" } else { expected };
-            return Err(self.error(token.span, Mistake::Unexpected { expected }));
+            return Err(self.error(token.span, ErrorKind::Unexpected { expected }));
         }
         Ok(token)
     }
 
-    fn error(&self, span: TextSpan, mistake: Mistake) -> FormulaError {
+    fn error(&self, span: TextSpan, mistake: ErrorKind) -> FormulaError {
         FormulaError::new(self.source, span, mistake)
     }
 }

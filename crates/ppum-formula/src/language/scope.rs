@@ -40,7 +40,7 @@ pub const VARIABLES: [&str; 5] = ["x", "y", "r", "theta", "t"];
 pub struct Scope {
     pub(super) independent: Vec<String>,
     pub(super) dependent: Vec<Dependent>,
-    pub(super) defined: Arc<[Defined]>,
+    pub(super) defined: Arc<[DefinedFunction]>,
     parameters: Vec<(String, f64)>,
     tables: Arc<[Arc<Table>]>,
     /// The dependent variables that are sides of cracks: they follow each other.
@@ -58,7 +58,7 @@ pub(super) struct Dependent {
 /// A function of the inputs whose derivatives have rules of their own, better than those of its
 /// definition: fewer operations, no cancellation.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Defined {
+pub(super) struct DefinedFunction {
     /// The text that stands for it.
     pub(super) name: &'static str,
     pub(super) definition: Ast,
@@ -102,7 +102,7 @@ pub enum ScopeError {
     Rule {
         /// The dependent variable.
         name: String,
-        /// The mistake.
+        /// The error.
         #[source]
         error: FormulaError,
     },
@@ -110,7 +110,7 @@ pub enum ScopeError {
 
 /// The meaning of a name of the scope.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Meaning {
+pub(crate) enum NameMeaning {
     /// A variable: its index among the inputs.
     Input(u32),
     /// A parameter.
@@ -273,17 +273,17 @@ impl Scope {
     }
 
     /// The meaning of a name.
-    pub(crate) fn meaning(&self, name: &str) -> Option<Meaning> {
+    pub(crate) fn meaning(&self, name: &str) -> Option<NameMeaning> {
         if let Some(index) = self.input(name) {
-            return Some(Meaning::Input(index));
+            return Some(NameMeaning::Input(index));
         }
         if let Some((_, value)) = self.parameters.iter().find(|(known, _)| known == name) {
-            return Some(Meaning::Value(*value));
+            return Some(NameMeaning::Value(*value));
         }
         (0..)
             .zip(self.table_names())
             .find(|(_, known)| *known == name)
-            .map(|(i, _)| Meaning::Table(i))
+            .map(|(i, _)| NameMeaning::Table(i))
     }
 
     pub(super) fn check_name(&self, name: &str) -> Result<(), ScopeError> {

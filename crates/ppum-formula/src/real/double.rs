@@ -31,7 +31,7 @@ impl Double for f64 {
 impl<S: Simd> Double for f64x8<S> {
     #[inline(always)]
     fn power_of_two(self) -> Self {
-        let bits: u64x8<S> = (self + self.lit(BIASED)).bitcast();
+        let bits: u64x8<S> = (self + self.broadcast(BIASED)).bitcast();
         (bits << MANTISSA).bitcast()
     }
     #[inline(always)]
@@ -39,7 +39,7 @@ impl<S: Simd> Double for f64x8<S> {
         let bits: u64x8<S> = SimdBase::abs(self).bitcast();
         let ones = u64x8::splat(self.token(), ONES);
         let number: Self = ((bits >> MANTISSA) | ones).bitcast();
-        number - self.lit(BIASED)
+        number - self.broadcast(BIASED)
     }
     #[inline(always)]
     fn copysign(self, sign: Self) -> Self {
@@ -47,7 +47,7 @@ impl<S: Simd> Double for f64x8<S> {
     }
 }
 
-/// [`Real::in_double`] of vectors in double precision.
+/// [`Real::via_f64`] of vectors in double precision.
 #[inline(always)]
 pub(super) fn of_doubles<S: Simd, const N: usize>(
     operands: [f64x8<S>; N],
@@ -56,7 +56,7 @@ pub(super) fn of_doubles<S: Simd, const N: usize>(
     function.apply(operands)
 }
 
-/// [`Real::in_double`] of vectors in single precision.
+/// [`Real::via_f64`] of vectors in single precision.
 #[inline(always)]
 pub(super) fn of_singles<S: Simd, const N: usize>(
     operands: [f32x16<S>; N],

@@ -2,10 +2,10 @@
 
 use fearless_simd::{Level, Simd, f64x8, prelude::*};
 
-use super::traits::Job;
+use super::traits::LaneJob;
 
 /// Runs a job on the vectors of an instruction set.
-fn on<S: Simd, J: Job<f64>>(simd: S, job: J) -> J::Output {
+fn on<S: Simd, J: LaneJob<f64>>(simd: S, job: J) -> J::Output {
     simd.vectorize(
         #[inline(always)]
         || job.run(f64x8::splat(simd, 0.0)),
@@ -14,7 +14,7 @@ fn on<S: Simd, J: Job<f64>>(simd: S, job: J) -> J::Output {
 
 /// Runs a job with numbers one by one, and on vectors of every instruction set there is; names
 /// and results.
-pub(crate) fn run<J: Job<f64> + Copy>(job: J) -> Vec<(&'static str, J::Output)> {
+pub(crate) fn run<J: LaneJob<f64> + Copy>(job: J) -> Vec<(&'static str, J::Output)> {
     let mut results = vec![("scalar", job.run(0.0f64))];
     #[cfg(target_arch = "x86_64")]
     {

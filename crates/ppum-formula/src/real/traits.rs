@@ -18,7 +18,7 @@ pub trait Real:
     + Neg<Output = Self>
 {
     /// Type of one lane.
-    type Scalar: Scalar;
+    type Scalar: LaneNumber;
     /// Result of a comparison.
     type Mask: Copy;
     /// The numbers in the lanes.
@@ -28,7 +28,7 @@ pub trait Real:
 
     /// A constant in every lane. Taken from an existing value, because lanes carry the proof that
     /// the processor has them.
-    fn lit(self, value: f64) -> Self;
+    fn broadcast(self, value: f64) -> Self;
     /// `self · b + c`, fused where the processor fuses.
     fn mul_add(self, b: Self, c: Self) -> Self;
     /// Square root.
@@ -62,13 +62,13 @@ pub trait Real:
     fn store(self, to: &mut [Self::Scalar]);
     /// A function found in double precision and rounded: of the numbers themselves if they are
     /// double, else of halves of the vectors. `operands` has one at least.
-    fn in_double<const N: usize>(operands: [Self; N], function: impl DoubleFunction<N>) -> Self;
+    fn via_f64<const N: usize>(operands: [Self; N], function: impl DoubleFunction<N>) -> Self;
     /// The lanes widened to f64; zero beyond [`Self::LANES`].
     #[inline(always)]
     fn lanes(self) -> Lanes {
         let mut lanes = [Self::Scalar::default(); WIDEST];
         self.store(&mut lanes);
-        lanes.map(Scalar::to_f64)
+        lanes.map(LaneNumber::to_f64)
     }
     /// The number of each lane, rounded from f64; `self` is any value to take the kind from.
     #[inline(always)]
@@ -114,7 +114,7 @@ pub trait Real:
 }
 
 /// Work that is compiled for every instruction set and run with the widest the processor has.
-pub trait Job<T: Scalar> {
+pub trait LaneJob<T: LaneNumber> {
     /// The result of the work.
     type Output;
     /// Runs with numbers of type `R`; `zero` is a zero to take constants from. Must be
@@ -123,25 +123,25 @@ pub trait Job<T: Scalar> {
 }
 
 /// One lane: f64 or f32.
-pub trait Scalar:
+pub trait LaneNumber:
     Real<Scalar = Self> + Default + PartialOrd + Send + Sync + std::fmt::Debug
 {
-    /// Lanes in a vector of [`Scalar::dispatch`]; buffers are padded to a multiple of it.
+    /// Lanes in a vector of [`LaneNumber::dispatch`]; buffers are padded to a multiple of it.
     const VECTOR: usize;
     /// Rounds from f64.
     fn from_f64(value: f64) -> Self;
     /// Widens to f64.
     fn to_f64(self) -> f64;
     /// Numbers of a kind that is known.
-    fn numbers(of: &mut [Self]) -> Numbers<'_>;
+    fn numbers(of: &mut [Self]) -> NumberKind<'_>;
     /// Runs the job on the widest vectors of this processor.
-    fn dispatch<J: Job<Self>>(job: J) -> J::Output;
+    fn dispatch<J: LaneJob<Self>>(job: J) -> J::Output;
 }
 
 /// Numbers whose kind is asked at run time: for what is compiled once for both, and not again in
 /// every crate that uses it.
 #[derive(Debug)]
-pub enum Numbers<'a> {
+pub enum NumberKind<'a> {
     /// f64
     Double(&'a mut [f64]),
     /// f32

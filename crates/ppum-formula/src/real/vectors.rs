@@ -4,7 +4,7 @@ use fearless_simd::{Level, Select as _, Simd, f32x16, f64x8, prelude::*};
 use std::cell::Cell;
 
 use super::double;
-use super::traits::{DoubleFunction, Job, Numbers, Real, Scalar};
+use super::traits::{DoubleFunction, LaneJob, LaneNumber, NumberKind, Real};
 
 thread_local! {
     static IS_NARROWED: Cell<bool> = const { Cell::new(false) };
@@ -24,12 +24,12 @@ pub fn narrowed<T>(work: impl FnOnce() -> T) -> T {
     work()
 }
 
-/// The instruction set of [`Scalar::dispatch`].
+/// The instruction set of [`LaneNumber::dispatch`].
 fn level() -> Level {
     if IS_NARROWED.get() { Level::baseline() } else { Level::new() }
 }
 
-/// Name of the instruction set that [`Scalar::dispatch`] takes on this thread.
+/// Name of the instruction set that [`LaneNumber::dispatch`] takes on this thread.
 #[must_use]
 pub fn instructions() -> &'static str {
     name(level())
@@ -99,7 +99,7 @@ macro_rules! scalar {
             const LANES: usize = 1;
 
             #[inline(always)]
-            fn lit(self, value: f64) -> Self {
+            fn broadcast(self, value: f64) -> Self {
                 value as $t
             }
             // Not fused: without the instruction `mul_add` is a library call, ten times slower.
@@ -164,7 +164,7 @@ macro_rules! scalar {
                 to[0] = self;
             }
             #[inline(always)]
-            fn in_double<const N: usize>(of: [Self; N], function: impl DoubleFunction<N>) -> Self {
+            fn via_f64<const N: usize>(of: [Self; N], function: impl DoubleFunction<N>) -> Self {
                 function.apply(of.map(f64::from)) as $t
             }
             #[inline(always)]
@@ -173,7 +173,7 @@ macro_rules! scalar {
             }
         }
 
-        impl Scalar for $t {
+        impl LaneNumber for $t {
             const VECTOR: usize = $lanes;
             fn from_f64(value: f64) -> Self {
                 value as $t
@@ -181,10 +181,10 @@ macro_rules! scalar {
             fn to_f64(self) -> f64 {
                 f64::from(self)
             }
-            fn numbers(of: &mut [Self]) -> Numbers<'_> {
-                Numbers::$kind(of)
+            fn numbers(of: &mut [Self]) -> NumberKind<'_> {
+                NumberKind::$kind(of)
             }
-            fn dispatch<J: Job<Self>>(job: J) -> J::Output {
+            fn dispatch<J: LaneJob<Self>>(job: J) -> J::Output {
                 vectors!(job, $t, $vector)
             }
         }
@@ -196,7 +196,7 @@ macro_rules! scalar {
             const LANES: usize = $lanes;
 
             #[inline(always)]
-            fn lit(self, value: f64) -> Self {
+            fn broadcast(self, value: f64) -> Self {
                 Self::splat(self.token(), value as $t)
             }
             #[inline(always)]
@@ -260,7 +260,7 @@ macro_rules! scalar {
                 self.store_slice(&mut to[..$lanes]);
             }
             #[inline(always)]
-            fn in_double<const N: usize>(of: [Self; N], function: impl DoubleFunction<N>) -> Self {
+            fn via_f64<const N: usize>(of: [Self; N], function: impl DoubleFunction<N>) -> Self {
                 double::$of_vectors(of, function)
             }
         }
@@ -276,14 +276,14 @@ mod tests {
 
     struct Kernel<'a, T>(&'a [T], &'a mut [T]);
 
-    impl<T: Scalar> Job<T> for Kernel<'_, T> {
+    impl<T: LaneNumber> LaneJob<T> for Kernel<'_, T> {
         type Output = ();
         #[inline(always)]
         fn run<R: Real<Scalar = T>>(self, zero: R) {
             for (from, to) in self.0.chunks_exact(R::LANES).zip(self.1.chunks_exact_mut(R::LANES)) {
                 let x = zero.load(from);
-                let y = x.abs().sqrt().max(zero.lit(0.5)) / (x + zero.lit(10.0));
-                let z = R::select(x.ge(zero), y, -y).min(zero.lit(0.1));
+                let y = x.abs().sqrt().max(zero.broadcast(0.5)) / (x + zero.broadcast(10.0));
+                let z = R::select(x.ge(zero), y, -y).min(zero.broadcast(0.1));
                 z.map(|v| v * 2.0).store(to);
             }
         }

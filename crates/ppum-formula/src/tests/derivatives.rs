@@ -4,10 +4,10 @@ use std::f64::consts::LN_10;
 
 use super::{Formula, Scope, assert_near, jet_at, jets, parse, polar};
 
-type Function = fn(f64) -> f64;
+type ReferenceFunction = fn(f64) -> f64;
 
 /// Text, first and second derivative, where to test.
-const CLOSED_FORMS: [(&str, Function, Function, [f64; 3]); 27] = [
+const CLOSED_FORMS: [(&str, ReferenceFunction, ReferenceFunction, [f64; 3]); 27] = [
     ("sqrt(x)", |x| 0.5 / x.sqrt(), |x| -0.25 * x.powf(-1.5), [0.1, 1.0, 9.0]),
     (
         "cbrt(x)",

@@ -1,6 +1,6 @@
 //! Places and wording of errors.
 
-use crate::{DerivativeError, Formula, FormulaError, Mistake, Scope};
+use crate::{DerivativeError, ErrorKind, Formula, FormulaError, Scope};
 
 use super::parse;
 
@@ -8,16 +8,16 @@ fn error(text: &str) -> FormulaError {
     Formula::parse(text, &Scope::polar()).expect_err(text)
 }
 
-fn unexpected(expected: &'static str) -> Mistake {
-    Mistake::Unexpected { expected }
+fn unexpected(expected: &'static str) -> ErrorKind {
+    ErrorKind::Unexpected { expected }
 }
 
-fn module(instead: &str) -> Mistake {
-    Mistake::Module { instead: instead.to_owned() }
+fn module(instead: &str) -> ErrorKind {
+    ErrorKind::Module { instead: instead.to_owned() }
 }
 
-fn arguments(expected: usize, given: usize, suggestion: Option<&'static str>) -> Mistake {
-    Mistake::ArgumentCount { expected, given, suggestion }
+fn arguments(expected: usize, given: usize, suggestion: Option<&'static str>) -> ErrorKind {
+    ErrorKind::ArgumentCount { expected, given, suggestion }
 }
 
 fn similar(name: &str) -> Option<String> {
@@ -26,7 +26,7 @@ fn similar(name: &str) -> Option<String> {
 
 #[test]
 fn places_and_problems() {
-    let cases: Vec<(&str, usize, usize, &str, Mistake)> = vec![
+    let cases: Vec<(&str, usize, usize, &str, ErrorKind)> = vec![
         ("", 1, 1, "", unexpected("a number, a name or `(`")),
         ("# only a comment", 1, 17, "", unexpected("a number, a name or `(`")),
         ("x +", 1, 4, "", unexpected("a number, a name or `(`")),
@@ -48,47 +48,47 @@ fn places_and_problems() {
             1,
             13,
             "thet",
-            Mistake::UnknownName { suggestion: similar("theta") },
+            ErrorKind::UnknownName { suggestion: similar("theta") },
         ),
-        ("velocity", 1, 1, "velocity", Mistake::UnknownName { suggestion: None }),
-        ("let size = 1; sze", 1, 15, "sze", Mistake::UnknownName { suggestion: similar("size") }),
-        ("PI*x", 1, 1, "PI", Mistake::UnknownName { suggestion: similar("pi") }),
-        ("(let a = 1; a) + a", 1, 18, "a", Mistake::UnknownName { suggestion: None }),
-        ("1 + snh(x)", 1, 5, "snh", Mistake::UnknownFunction { suggestion: similar("sinh") }),
-        ("ln(x)", 1, 1, "ln", Mistake::UnknownFunction { suggestion: similar("log") }),
-        ("POW(x, 2)", 1, 1, "POW", Mistake::UnknownFunction { suggestion: similar("^") }),
-        ("sitn(x)", 1, 1, "sitn", Mistake::UnknownFunction { suggestion: similar("sin") }),
-        ("tehta/2", 1, 1, "tehta", Mistake::UnknownName { suggestion: similar("theta") }),
+        ("velocity", 1, 1, "velocity", ErrorKind::UnknownName { suggestion: None }),
+        ("let size = 1; sze", 1, 15, "sze", ErrorKind::UnknownName { suggestion: similar("size") }),
+        ("PI*x", 1, 1, "PI", ErrorKind::UnknownName { suggestion: similar("pi") }),
+        ("(let a = 1; a) + a", 1, 18, "a", ErrorKind::UnknownName { suggestion: None }),
+        ("1 + snh(x)", 1, 5, "snh", ErrorKind::UnknownFunction { suggestion: similar("sinh") }),
+        ("ln(x)", 1, 1, "ln", ErrorKind::UnknownFunction { suggestion: similar("log") }),
+        ("POW(x, 2)", 1, 1, "POW", ErrorKind::UnknownFunction { suggestion: similar("^") }),
+        ("sitn(x)", 1, 1, "sitn", ErrorKind::UnknownFunction { suggestion: similar("sin") }),
+        ("tehta/2", 1, 1, "tehta", ErrorKind::UnknownName { suggestion: similar("theta") }),
         ("x > 0 ? 1 : 2", 1, 7, "?", unexpected("`if(condition, a, b)`")),
         ("x² + 1", 1, 2, "²", unexpected("`^2`")),
         ("if(x ≤ y, 1, 2)", 1, 6, "≤", unexpected("`<=`")),
-        ("x(y)", 1, 1, "x", Mistake::NotAFunction),
-        ("pi(y)", 1, 1, "pi", Mistake::NotAFunction),
-        ("sin + 1", 1, 1, "sin", Mistake::MissingArguments),
+        ("x(y)", 1, 1, "x", ErrorKind::NotAFunction),
+        ("pi(y)", 1, 1, "pi", ErrorKind::NotAFunction),
+        ("sin + 1", 1, 1, "sin", ErrorKind::MissingArguments),
         ("x +\n  atan2(y)", 2, 3, "atan2", arguments(2, 1, Some("atan"))),
         ("sin()", 1, 1, "sin", arguments(1, 0, None)),
         ("atan(y, x)", 1, 1, "atan", arguments(1, 2, Some("atan2"))),
         ("max(x, y, r)", 1, 1, "max", arguments(2, 3, None)),
         ("clamp(x, y)", 1, 1, "clamp", arguments(3, 2, None)),
-        ("a = 2; a*x", 1, 1, "a", Mistake::MissingLet),
+        ("a = 2; a*x", 1, 1, "a", ErrorKind::MissingLet),
         ("if(x = 1, 2, 3)", 1, 6, "=", unexpected("`==` to compare")),
         ("x = 1", 1, 3, "=", unexpected("`==` to compare")),
-        ("let x = 1; x", 1, 5, "x", Mistake::NameTaken),
-        ("let pi = 3; pi", 1, 5, "pi", Mistake::NameTaken),
-        ("let a = 1; let a = 2; a", 1, 16, "a", Mistake::NameTaken),
-        ("let a = a + 1; a", 1, 9, "a", Mistake::SelfReference),
+        ("let x = 1; x", 1, 5, "x", ErrorKind::NameTaken),
+        ("let pi = 3; pi", 1, 5, "pi", ErrorKind::NameTaken),
+        ("let a = 1; let a = 2; a", 1, 16, "a", ErrorKind::NameTaken),
+        ("let a = a + 1; a", 1, 9, "a", ErrorKind::SelfReference),
         ("1 + np.sqrt(r)", 1, 5, "np.sqrt", module("sqrt")),
         ("numpy.arctan2(y, x)", 1, 1, "numpy.arctan2", module("atan2")),
         ("2*math.pi", 1, 3, "math.pi", module("pi")),
-        ("1e + x", 1, 1, "1e", Mistake::InvalidNumber),
-        ("x + 1e999", 1, 5, "1e999", Mistake::InvalidNumber),
-        ("if(0 < x < 1, 1, 0)", 1, 10, "<", Mistake::ChainedComparison),
-        ("x + (y < 1)", 1, 6, "y < 1", Mistake::ConditionForNumber),
-        ("x < y", 1, 1, "x < y", Mistake::ConditionForNumber),
-        ("if(x, 1, 0)", 1, 4, "x", Mistake::NumberForCondition),
-        ("if(x > 0 and y, 1, 0)", 1, 14, "y", Mistake::NumberForCondition),
-        ("not x", 1, 5, "x", Mistake::NumberForCondition),
-        ("2*table(kc, x)", 1, 9, "kc", Mistake::NoTables),
+        ("1e + x", 1, 1, "1e", ErrorKind::InvalidNumber),
+        ("x + 1e999", 1, 5, "1e999", ErrorKind::InvalidNumber),
+        ("if(0 < x < 1, 1, 0)", 1, 10, "<", ErrorKind::ChainedComparison),
+        ("x + (y < 1)", 1, 6, "y < 1", ErrorKind::ConditionForNumber),
+        ("x < y", 1, 1, "x < y", ErrorKind::ConditionForNumber),
+        ("if(x, 1, 0)", 1, 4, "x", ErrorKind::NumberForCondition),
+        ("if(x > 0 and y, 1, 0)", 1, 14, "y", ErrorKind::NumberForCondition),
+        ("not x", 1, 5, "x", ErrorKind::NumberForCondition),
+        ("2*table(kc, x)", 1, 9, "kc", ErrorKind::NoTables),
         ("äö + x", 1, 1, "ä", unexpected("a number, a name or an operator")),
     ];
     for (text, line, column, found, mistake) in cases {

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::{Formula, FormulaError, FormulaJets, MAX_DEPTH, MAX_LENGTH, Mistake, Scope, Table};
+use crate::{ErrorKind, Formula, FormulaError, FormulaJets, MAX_DEPTH, MAX_LENGTH, Scope, Table};
 
 use super::{jet_at, jets, same, value};
 
@@ -31,10 +31,10 @@ fn deep_nesting_is_refused() {
     for (open, core, close) in cases {
         let text = format!("{}{core}{}", open.repeat(3_000), close.repeat(3_000));
         let mistake = parse_on_small_stack(text).expect_err(open).mistake;
-        assert!(matches!(mistake, Mistake::TooDeep | Mistake::TooLong), "{open}: {mistake:?}");
+        assert!(matches!(mistake, ErrorKind::TooDeep | ErrorKind::TooLong), "{open}: {mistake:?}");
     }
     let text = format!("{}x{}", "(".repeat(10_000), ")".repeat(10_000));
-    assert_eq!(parse_on_small_stack(text).expect_err("deep").mistake, Mistake::TooDeep);
+    assert_eq!(parse_on_small_stack(text).expect_err("deep").mistake, ErrorKind::TooDeep);
 }
 
 #[test]
@@ -44,10 +44,10 @@ fn deepest_nesting_works_on_a_small_stack() {
         let text = |n: usize| format!("{}x{}", open.repeat(n), close.repeat(n));
         assert!(parse_on_small_stack(text(MAX_DEPTH)).is_ok(), "{open}");
         let refused = parse_on_small_stack(text(MAX_DEPTH + 1)).expect_err(open);
-        assert_eq!(refused.mistake, Mistake::TooDeep);
+        assert_eq!(refused.mistake, ErrorKind::TooDeep);
     }
     let text = format!("{}1", open.repeat(MAX_DEPTH));
-    assert_eq!(parse_on_small_stack(text).expect_err("unclosed").mistake, Mistake::TooDeep);
+    assert_eq!(parse_on_small_stack(text).expect_err("unclosed").mistake, ErrorKind::TooDeep);
 }
 
 /// The same of tables and sides, whose arguments are read by themselves.
@@ -71,7 +71,7 @@ fn deep_nesting_in_tables_and_sides() {
                 .expect("a thread")
                 .join()
                 .expect("no crash");
-            let deep = matches!(mistake, Some(Mistake::TooDeep | Mistake::TooLong));
+            let deep = matches!(mistake, Some(ErrorKind::TooDeep | ErrorKind::TooLong));
             assert_eq!(deep, refused, "{open} {n} times: {mistake:?}");
         }
     }
@@ -99,7 +99,7 @@ fn a_megabyte_is_refused() {
     for unit in ["x+", "(", "a", "#", "\n", "1", "é", "let a=1;"] {
         let text = unit.repeat((1 << 20) / unit.len());
         let error = Formula::parse(&text, &Scope::cartesian()).expect_err("too long");
-        assert_eq!(error.mistake, Mistake::TooLong);
+        assert_eq!(error.mistake, ErrorKind::TooLong);
         assert!(error.to_string().len() < 500);
     }
 }

@@ -5,8 +5,8 @@ use super::{Formula, FormulaJets, Scope, WESTERGAARD, polar, same};
 use crate::graph::Op;
 use crate::lanes::{GREATEST_SQUARE, LEAST_SQUARE};
 use crate::operation::Binary;
-use crate::real::{Scalar, narrowed};
-use crate::{Block, Scratch, Table};
+use crate::real::{LaneNumber, narrowed};
+use crate::{Block, BlockScratch, Table};
 use ppum_testkit::random::Random;
 
 /// Numbers that meet every corner of the operations.
@@ -48,7 +48,7 @@ fn parse(texts: &[&str], scope: &Scope) -> Vec<Formula> {
 }
 
 /// The outputs at each point, which are the same on processors without vectors, to the last bit.
-fn on_lanes<T: Scalar, const N: usize>(jets: &FormulaJets, points: &[[f64; N]]) -> Vec<Vec<T>> {
+fn on_lanes<T: LaneNumber, const N: usize>(jets: &FormulaJets, points: &[[f64; N]]) -> Vec<Vec<T>> {
     let results: Vec<Vec<T>> = by_blocks(jets, points);
     let narrow = narrowed(|| by_blocks::<T, N>(jets, points));
     for (a, b) in results.iter().flatten().zip(narrow.iter().flatten()) {
@@ -58,8 +58,11 @@ fn on_lanes<T: Scalar, const N: usize>(jets: &FormulaJets, points: &[[f64; N]]) 
 }
 
 /// The outputs at each point, by blocks.
-fn by_blocks<T: Scalar, const N: usize>(jets: &FormulaJets, points: &[[f64; N]]) -> Vec<Vec<T>> {
-    let mut scratch = Scratch::default();
+fn by_blocks<T: LaneNumber, const N: usize>(
+    jets: &FormulaJets,
+    points: &[[f64; N]],
+) -> Vec<Vec<T>> {
+    let mut scratch = BlockScratch::default();
     let mut block = jets.block(&mut scratch);
     let mut results = Vec::new();
     for points in points.chunks(Block::<T>::POINTS) {
@@ -280,7 +283,7 @@ fn westergaard() {
 #[test]
 fn plain_outputs_and_inputs_that_stay() {
     let jets = compile(&parse(&["y", "2.5", "x + y", "y + x", "y"], &Scope::cartesian()), 0);
-    let mut scratch = Scratch::<f32>::default();
+    let mut scratch = BlockScratch::<f32>::default();
     let mut block = jets.block(&mut scratch);
     block.input(1).fill(3.0);
     for x in [1.0, 2.0] {
@@ -295,7 +298,7 @@ fn plain_outputs_and_inputs_that_stay() {
 /// One memory serves formulas of any size.
 #[test]
 fn memory_is_reused() {
-    let mut scratch = Scratch::<f64>::default();
+    let mut scratch = BlockScratch::<f64>::default();
     for texts in [&["x"][..], &OPERATIONS, &["x*y"]] {
         let jets = compile(&parse(texts, &Scope::cartesian()), 0);
         let mut block = jets.block(&mut scratch);

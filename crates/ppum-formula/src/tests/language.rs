@@ -4,8 +4,8 @@ use std::f64::consts::{E, PI};
 
 use super::{Formula, Scope, parse, value};
 
-type Unary = fn(f64) -> f64;
-type Binary = fn(f64, f64) -> f64;
+type UnaryCase = fn(f64) -> f64;
+type BinaryCase = fn(f64, f64) -> f64;
 
 #[test]
 fn precedence_and_grouping() {
@@ -105,7 +105,7 @@ fn agree(found: f64, expected: f64, is_exact: bool) -> bool {
 
 #[test]
 fn functions_of_one_number() {
-    let cases: [(&str, Unary); 17] = [
+    let cases: [(&str, UnaryCase); 17] = [
         ("sqrt", f64::sqrt),
         ("cbrt", f64::cbrt),
         ("exp", f64::exp),
@@ -137,7 +137,7 @@ fn functions_of_one_number() {
 
 #[test]
 fn functions_of_several_numbers() {
-    let cases: [(&str, Binary); 8] = [
+    let cases: [(&str, BinaryCase); 8] = [
         ("atan2(x, y)", f64::atan2),
         ("hypot(x, y)", f64::hypot),
         ("min(x, y)", f64::min),

@@ -11,9 +11,9 @@ use super::{Formula, Scope, jet_at, jets, polar, same};
 /// Value, gradient and Hessian carried along numerically (order v, x, y, xx, xy, yy): an evaluation
 /// that shares nothing with the graph.
 #[derive(Clone, Copy)]
-pub(super) struct Jet([f64; 6]);
+pub(super) struct NumericJet([f64; 6]);
 
-impl Jet {
+impl NumericJet {
     fn constant(v: f64) -> Self {
         Self([v, 0.0, 0.0, 0.0, 0.0, 0.0])
     }
@@ -70,14 +70,14 @@ impl Jet {
 }
 
 /// A random formula: its text and its jet at a point.
-pub(super) struct Sample {
+pub(super) struct RandomFormula {
     pub(super) text: String,
-    jet: Jet,
+    jet: NumericJet,
     /// Largest number met on the way: bounds the rounding errors.
     pub(super) largest: f64,
 }
 
-pub(super) fn sample(random: &mut Random, point: &[Jet; 4], depth: usize) -> Sample {
+pub(super) fn sample(random: &mut Random, point: &[NumericJet; 4], depth: usize) -> RandomFormula {
     if depth == 0 || random.below(8) == 0 {
         return leaf(random, point);
     }
@@ -89,28 +89,28 @@ pub(super) fn sample(random: &mut Random, point: &[Jet; 4], depth: usize) -> Sam
     join(random, a, b)
 }
 
-fn node(text: String, jet: Jet, parts: &[f64]) -> Sample {
+fn node(text: String, jet: NumericJet, parts: &[f64]) -> RandomFormula {
     let largest = jet.0.iter().map(|v| v.abs()).chain(parts.iter().copied()).fold(0.0, f64::max);
     // `max` would lose a NaN
     let largest = if jet.0.iter().all(|v| v.is_finite()) { largest } else { f64::INFINITY };
-    Sample { text, jet, largest }
+    RandomFormula { text, jet, largest }
 }
 
-fn leaf(random: &mut Random, point: &[Jet; 4]) -> Sample {
+fn leaf(random: &mut Random, point: &[NumericJet; 4]) -> RandomFormula {
     let index = random.below(7);
     if let Some(jet) = point.get(index) {
         return node(["x", "y", "r", "theta"][index].to_owned(), *jet, &[]);
     }
     if index == 4 {
         let multiple = random.pick(&[0.5, -0.5, 1.5, 2.0, -3.0, 3.5]);
-        let jet = Jet::constant(0.0).plus(point[3], multiple);
+        let jet = NumericJet::constant(0.0).plus(point[3], multiple);
         return node(format!("(theta*{multiple})"), jet, &[]);
     }
     let value = random.pick(&[0.5, 2.0, 3.0, 0.1, 1.0, 0.0, 7.25]);
-    node(format!("{value}"), Jet::constant(value), &[])
+    node(format!("{value}"), NumericJet::constant(value), &[])
 }
 
-fn call(random: &mut Random, a: Sample) -> Sample {
+fn call(random: &mut Random, a: RandomFormula) -> RandomFormula {
     let name = random
         .pick(&["sin", "cos", "atan", "tanh", "exp", "sqrt", "log", "abs", "-", "square", "table"]);
     let text = match name {
@@ -132,7 +132,7 @@ fn excluded(yes: bool) -> f64 {
     if yes { f64::INFINITY } else { 0.0 }
 }
 
-fn join(random: &mut Random, a: Sample, b: Sample) -> Sample {
+fn join(random: &mut Random, a: RandomFormula, b: RandomFormula) -> RandomFormula {
     let larger = a.jet.0[0] > b.jet.0[0];
     let sign = random.pick(&["+", "-", "*", "/", "max", "min", "if", "hypot"]);
     let jet = match sign {
@@ -171,14 +171,14 @@ fn join(random: &mut Random, a: Sample, b: Sample) -> Sample {
     node(text, jet, &[a.largest, b.largest, excluded(tied)])
 }
 
-pub(super) fn point(x: f64, y: f64) -> [Jet; 4] {
+pub(super) fn point(x: f64, y: f64) -> [NumericJet; 4] {
     let [_, _, r, theta, ..] = polar(x, y);
     let (c, s) = (x / r, y / r);
     [
-        Jet([x, 1.0, 0.0, 0.0, 0.0, 0.0]),
-        Jet([y, 0.0, 1.0, 0.0, 0.0, 0.0]),
-        Jet([r, c, s, s * s / r, -s * c / r, c * c / r]),
-        Jet([
+        NumericJet([x, 1.0, 0.0, 0.0, 0.0, 0.0]),
+        NumericJet([y, 0.0, 1.0, 0.0, 0.0, 0.0]),
+        NumericJet([r, c, s, s * s / r, -s * c / r, c * c / r]),
+        NumericJet([
             theta,
             -s / r,
             c / r,

@@ -1,6 +1,6 @@
 //! Sides of cracks in formulas.
 
-use crate::{Formula, FormulaError, Mistake, Scope};
+use crate::{ErrorKind, Formula, FormulaError, Scope};
 
 use super::{jet_at, jets};
 
@@ -35,18 +35,18 @@ fn derivatives_are_zero() {
 
 #[test]
 fn errors_say_how_many_cracks_there_are() {
-    let unknown = |cracks| Mistake::UnknownCrack { cracks };
+    let unknown = |cracks| ErrorKind::UnknownCrack { cracks };
     for (text, column, found, mistake) in [
         ("1 + side(2)", 10, "2", unknown(2)),
         ("side(0.5)", 6, "0.5", unknown(2)),
         ("side(-1)", 6, "-1", unknown(2)),
         ("side(x)", 6, "x", unknown(2)),
         ("side(1e10)", 6, "1e10", unknown(2)),
-        ("side()", 6, ")", Mistake::Unexpected { expected: "the number of a crack" }),
-        ("side(0, 1)", 7, ",", Mistake::Unexpected { expected: "an operator or `)`" }),
-        ("side", 1, "side", Mistake::MissingArguments),
-        ("let side = 1; side", 5, "side", Mistake::NameTaken),
-        ("side(0", 7, "", Mistake::Unexpected { expected: "an operator or `)`" }),
+        ("side()", 6, ")", ErrorKind::Unexpected { expected: "the number of a crack" }),
+        ("side(0, 1)", 7, ",", ErrorKind::Unexpected { expected: "an operator or `)`" }),
+        ("side", 1, "side", ErrorKind::MissingArguments),
+        ("let side = 1; side", 5, "side", ErrorKind::NameTaken),
+        ("side(0", 7, "", ErrorKind::Unexpected { expected: "an operator or `)`" }),
     ] {
         let error = error(text, &scope());
         assert_eq!(error.mistake, mistake, "{text}");

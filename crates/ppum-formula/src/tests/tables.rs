@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::{Formula, FormulaError, Mistake, Scope, ScopeError, Table};
+use crate::{ErrorKind, Formula, FormulaError, Scope, ScopeError, Table};
 
 use super::{assert_near, jet_at, jets};
 
@@ -97,15 +97,15 @@ fn error(text: &str) -> FormulaError {
 
 #[test]
 fn errors_point_at_the_place() {
-    let unknown = |suggestion: Option<&str>| Mistake::UnknownTable {
+    let unknown = |suggestion: Option<&str>| ErrorKind::UnknownTable {
         suggestion: suggestion.map(Into::into),
         known: "k, g".into(),
     };
-    let arguments = |form: &str, given| Mistake::TableArguments { form: form.into(), given };
+    let arguments = |form: &str, given| ErrorKind::TableArguments { form: form.into(), given };
     for (text, column, found, mistake) in [
-        ("1 + k", 5, "k", Mistake::TableForNumber),
-        ("let k = 1; k", 5, "k", Mistake::NameTaken),
-        ("k(x)", 1, "k", Mistake::TableForNumber),
+        ("1 + k", 5, "k", ErrorKind::TableForNumber),
+        ("let k = 1; k", 5, "k", ErrorKind::NameTaken),
+        ("k(x)", 1, "k", ErrorKind::TableForNumber),
         ("table(x, y)", 7, "x", unknown(None)),
         ("table(K, y)", 7, "K", unknown(Some("k"))),
         ("table(k, x, y)", 1, "table", arguments("table(k, x)", 3)),
@@ -113,15 +113,20 @@ fn errors_point_at_the_place() {
         ("table(k)", 1, "table", arguments("table(k, x)", 1)),
         ("dtable(k, x)", 1, "dtable", arguments("dtable(k, m, x)", 2)),
         ("dtable(g, 1, x, y)", 1, "dtable", arguments("dtable(g, m, n, x, y)", 4)),
-        ("dtable(k, x, 1)", 11, "x", Mistake::InvalidOrder),
-        ("dtable(k, 0.5, x)", 11, "0.5", Mistake::InvalidOrder),
-        ("table()", 7, ")", Mistake::Unexpected { expected: "the name of a table" }),
-        ("table(2, x)", 7, "2", Mistake::Unexpected { expected: "the name of a table" }),
-        ("table + 1", 1, "table", Mistake::MissingArguments),
-        ("table(k, x < y)", 10, "x < y", Mistake::ConditionForNumber),
-        ("tabel(k, x)", 1, "tabel", Mistake::UnknownFunction { suggestion: Some("table".into()) }),
-        ("2*K", 3, "K", Mistake::UnknownName { suggestion: Some("table(k, …)".into()) }),
-        ("table(k, x", 11, "", Mistake::Unexpected { expected: "an operator, `,` or `)`" }),
+        ("dtable(k, x, 1)", 11, "x", ErrorKind::InvalidOrder),
+        ("dtable(k, 0.5, x)", 11, "0.5", ErrorKind::InvalidOrder),
+        ("table()", 7, ")", ErrorKind::Unexpected { expected: "the name of a table" }),
+        ("table(2, x)", 7, "2", ErrorKind::Unexpected { expected: "the name of a table" }),
+        ("table + 1", 1, "table", ErrorKind::MissingArguments),
+        ("table(k, x < y)", 10, "x < y", ErrorKind::ConditionForNumber),
+        (
+            "tabel(k, x)",
+            1,
+            "tabel",
+            ErrorKind::UnknownFunction { suggestion: Some("table".into()) },
+        ),
+        ("2*K", 3, "K", ErrorKind::UnknownName { suggestion: Some("table(k, …)".into()) }),
+        ("table(k, x", 11, "", ErrorKind::Unexpected { expected: "an operator, `,` or `)`" }),
     ] {
         let error = error(text);
         assert_eq!(error.mistake, mistake, "{text}");

@@ -16,7 +16,7 @@ use std::sync::Arc;
 use crate::graph::{NodeId, Op};
 use crate::language::scope::{Scope, VARIABLES};
 use crate::operation::{Binary, Unary};
-use crate::program::Program;
+use crate::program::FormulaProgram;
 use crate::table::Table;
 use crate::wgsl::number::number;
 use crate::wgsl::table::{MAX_ELEMENTS, elements};
@@ -57,7 +57,7 @@ pub enum WgslError {
 }
 
 /// Checks that a program with this number of parameters is within the limits of WGSL.
-pub(crate) fn check(program: &Program, count: usize) -> Result<(), WgslError> {
+pub(crate) fn check(program: &FormulaProgram, count: usize) -> Result<(), WgslError> {
     if count > MAX_PARAMETERS {
         return Err(WgslError::Inputs { count });
     }
@@ -75,7 +75,7 @@ pub(crate) fn check(program: &Program, count: usize) -> Result<(), WgslError> {
 pub(crate) fn function(
     name: &str,
     scope: &Scope,
-    program: &Program,
+    program: &FormulaProgram,
     kept: impl Fn(usize) -> bool,
 ) -> String {
     let inputs: Vec<String> = scope.inputs().map(parameter).collect();
@@ -88,8 +88,13 @@ pub(crate) fn function(
         .collect();
     let n = program.outputs().len();
     text += &format!("fn {name}({}) -> array<f32, {n}> {{\n", parameters.join(", "));
-    let mut results =
-        Results { function: name, inputs: &inputs, atoms: Vec::new(), lets: 0, places: Vec::new() };
+    let mut results = WgslResults {
+        function: name,
+        inputs: &inputs,
+        atoms: Vec::new(),
+        lets: 0,
+        places: Vec::new(),
+    };
     for &op in program.ops() {
         text += &results.add(op);
     }
@@ -111,7 +116,7 @@ fn parameter(input: &str) -> String {
 }
 
 /// The results so far.
-struct Results<'a> {
+struct WgslResults<'a> {
     function: &'a str,
     inputs: &'a [String],
     /// The text of each operation where it is used: a name, or a constant.
@@ -122,7 +127,7 @@ struct Results<'a> {
     places: Vec<(u32, NodeId, Option<NodeId>)>,
 }
 
-impl Results<'_> {
+impl WgslResults<'_> {
     /// The text of an earlier operation.
     fn at(&self, id: NodeId) -> &str {
         &self.atoms[id.index()]
@@ -256,14 +261,14 @@ fn table_name(index: u32, function: &str) -> String {
 }
 
 /// The functions of the tables that a program uses.
-fn tables(function: &str, program: &Program) -> String {
+fn tables(function: &str, program: &FormulaProgram) -> String {
     let text =
         |(index, table): (u32, &Arc<Table>)| table::function(&table_name(index, function), table);
     used_tables(program).map(text).collect()
 }
 
 /// The tables that a program uses, with their indices.
-fn used_tables(program: &Program) -> impl Iterator<Item = (u32, &Arc<Table>)> {
+fn used_tables(program: &FormulaProgram) -> impl Iterator<Item = (u32, &Arc<Table>)> {
     let is_used = |index: u32| {
         program.ops().iter().any(|op| matches!(op, Op::Table { table, .. } if *table == index))
     };

@@ -16,8 +16,8 @@ pub(crate) fn elements(table: &Table) -> usize {
     table.x().len().max(table.y().len()).max(table.coefficients().len() / 4)
 }
 
-/// The function of a table. Of one argument x it gives f, f′, f″, f‴ as `vec4<f32>`; of two
-/// the array whose element \[n\]\[m\] is ∂ᵐ⁺ⁿf/∂xᵐ∂yⁿ.
+/// The function of a table. For one argument x it gives f, f′, f″, f‴ as `vec4<f32>`; of two the
+/// array whose element \[n\]\[m\] is ∂ᵐ⁺ⁿf/∂xᵐ∂yⁿ.
 pub(crate) fn function(name: &str, table: &Table) -> String {
     let text = if table.y().is_empty() { curve(name, table) } else { surface(name, table) };
     format!("// Derivatives of the table `{}`.\n{text}", table.name())

@@ -1,20 +1,20 @@
-//! Warnings about singular points of the border that the cells do not resolve.
+//! Warnings about singular points of the boundary that the cells do not resolve.
 
 use super::{short, smaller_cells, warning};
 use ppum::dataset::{Warning, WarningKind};
 use ppum::field::Field;
-use ppum::text::Places;
+use ppum::text::LocationText;
 use ppum::vec2::Rect;
 use ppum_problem::Problem;
-use ppum_solve::corner::{Corner, Nature, corners};
+use ppum_solve::corner::{CornerMedium, SingularCorner, corners};
 use ppum_solve::norms::energy_of;
-use ppum_solve::space::Space;
+use ppum_solve::space::TrialSpace;
 
 /// Part of the energy that may be missed at a singular point; factors nearby are off by several
 /// times that.
 const LARGE_MISS: f64 = 5e-4;
 
-/// Part of their own energy that cells at a singular point miss, over (1 − λ)²: 0.5 to 2 in plates
+/// Part of their own energy that cells at a singular point miss, over (1 − λ)²: 0.5 to 2 in bodies
 /// with clamped corners, restraints that end, corners of holes and kinks (order 2, held against
 /// energies of another method).
 const MISSED: f64 = 0.9;
@@ -23,11 +23,11 @@ const MISSED: f64 = 0.9;
 pub(super) fn of_corners(
     problem: &Problem,
     field: &Field<'_>,
-    space: &Space<'_>,
-    (energy, places): (f64, &Places),
+    space: &TrialSpace<'_>,
+    (energy, places): (f64, &LocationText),
 ) -> Vec<Warning> {
-    let of_corner = |corner: &Corner| {
-        if corner.nature == Nature::Jump {
+    let of_corner = |corner: &SingularCorner| {
+        if corner.nature == CornerMedium::Jump {
             return Some(infinite(corner, places));
         }
         if has_functions(corner, problem, space) {
@@ -46,7 +46,7 @@ pub(super) fn of_corners(
 }
 
 /// True if all patches that hold a corner have the functions of its wedge.
-fn has_functions(corner: &Corner, problem: &Problem, space: &Space<'_>) -> bool {
+fn has_functions(corner: &SingularCorner, problem: &Problem, space: &TrialSpace<'_>) -> bool {
     let supports = (0..space.partition().len()).map(|patch| space.partition().support(patch));
     let mut holding = supports.filter(|support| support.contains(corner.at));
     let part = |support: Rect| support.intersection(&problem.domain().bounds);
@@ -54,14 +54,14 @@ fn has_functions(corner: &Corner, problem: &Problem, space: &Space<'_>) -> bool 
 }
 
 /// Growth of displacements at a singular point, in words.
-fn growth(corner: &Corner) -> String {
+fn growth(corner: &SingularCorner) -> String {
     match corner.nature {
-        Nature::Load => "r ln r".into(),
+        CornerMedium::Load => "r ln r".into(),
         _ => format!("r^{}", short((1e3 * corner.exponent).round() / 1e3)),
     }
 }
 
-fn infinite(corner: &Corner, places: &Places) -> Warning {
+fn infinite(corner: &SingularCorner, places: &LocationText) -> Warning {
     let message = format!(
         "{}: the values given on the border jump there; such a field has infinite energy, and energies, reactions \
          and stresses nearby depend on the cells; make the values continuous",
@@ -71,10 +71,10 @@ fn infinite(corner: &Corner, places: &Places) -> Warning {
 }
 
 fn unresolved(
-    corner: &Corner,
+    corner: &SingularCorner,
     (size, missed): (f64, f64),
     problem: &Problem,
-    places: &Places,
+    places: &LocationText,
 ) -> Warning {
     let message = format!(
         "{}: stresses are infinite at {} (displacements grow like {}), and cells {} wide miss about {} % of the \

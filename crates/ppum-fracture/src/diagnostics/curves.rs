@@ -2,8 +2,8 @@
 //!
 //! K of a polyline with turns α is off by a part of up to 7e-3 α^(3/2), which is added to its
 //! estimated error. T is off by more: a kink of angle α at the distance s from a tip changes T
-//! there by −c α K_II / √s, to first order, and a curve is the sum of its kinks. What a polyline
-//! lacks of it,
+//! there by −c α K_II / √s, to first order, and a curve is the sum of its kinks. The difference
+//! between the curve and its polyline,
 //!
 //! ```text
 //! T_curve − T = −c K_II ( Σ α_k / √s_k − ∫ κ / √s ds )
@@ -13,7 +13,7 @@
 //! that are looked at, where the formula of Euler and Maclaurin ends the sum.
 
 use super::{short, warning};
-use crate::intensity::TipOutcome;
+use crate::intensity::TipResult;
 use ppum::crack::{Crack, End};
 use ppum::dataset::{TipIntensity, Warning, WarningKind};
 use ppum::vec2::Vec2;
@@ -36,7 +36,7 @@ pub(super) const LARGE_T: f64 = 0.01;
 
 /// The warning about T of a tip, if its crack may be meant as a curve.
 pub(super) fn of_curve(
-    outcome: &TipOutcome,
+    outcome: &TipResult,
     factors: &TipIntensity,
     crack: &Crack,
     at: &str,

@@ -10,7 +10,7 @@ use ppum::crack::Side;
 use ppum::dataset::{Dataset, Step, Warning, WarningKind};
 use ppum::field::{Field, FieldError};
 use ppum::jet::Jet;
-use ppum::text::Places;
+use ppum::text::LocationText;
 use ppum::vec2::{Rect, Vec2};
 use rayon::prelude::*;
 
@@ -28,12 +28,12 @@ const PLACES: [[f64; 2]; 5] =
     [[0.0, 0.0], [-0.26, -0.23], [0.24, -0.27], [-0.22, 0.25], [0.28, 0.21]];
 
 /// Mean of the rounding errors over that of the gradients from which on a field is nothing but
-/// rounding: a plate that moves as a rigid body.
+/// rounding: a body that moves as a rigid body.
 const ALL: f64 = 1e-3;
 
 /// Relative rounding errors of the gradient of a field.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Rounding {
+pub struct GradientRounding {
     /// The largest one.
     pub largest: f64,
     /// The centre of its cell.
@@ -42,7 +42,7 @@ pub struct Rounding {
     pub mean: f64,
 }
 
-impl Rounding {
+impl GradientRounding {
     /// True if the gradient is nothing but rounding everywhere.
     pub(super) fn is_all(&self) -> bool {
         self.mean > ALL
@@ -54,7 +54,7 @@ impl Rounding {
 ///
 /// # Errors
 /// Functions that do not compile.
-pub fn rounding(dataset: &Dataset, step: usize) -> Result<Rounding, FieldError> {
+pub fn rounding(dataset: &Dataset, step: usize) -> Result<GradientRounding, FieldError> {
     let mut noise = dataset.clone();
     noise.steps = vec![with_noise(&dataset.steps[step])];
     let (field, noise) = (Field::new(dataset, step)?, Field::new(&noise, 0)?);
@@ -70,14 +70,14 @@ pub fn rounding(dataset: &Dataset, step: usize) -> Result<Rounding, FieldError> 
     let largest = errors.reduce(|a, b| if b.0 > a.0 { b } else { a });
     let (largest, at) = largest.map_or((0.0, Vec2::ZERO), |(e, cell)| (e, cell.center()));
     let all = if mean > 0.0 { ROUNDINGS * f64::EPSILON * of_noise / mean } else { 0.0 };
-    Ok(Rounding { largest, at, mean: all })
+    Ok(GradientRounding { largest, at, mean: all })
 }
 
 /// The warning about a field that few digits are left of, by its rounding error and where that is.
 pub(super) fn of_digits(
-    Rounding { largest: error, at, mean }: Rounding,
+    GradientRounding { largest: error, at, mean }: GradientRounding,
     cutters: Cutters,
-    places: &Places,
+    places: &LocationText,
 ) -> Option<Warning> {
     let cause = match cutters {
         Cutters::Nothing => "functions of a patch nearly depend on each other".into(),

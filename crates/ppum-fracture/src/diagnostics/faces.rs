@@ -5,7 +5,7 @@ use ppum::crack::{Crack, SegmentId, Side, TipId};
 use ppum::dataset::{Warning, WarningKind};
 use ppum::field::Field;
 use ppum::jet::Jet;
-use ppum::text::Places;
+use ppum::text::LocationText;
 use ppum::vec2::{Vec2, vec2};
 use ppum_problem::{Problem, Symmetry};
 use ppum_solve::terms::{face_law, symmetry_of_field};
@@ -20,7 +20,7 @@ const NOISE: f64 = 5e-3;
 pub(super) fn of_faces(
     field: &Field<'_>,
     problem: Option<&Problem>,
-    seats: &Places,
+    seats: &LocationText,
 ) -> Vec<Warning> {
     if field.equation.elastic().is_none() || field.components() != 2 {
         return Vec::new();
@@ -34,7 +34,7 @@ pub(super) fn of_faces(
     field.step.cracks.iter().enumerate().filter_map(of_crack).collect()
 }
 
-/// What to do about faces of a crack that overlap.
+/// Returns the remedy for faces of a crack that overlap.
 pub(super) fn remedy(problem: Option<&Problem>, crack: u32) -> &'static str {
     match problem {
         Some(problem) if face_law(problem, crack).is_some() => "use smaller cells along the crack",
@@ -61,7 +61,7 @@ type FieldAtFaces<'a> = (&'a Field<'a>, Option<Symmetry>);
 fn overlap(
     field: FieldAtFaces<'_>,
     (index, crack): (usize, &Crack),
-    (seats, remedy): (&Places, &str),
+    (seats, remedy): (&LocationText, &str),
 ) -> Option<Warning> {
     let places: Vec<FaceSample> =
         places(crack, index).filter_map(|p| FaceSample::new(field, p)).collect();

@@ -5,11 +5,11 @@ use ppum::crack::Side;
 use ppum::dataset::{Dataset, Warning, WarningKind};
 use ppum::field::Field;
 use ppum::jet::Jet;
-use ppum::text::Places;
+use ppum::text::LocationText;
 use ppum::vec2::{Vec2, vec2};
 use ppum_solve::law::Law;
-use ppum_solve::smoothness::{Cause, Interfaces, Trouble};
-use ppum_solve::space::Space;
+use ppum_solve::smoothness::{Cause, Interfaces, UnresolvedKink};
+use ppum_solve::space::TrialSpace;
 
 /// Points in each direction of a cell at which its energy is looked at.
 const LOOKS: usize = 4;
@@ -25,8 +25,8 @@ const LARGE: f64 = 1e-3;
 /// relative error of the energy.
 pub(super) fn of_interfaces(
     (field, law): (&Field<'_>, &Law<'_>),
-    (dataset, space): (&Dataset, &Space<'_>),
-    places: &Places,
+    (dataset, space): (&Dataset, &TrialSpace<'_>),
+    places: &LocationText,
 ) -> Vec<Warning> {
     let interfaces = Interfaces::new(law.constants(), &dataset.domain, &field.step.cracks);
     if interfaces.all.is_empty() {
@@ -47,7 +47,7 @@ pub(super) fn of_interfaces(
     causes.into_iter().filter_map(|cause| of_cause(cause, &all, places)).collect()
 }
 
-fn of_cause(cause: Cause, all: &[(Trouble, f64)], places: &Places) -> Option<Warning> {
+fn of_cause(cause: Cause, all: &[(UnresolvedKink, f64)], places: &LocationText) -> Option<Warning> {
     let such = || all.iter().filter(|(found, _)| found.cause == cause);
     let worst = such().max_by(|a, b| a.1.total_cmp(&b.1))?.0;
     let value: f64 = such().map(|(_, share)| share).sum();
@@ -63,7 +63,7 @@ fn of_cause(cause: Cause, all: &[(Trouble, f64)], places: &Places) -> Option<War
     })
 }
 
-/// About the energy of a cell, what of it lies in the plate.
+/// About the energy of a cell, what of it lies in the body.
 fn energy(field: &Field<'_>, law: &Law<'_>, cell: usize) -> f64 {
     let rect = field.step.partition.boxes().cell[cell];
     let (min, step) = (rect.min, rect.size() * (1.0 / LOOKS as f64));

@@ -18,12 +18,12 @@ mod tips;
 mod warning;
 
 pub(crate) use curves::error_of_segments;
-pub use digits::{FEW_DIGITS, Rounding, rounding};
+pub use digits::{FEW_DIGITS, GradientRounding, rounding};
 pub use warning::{
     LARGE_CUT_OFF, LARGE_ERROR, LARGE_IMBALANCE, LARGE_LOCKING, LARGE_NITSCHE, LARGE_RESIDUAL,
 };
 
-use crate::intensity::{LoadCase, TipOutcome, intensities_by, with_cells};
+use crate::intensity::{LoadCase, TipResult, intensities_by, with_cells};
 use corners::of_corners;
 use digits::of_digits;
 use faces::of_faces;
@@ -32,14 +32,14 @@ use locking::locking;
 use ppum::dataset::{Dataset, Warning, WarningKind};
 use ppum::field::{Field, FieldError};
 use ppum::progress::{Cancelled, Phase, Watcher};
-use ppum::text::Places;
+use ppum::text::LocationText;
 use ppum_problem::Problem;
 use ppum_problem::geometry::known_points;
 use ppum_solve::law::{Law, Temperature};
 use ppum_solve::norms::energy;
-use ppum_solve::report::{SolverReport, Unresolved};
-use ppum_solve::space::Space;
-use ppum_solve::watched::Stage;
+use ppum_solve::report::{SolverReport, UnresolvedIntegrand};
+use ppum_solve::space::TrialSpace;
+use ppum_solve::watched::WorkPhase;
 use pressure::of_pressure;
 use report::{Cutters, of_report};
 use rims::of_rims;
@@ -53,7 +53,7 @@ pub(crate) struct DiagnosedSolution<'a> {
     pub(crate) step: usize,
     /// The first field of the step.
     pub(crate) field: &'a Field<'a>,
-    pub(crate) space: &'a Space<'a>,
+    pub(crate) space: &'a TrialSpace<'a>,
     pub(crate) law: &'a Law<'a>,
     /// The temperature that strains the body, if one does.
     pub(crate) temperature: Option<&'a Temperature>,
@@ -61,7 +61,7 @@ pub(crate) struct DiagnosedSolution<'a> {
     pub(crate) problem: Option<&'a Problem>,
     pub(crate) report: &'a SolverReport,
     /// Integrands of the system that were not resolved.
-    pub(crate) unresolved: &'a [Unresolved],
+    pub(crate) unresolved: &'a [UnresolvedIntegrand],
 }
 
 /// The findings about a solution.
@@ -93,7 +93,7 @@ pub fn recompute(
     step: usize,
     problem: Option<&Problem>,
     watcher: &dyn Watcher,
-) -> Result<(Vec<TipOutcome>, Vec<Warning>), RecomputeError> {
+) -> Result<(Vec<TipResult>, Vec<Warning>), RecomputeError> {
     Field::new(dataset, step)?;
     let has_cells = dataset.steps[step].partition.boxes().has_cells();
     let (cells, number) = with_cells(dataset, step)?;
@@ -106,22 +106,22 @@ pub fn recompute(
     }
 }
 
-/// The same of a displacement, in a body that a temperature may strain.
+/// Recomputes the factors and warnings of a displacement, in a body that a temperature may strain.
 fn recompute_plain(
     (dataset, step, has_cells): (&Dataset, usize, bool),
     heat: Option<Temperature>,
     problem: Option<&Problem>,
     watcher: &dyn Watcher,
-) -> Result<(Vec<TipOutcome>, Vec<Warning>), RecomputeError> {
+) -> Result<(Vec<TipResult>, Vec<Warning>), RecomputeError> {
     let field = Field::new(dataset, step)?;
     let Dataset { domain, equation, tables, .. } = dataset;
-    let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
+    let space = TrialSpace::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
     let law = &Law::new(equation).heated(heat.as_ref());
     let loads = LoadCase { problem, factor: field.step.load };
     let tips = intensities_by(law, dataset, &field, &space, &loads, watcher)?;
     // what else is warned of is found cell by cell
     if !has_cells {
-        let places = Places::new(&domain.bounds, &field.step.cracks);
+        let places = LocationText::new(&domain.bounds, &field.step.cracks);
         let warnings = of_tips(problem, &tips, &field.step.cracks, &places);
         return Ok((tips, warnings));
     }
@@ -149,12 +149,12 @@ impl DiagnosedSolution<'_> {
     /// Functions that do not compile; cancelled.
     pub(crate) fn diagnose(
         &self,
-        tips: &[TipOutcome],
+        tips: &[TipResult],
         watcher: &dyn Watcher,
     ) -> Result<Diagnosis, RecomputeError> {
         let Self { dataset, field, space, law, .. } = *self;
-        let stage = Stage::uncounted(watcher, Phase::Estimation)?;
-        let places = Places::new(&dataset.domain.bounds, &field.step.cracks);
+        let stage = WorkPhase::uncounted(watcher, Phase::Estimation)?;
+        let places = LocationText::new(&dataset.domain.bounds, &field.step.cracks);
         let cutters = Cutters::new(field.step, &dataset.domain);
         let adaptivity = self.problem.and_then(|problem| problem.adaptivity.as_ref());
         let rounding = rounding(dataset, self.step)?;
@@ -203,7 +203,8 @@ impl DiagnosedSolution<'_> {
         let dataset = &heat.potential(&problem.equation);
         let field = &Field::new(dataset, 0)?;
         let Dataset { domain, equation, tables, .. } = dataset;
-        let space = &Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
+        let space =
+            &TrialSpace::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
         let report = &SolverReport { energy: Some(energy(field, space)), ..heat.report.clone() };
         let (problem, unresolved) = (Some(problem), heat.unresolved.as_slice());
         let case = DiagnosedSolution {
@@ -224,8 +225,8 @@ impl DiagnosedSolution<'_> {
     }
 }
 
-/// The warning about an order too low for a plate that hardly changes its volume.
-fn of_locking(field: &Field<'_>, space: &Space<'_>) -> Option<Warning> {
+/// The warning about an order too low for a body that hardly changes its volume.
+fn of_locking(field: &Field<'_>, space: &TrialSpace<'_>) -> Option<Warning> {
     let lost = locking(field, space);
     let message = format!(
         "the plate is nearly incompressible, and polynomials of this order make it too stiff: about {} % of the \
@@ -244,10 +245,10 @@ fn of_heat(found: Warning) -> Warning {
 }
 
 /// The warnings about what quadrature does not resolve.
-fn of_quadrature(unresolved: &[Unresolved], places: &Places) -> Vec<Warning> {
+fn of_quadrature(unresolved: &[UnresolvedIntegrand], places: &LocationText) -> Vec<Warning> {
     let large = unresolved.iter().filter(|found| found.error.is_nan() || found.error > LARGE_ERROR);
-    let warning = |found: &Unresolved| {
-        let Unresolved { load, error, at } = found;
+    let warning = |found: &UnresolvedIntegrand| {
+        let UnresolvedIntegrand { load, error, at } = found;
         let kind = if load.is_some() { WarningKind::Load } else { WarningKind::Quadrature };
         warning(
             kind,

@@ -1,16 +1,17 @@
-//! Pressure that oscillates from cell to cell, in a plate that hardly changes its volume.
+//! Pressure that oscillates from cell to cell, in a body that hardly changes its volume.
 //!
 //! Polynomials of order p that are free of locking have right displacements, energies and factors,
 //! but λ div u multiplies what is left of div u by λ. A pressure that is right is smooth: over
-//! three cells in each direction it is, as well as the displacements are, a polynomial of degree
-//! p − 1. What the computed one has beyond that, its expansion in Chebyshev polynomials tells,
+//! three cells in each direction it is, as well as the displacements are, a polynomial of degree p
+//! − 1. The part of the computed pressure that exceeds this degree follows from its expansion in
+//! Chebyshev polynomials,
 //!
 //! ```text
 //! p = Σ c_rs T_r T_s,   tail² = Σ_(r + s ≥ p) c_rs²,   error ≈ median of tail / root mean square of the stresses
 //! ```
 //!
 //! Cell by cell the tail is 0.8 to 1.3 times the error away from singular points, where the
-//! pressure is no polynomial; so the median by area is told.
+//! pressure is no polynomial; so the median by area is reported.
 
 use super::{short, warning};
 use ppum::crack::Side;
@@ -77,7 +78,7 @@ fn mean_stress(all: &[Oscillation]) -> f64 {
 }
 
 /// The pressure in a cell and around it up to the distance of its size; `None` if that does not lie
-/// in the plate, or the volume may change there.
+/// in the body, or the volume may change there.
 fn oscillation(field: &Field<'_>, law: &Law<'_>, cell: usize) -> Option<Oscillation> {
     let (rect, data) = (field.step.partition.boxes().cell[cell], &field.step.fields[0]);
     let order =
@@ -99,7 +100,7 @@ fn oscillation(field: &Field<'_>, law: &Law<'_>, cell: usize) -> Option<Oscillat
     Some(Oscillation { area: rect.size().x * rect.size().y, tail, stress })
 }
 
-/// λ tr(ε − ε⁰) and σ:σ in the plane at a point; `None` outside the plate, and where they are
+/// λ tr(ε − ε⁰) and σ:σ in the plane at a point; `None` outside the body, and where they are
 /// infinite.
 fn stresses(local: &mut LocalField<'_>, offset: Vec2, law: &LawAt) -> Option<(f64, f64)> {
     let mut u = [Jet::constant(0.0); 2];

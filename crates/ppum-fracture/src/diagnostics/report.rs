@@ -6,15 +6,15 @@ use ppum::domain::Domain;
 use ppum_problem::Adaptivity;
 use ppum_solve::report::{SolverReport, StopReason};
 
-/// The warnings about the solution as a whole, from the solver's report. What the report does not
-/// hold is not judged.
+/// The warnings about the solution as a whole, from the solver's report. Records that the report
+/// lacks are not judged.
 pub(super) fn of_report(
     report: &SolverReport,
     adaptivity: Option<&Adaptivity>,
     cutters: Cutters,
 ) -> Vec<Warning> {
     let rules = [
-        (WarningKind::Residual, report.residual, LARGE_RESIDUAL, residual as Text),
+        (WarningKind::Residual, report.residual, LARGE_RESIDUAL, residual as RecordMeaning),
         (WarningKind::Imbalance, report.imbalance, LARGE_IMBALANCE, imbalance),
         (WarningKind::CutOff, report.cut_off_part(), LARGE_CUT_OFF, cut_off),
         (WarningKind::Nitsche, report.nitsche, LARGE_NITSCHE, nitsche),
@@ -57,10 +57,10 @@ fn of_tolerance(report: &SolverReport, adaptivity: Option<&Adaptivity>) -> Optio
     Some(warning(WarningKind::Tolerance, None, [found, wanted], message))
 }
 
-/// The meaning of a number of the report, on a plate with these cutters.
-type Text = fn(f64, Cutters) -> String;
+/// The meaning of a number of the report, on a body with these cutters.
+type RecordMeaning = fn(f64, Cutters) -> String;
 
-/// The things that cut cells of a plate into parts, as far as there are any: texts speak of
+/// The things that cut cells of a body into parts, as far as there are any: texts speak of
 /// nothing else.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cutters {
@@ -162,10 +162,10 @@ fn crossed_twice(value: f64, _: Cutters) -> String {
 mod tests {
     use super::*;
 
-    /// A plate hears of nothing that it has not.
+    /// Texts do not speak of features that the body does not have.
     #[test]
     fn texts_speak_of_what_there_is() {
-        let texts: [Text; 5] = [residual, imbalance, cut_off, nitsche, crossed_twice];
+        let texts: [RecordMeaning; 5] = [residual, imbalance, cut_off, nitsche, crossed_twice];
         for (cutters, absent) in [
             (Cutters::Nothing, &["crack", "hole", "rim"][..]),
             (Cutters::Cracks, &["hole", "rim"]),

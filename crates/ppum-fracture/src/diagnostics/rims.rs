@@ -4,10 +4,10 @@ use super::{short, smaller_cells, warning};
 use ppum::dataset::{Warning, WarningKind};
 use ppum::domain::Hole;
 use ppum::field::Field;
-use ppum::text::Places;
+use ppum::text::LocationText;
 use ppum::vec2::Rect;
 use ppum_problem::Problem;
-use ppum_problem::geometry::{Placed, wider};
+use ppum_problem::geometry::{BoxList, wider};
 use ppum_solve::refine::{coarsest, rim_error};
 
 /// Estimated error of the stress at a rim, relative to the largest one, from which on it is told:
@@ -15,7 +15,7 @@ use ppum_solve::refine::{coarsest, rim_error};
 const LARGE: f64 = 0.02;
 
 /// A hole and the cell that is the worst of those on its rim.
-struct Coarse {
+struct CoarseRim {
     hole: usize,
     cell: u32,
     /// Size of the cell in radii of curvature.
@@ -28,14 +28,14 @@ pub(super) fn of_rims(
     field: &Field<'_>,
     holes: &[Hole],
     problem: Option<&Problem>,
-    places: &Places,
+    places: &LocationText,
 ) -> Option<Warning> {
     if holes.is_empty() {
         return None;
     }
     let (partition, data) = (field.step.partition.boxes(), &field.step.fields[0]);
     let cells =
-        Placed::new((0..).zip(&partition.cell).map(|(number, cell)| (*cell, (number, *cell))));
+        BoxList::new((0..).zip(&partition.cell).map(|(number, cell)| (*cell, (number, *cell))));
     let order = |cell: u32| {
         let degrees = data.blocks(cell as usize).map(|block| data.block_degree[block]);
         degrees.max().map_or(0, usize::from)
@@ -44,12 +44,12 @@ pub(super) fn of_rims(
         let near: Vec<(u32, Rect)> =
             cells.near(&wider(&shape.rim_bounds(), 0.0)).copied().collect();
         let (part, cell) = coarsest(shape, &near)?;
-        Some(Coarse { hole, cell, part, error: rim_error(part, order(cell)) })
+        Some(CoarseRim { hole, cell, part, error: rim_error(part, order(cell)) })
     };
     let all: Vec<_> = holes.iter().enumerate().filter_map(of_hole).collect();
     let count = all.iter().filter(|coarse| coarse.error > LARGE).count();
     let by_error =
-        |a: &Coarse, b: &Coarse| a.error.total_cmp(&b.error).then(a.part.total_cmp(&b.part));
+        |a: &CoarseRim, b: &CoarseRim| a.error.total_cmp(&b.error).then(a.part.total_cmp(&b.part));
     let worst = all.into_iter().filter(|coarse| coarse.error > LARGE).max_by(by_error)?;
     let at = partition.cell[worst.cell as usize].center();
     let place = places.show(at);
@@ -58,12 +58,12 @@ pub(super) fn of_rims(
 }
 
 fn message(
-    worst: &Coarse,
+    worst: &CoarseRim,
     shape: &Hole,
     problem: Option<&Problem>,
     (count, at): (usize, &str),
 ) -> String {
-    let Coarse { hole, part, error, .. } = worst;
+    let CoarseRim { hole, part, error, .. } = worst;
     let (place, keys) = match shape.is_outside() {
         true => ("the outline".to_owned(), "`center` and `radius`".to_owned()),
         false => (format!("the rim of hole {hole}, counted from 0"), format!("`hole = {hole}`")),

@@ -3,10 +3,10 @@
 use super::curves::of_curve;
 use super::faces::remedy;
 use super::{LARGE_ERROR, short, warning};
-use crate::intensity::{Obstacle, TipOutcome};
+use crate::intensity::{TipObstacle, TipResult};
 use ppum::crack::Crack;
 use ppum::dataset::{TipIntensity, Warning, WarningKind};
-use ppum::text::{Places, trimmed_to};
+use ppum::text::{LocationText, trimmed_to};
 use ppum_problem::Problem;
 use ppum_problem::geometry::AMPLE_CLEARANCE;
 use ppum_solve::terms::face_law;
@@ -21,11 +21,11 @@ const NOISE: f64 = 1e-3;
 /// Estimated errors of K that K_I of closed faces may be negative by: estimates are no bounds.
 const CLOSED: f64 = 3.0;
 
-/// Part of the [strength](TipOutcome::strength) below which factors are rounding and
+/// Part of the [energy scale](TipResult::energy_scale) below which factors are rounding and
 /// discretisation: a crack along the load has none.
 const NOTHING: f64 = 0.01;
 
-/// Distance of a tip to the border, in lengths of its crack, below which the ligament is nearly
+/// Distance of a tip to the boundary, in lengths of its crack, below which the ligament is nearly
 /// broken through.
 const NEAR_BORDER: f64 = 0.05;
 
@@ -35,11 +35,11 @@ const LEAST_CELLS: f64 = 4.0;
 /// The warnings about the tips of a step, whose cracks these are.
 pub(super) fn of_tips(
     problem: Option<&Problem>,
-    outcomes: &[TipOutcome],
+    outcomes: &[TipResult],
     cracks: &[Crack],
-    places: &Places,
+    places: &LocationText,
 ) -> Vec<Warning> {
-    let of_tip = |outcome: &TipOutcome| {
+    let of_tip = |outcome: &TipResult| {
         let crack = &cracks[outcome.tip.crack as usize];
         let length = crack.length();
         let at = &places.show(outcome.at);
@@ -64,17 +64,17 @@ pub(super) fn of_tips(
 }
 
 /// |K|, or more where that is nothing but noise.
-fn size(outcome: &TipOutcome, factors: &TipIntensity) -> f64 {
-    factors.k1.hypot(factors.k2).max(NOTHING * outcome.strength)
+fn size(outcome: &TipResult, factors: &TipIntensity) -> f64 {
+    factors.k1.hypot(factors.k2).max(NOTHING * outcome.energy_scale)
 }
 
 fn negative(
     problem: Option<&Problem>,
-    (outcome, at): (&TipOutcome, &str),
+    (outcome, at): (&TipResult, &str),
     factors: &TipIntensity,
 ) -> Option<Warning> {
     let k1 = factors.k1;
-    // closed faces have none but for its error
+    // closed faces have none except for its error
     let touches = problem.is_some_and(|all| face_law(all, outcome.tip.crack).is_some());
     let error = if touches { CLOSED * factors.error.unwrap_or(0.0) } else { 0.0 };
     let limit = -(NOISE * size(outcome, factors)).max(error);
@@ -87,7 +87,7 @@ fn negative(
     (k1 < limit).then(|| warning(WarningKind::NegativeK1, Some(outcome.at), [k1, limit], message))
 }
 
-fn spread(outcome: &TipOutcome, factors: &TipIntensity, at: &str) -> Option<Warning> {
+fn spread(outcome: &TipResult, factors: &TipIntensity, at: &str) -> Option<Warning> {
     let spread = factors.largest_difference() / size(outcome, factors);
     let message = format!(
         "tip {at}: the values at three radii, which should agree, differ by {} % (no estimate of the error, \
@@ -98,7 +98,7 @@ fn spread(outcome: &TipOutcome, factors: &TipIntensity, at: &str) -> Option<Warn
         .then(|| warning(WarningKind::Spread, Some(outcome.at), [spread, LARGE_SPREAD], message))
 }
 
-fn unresolved(outcome: &TipOutcome, tip: &str, place: &str) -> Option<Warning> {
+fn unresolved(outcome: &TipResult, tip: &str, place: &str) -> Option<Warning> {
     let error = outcome.doubt.functions;
     let message = format!(
         "tip {tip}: a function or a coefficient varies too fast around {place}: integrals over a piece of a cell in its disc \
@@ -109,9 +109,9 @@ fn unresolved(outcome: &TipOutcome, tip: &str, place: &str) -> Option<Warning> {
         .then(|| warning(WarningKind::Quadrature, place, [error, LARGE_ERROR], message))
 }
 
-fn no_room(outcome: &TipOutcome, at: &str) -> Warning {
+fn no_room(outcome: &TipResult, at: &str) -> Warning {
     let (radius, needed) = (outcome.clearance.radius, outcome.needed());
-    let message = if outcome.clearance.end == Obstacle::Interface {
+    let message = if outcome.clearance.end == TipObstacle::Interface {
         format!(
             "tip {at}: no stress intensity factors, because it lies on an interface of two materials: stresses there are not \
              those of K_I and K_II, 1/√r, but of another power of r; let the crack end off the interface"
@@ -135,7 +135,7 @@ fn no_room(outcome: &TipOutcome, at: &str) -> Warning {
     warning(WarningKind::NoRoom, Some(outcome.at), [radius, needed], message)
 }
 
-fn little_room(outcome: &TipOutcome, at: &str) -> Option<Warning> {
+fn little_room(outcome: &TipResult, at: &str) -> Option<Warning> {
     let (radius, ample) = (outcome.clearance.radius, AMPLE_CLEARANCE * outcome.cell);
     let little = outcome.factors.is_some() && radius < ample;
     little.then(|| {
@@ -150,7 +150,7 @@ fn little_room(outcome: &TipOutcome, at: &str) -> Option<Warning> {
     })
 }
 
-fn near_interface(outcome: &TipOutcome, at: &str) -> Option<Warning> {
+fn near_interface(outcome: &TipResult, at: &str) -> Option<Warning> {
     let (distance, ample) = (outcome.interface?, AMPLE_CLEARANCE * outcome.cell);
     outcome.factors.as_ref()?;
     let message = format!(
@@ -163,9 +163,9 @@ fn near_interface(outcome: &TipOutcome, at: &str) -> Option<Warning> {
     Some(warning(WarningKind::NearInterface, Some(outcome.at), [distance, ample], message))
 }
 
-fn near_border(outcome: &TipOutcome, length: f64, at: &str) -> Option<Warning> {
+fn near_border(outcome: &TipResult, length: f64, at: &str) -> Option<Warning> {
     let (radius, limit) = (outcome.clearance.radius, NEAR_BORDER * length);
-    let free = matches!(outcome.clearance.end, Obstacle::Border | Obstacle::Hole(_));
+    let free = matches!(outcome.clearance.end, TipObstacle::Border | TipObstacle::Hole(_));
     (free && radius < limit).then(|| {
         let message = format!(
             "tip {at}: it is {} from {}, {} % of the crack's length: the factors grow like one over \
@@ -180,7 +180,7 @@ fn near_border(outcome: &TipOutcome, length: f64, at: &str) -> Option<Warning> {
 
 fn coarse(
     problem: Option<&Problem>,
-    outcome: &TipOutcome,
+    outcome: &TipResult,
     length: f64,
     at: &str,
 ) -> Option<Warning> {

@@ -9,16 +9,16 @@ use ppum_problem::Problem;
 /// 1e-12 and less is usual.
 pub const LARGE_RESIDUAL: f64 = 1e-8;
 
-/// Part of the loads that may remain unbalanced on a piece of the plate that nothing holds; more is
+/// Part of the loads that may remain unbalanced on a piece of the body that nothing holds; more is
 /// seen in the solution's digits.
 pub const LARGE_IMBALANCE: f64 = 1e-8;
 
 /// Part of the unknowns that the stable basis may cut off.
 pub const LARGE_CUT_OFF: f64 = 0.25;
 
-/// Nitsche's β in units of (λ + 2μ) / cell width from which on a held border holds far more tightly
-/// than the rest of the plate resolves. Whole cells have 3 to 36, a crack that ends beside a held
-/// edge 710, one along such an edge 8e4 at 1e-4 of a cell.
+/// Nitsche's β in units of (λ + 2μ) / cell width from which on a held boundary holds far more
+/// tightly than the rest of the body resolves. Whole cells have 3 to 36, a crack that ends beside a
+/// held edge 710, one along such an edge 8e4 at 1e-4 of a cell.
 pub const LARGE_NITSCHE: f64 = 1e4;
 
 /// Part of a load's magnitude that its resultant may err by, and of the integrals of functions and

@@ -7,9 +7,9 @@
 //! ```
 //!
 //! with functions that are the same in every body (Amestoy & Leblond 1992, Int. J. Solids Struct.
-//! 29, 465). Of the criteria one asks for k_II = 0, one for the largest k_I² + k_II², and one looks
-//! at the stress before the kink only. They agree where K_II = 0, and so on the smooth part of
-//! every path.
+//! 29, 465). One of the criteria demands k_II = 0, one the largest k_I² + k_II², and one looks at
+//! the stress before the kink only. They agree where K_II = 0, and so on the smooth part of every
+//! path.
 //!
 //! An increment of the length a adds G_I(θ) T √a and G_II(θ) T √a to the factors. With
 //! G_II ≈ −√(8/π) θ this is Cotterell & Rice's (1980, Int. J. Fract. 16, 155) result for small
@@ -26,11 +26,11 @@ use std::f64::consts::{FRAC_2_PI, PI};
 
 /// The direction of growth and the factor that drives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kink {
+pub struct KinkDirection {
     /// θ, from the direction of the crack to the left, in radians.
     pub angle: f64,
     /// K_I of a straight crack that would be driven as much.
-    pub strength: f64,
+    pub k_eq: f64,
 }
 
 /// Angles of kinks are below it: 70.5°, 77.4° and 75.8° are the largest of the criteria, at
@@ -42,11 +42,11 @@ const WIDEST: f64 = 1.4;
 ///
 /// Angles are those of the criterion's closed form to the last digits; the functions of kinks that
 /// two of the criteria rest on are right to 1e-5 up to 80°.
-pub fn kink(criterion: Criterion, factors: &TipIntensity) -> Option<Kink> {
+pub fn kink(criterion: Criterion, factors: &TipIntensity) -> Option<KinkDirection> {
     Drive::new(criterion, factors).map(|drive| drive.kink)
 }
 
-/// What drives a tip, and where to.
+/// The driving force of a tip, and its direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Drive {
     criterion: Criterion,
@@ -55,18 +55,18 @@ pub(super) struct Drive {
     /// T where it is negative, so that it turns the crack back; else zero.
     t_stress: f64,
     /// The kink of a vanishing increment.
-    pub(super) kink: Kink,
+    pub(super) kink: KinkDirection,
 }
 
 /// The turn of an increment: at its start, and then evenly along its arc.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Turn {
+pub(super) struct IncrementTurn {
     pub(super) at_start: f64,
     pub(super) along: f64,
 }
 
 impl Drive {
-    /// What drives a tip with these factors, if anything does.
+    /// Returns the driving force of a tip with these factors, if there is one.
     pub(super) fn new(criterion: Criterion, factors: &TipIntensity) -> Option<Self> {
         let hoop = factors.growth_angle()?;
         let k = [factors.k1.max(0.0), factors.k2];
@@ -81,7 +81,7 @@ impl Drive {
             Criterion::Energy => after(angle, k)[0].hypot(after(angle, k)[1]),
         };
         let t_stress = factors.t_stress.unwrap_or(0.0).min(0.0);
-        Some(Self { criterion, k, t_stress, kink: Kink { angle, strength } })
+        Some(Self { criterion, k, t_stress, kink: KinkDirection { angle, k_eq: strength } })
     }
 
     /// True if T turns the crack back.
@@ -92,21 +92,21 @@ impl Drive {
     /// The turn of a first increment at whose end the criterion goes straight on: along an arc
     /// behind the kink if it need not turn by more than `most`, and by a smaller kink beyond that.
     /// Where T is not negative it is the kink alone.
-    pub(super) fn first_turn(&self, path: &[Vec2], length: f64, most: f64) -> Turn {
+    pub(super) fn first_turn(&self, path: &[Vec2], length: f64, most: f64) -> IncrementTurn {
         let angle = self.kink.angle;
-        let arc = Turn { at_start: angle, along: self.bend(path, length, angle) };
+        let arc = IncrementTurn { at_start: angle, along: self.bend(path, length, angle) };
         if arc.along.abs() <= most {
             return arc;
         }
         let along = most.copysign(arc.along);
         let bent = along * self.stiffness(length) + self.memory(path, length);
-        Turn { at_start: self.root(length, bent), along }
+        IncrementTurn { at_start: self.root(length, bent), along }
     }
 
     /// The turn of a later increment at whose end the criterion goes straight on: what K_II there
     /// is now is answered at the start, so that errors fade, what is to come along the arc.
-    pub(super) fn next_turn(&self, path: &[Vec2], length: f64) -> Turn {
-        Turn { at_start: self.root(length, 0.0), along: self.bend(path, length, 0.0) }
+    pub(super) fn next_turn(&self, path: &[Vec2], length: f64) -> IncrementTurn {
+        IncrementTurn { at_start: self.root(length, 0.0), along: self.bend(path, length, 0.0) }
     }
 
     /// The turn of an arc behind a kink that answers how T changes K_II along it.
@@ -121,7 +121,7 @@ impl Drive {
     /// K_II at the end of an arc, by its turn: of a curvature κ it is
     /// ½ κ a K_I − √(2/π) T ∫ κ s / √(a − s) ds.
     fn stiffness(&self, length: f64) -> f64 {
-        0.5 * self.kink.strength - 4.0 / 3.0 * FRAC_2_PI.sqrt() * self.t_stress * length.sqrt()
+        0.5 * self.kink.k_eq - 4.0 / 3.0 * FRAC_2_PI.sqrt() * self.t_stress * length.sqrt()
     }
 
     /// The kink behind which the criterion goes straight on at the end of an increment that adds
@@ -155,7 +155,8 @@ impl Drive {
     }
 }
 
-/// What a criterion wants to vanish, in units of K_II, which it is without a kink.
+/// Returns the quantity that a criterion makes vanish, in units of K_II, which it is without a
+/// kink.
 fn sliding(criterion: Criterion, angle: f64, k: [f64; 2]) -> f64 {
     match criterion {
         Criterion::Hoop => hoop_sliding(angle, k),
@@ -307,7 +308,7 @@ mod tests {
 
     const ALL: [Criterion; 3] = [Criterion::Hoop, Criterion::LocalSymmetry, Criterion::Energy];
 
-    fn of(criterion: Criterion, k1: f64, k2: f64) -> Option<Kink> {
+    fn of(criterion: Criterion, k1: f64, k2: f64) -> Option<KinkDirection> {
         let tip = TipId { crack: 0, end: End::Last };
         kink(criterion, &TipIntensity::new(tip, k1, k2))
     }
@@ -356,14 +357,14 @@ mod tests {
         }
     }
 
-    /// What other authors find for pure sliding: 77.3° (Amestoy & Leblond 1992), and 75.6° to 75.8°
-    /// with √1.517 times the factor.
+    /// Compares with published angles for pure sliding: 77.3° (Amestoy & Leblond 1992), and 75.6°
+    /// to 75.8° with √1.517 times the factor.
     #[test]
     fn pure_sliding() {
         assert!((degrees(Criterion::LocalSymmetry, 0.0, 1.0) + 77.33).abs() < 0.01);
         let released = of(Criterion::Energy, 0.0, 1.0).expect("open");
         assert!((released.angle.to_degrees() + 75.7).abs() < 0.1);
-        assert!((released.strength.powi(2) - 1.517).abs() < 1e-3);
+        assert!((released.k_eq.powi(2) - 1.517).abs() < 1e-3);
     }
 
     /// Straight cracks under opening go straight on, with K_I; sliding one way mirrors the other;
@@ -372,18 +373,18 @@ mod tests {
     fn properties() {
         let mut random = Random(4);
         for criterion in ALL {
-            assert_eq!(of(criterion, 3.0, 0.0), Some(Kink { angle: 0.0, strength: 3.0 }));
+            assert_eq!(of(criterion, 3.0, 0.0), Some(KinkDirection { angle: 0.0, k_eq: 3.0 }));
             assert_eq!(of(criterion, -1.0, 0.5), None);
             for _ in 0..100 {
                 let (k1, k2) = (random.between(0.1, 1.0), random.between(-1.0, 1.0));
                 let found = of(criterion, k1, k2).expect("open");
                 let mirrored = of(criterion, k1, -k2).expect("open");
                 assert!((found.angle + mirrored.angle).abs() < 1e-14);
-                assert!((found.strength - mirrored.strength).abs() < 1e-14);
+                assert!((found.k_eq - mirrored.k_eq).abs() < 1e-14);
                 let larger = of(criterion, 8.0 * k1, 8.0 * k2).expect("open");
                 assert!((larger.angle - found.angle).abs() < 1e-14);
-                assert!((larger.strength - 8.0 * found.strength).abs() < 1e-13);
-                assert!(found.angle * k2 <= 0.0 && found.strength >= k1 * (1.0 - 1e-12));
+                assert!((larger.k_eq - 8.0 * found.k_eq).abs() < 1e-13);
+                assert!(found.angle * k2 <= 0.0 && found.k_eq >= k1 * (1.0 - 1e-12));
                 if k2.abs() <= 0.5 * k1 {
                     let hoop = of(Criterion::Hoop, k1, k2).expect("open");
                     assert!((found.angle - hoop.angle).abs() < 3.7_f64.to_radians());

@@ -1,17 +1,17 @@
-//! What the tips of a solved step do next: who grows, how far, and where to.
+//! Decides the next increments of the tips of a solved step: who grows, how far, and where to.
 
 use super::criterion::Drive;
-use super::path::{Arc, way};
+use super::path::{IncrementArc, way};
 use crate::solve::SolveError;
 use ppum::crack::{Crack, End, TipId, tips};
-use ppum::dataset::{Advance, Fate, Growth, GrowthStop, TipIntensity};
+use ppum::dataset::{Growth, GrowthStop, TipIncrement, TipIntensity, TipStatus};
 use ppum::text::{short, trimmed};
 use ppum::vec2::Vec2;
 use ppum_problem::{GrowthRule, LoadControl, Problem};
 use ppum_solve::terms::face_law;
 
 /// Loads at which tips reach their toughness that count as one, relative: those of a symmetric
-/// plate differ by the errors of their factors.
+/// body differ by the errors of their factors.
 const TOGETHER: f64 = 1e-2;
 
 /// Turn in radians from which on a change of direction is a kink, and not a part of a smooth path.
@@ -23,7 +23,7 @@ const LARGEST_TURN: f64 = 0.35;
 /// Turn of a chosen increment.
 const CHOSEN_TURN: f64 = 0.1;
 
-/// A chosen increment in parts of the length of the shortest crack with a tip, and of the plate's
+/// A chosen increment in parts of the length of the shortest crack with a tip, and of the body's
 /// shorter side; and how much less it is where a path turns.
 const CHOSEN: f64 = 0.25;
 const OF_PLATE: f64 = 0.02;
@@ -46,7 +46,7 @@ pub(super) struct Decision {
 }
 
 /// A tip with what drives it.
-struct Driven<'a> {
+struct DrivenTip<'a> {
     tip: TipId,
     at: Vec2,
     /// The angle of the crack's direction to the x axis.
@@ -54,18 +54,18 @@ struct Driven<'a> {
     /// The crack from its tip on, as far as T is known to act on its faces.
     path: Vec<Vec2>,
     drive: Option<Drive>,
-    fate: Fate,
+    fate: TipStatus,
     /// None if none is given: it grows however small K is.
     toughness: Option<f64>,
-    /// What it did after the step before.
-    before: Option<&'a Advance>,
+    /// The increment of the previous step.
+    before: Option<&'a TipIncrement>,
     /// Growth in parts of that of the tip that grows most.
     share: f64,
 }
 
 /// Numbers of a rule that nothing can be decided with.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Undecided {
+pub enum GrowthDataError {
     /// A toughness that is none.
     #[error(
         "`toughness` is {toughness} at the tip ({x}, {y}), but must be positive and finite there: mend its formula",
@@ -106,11 +106,11 @@ pub(super) fn decide(
     rule: &GrowthRule,
     factors: &[TipIntensity],
     before: Option<&Growth>,
-) -> Result<Decision, Undecided> {
+) -> Result<Decision, GrowthDataError> {
     let mut driven: Vec<_> = tips(problem.cracks())
-        .map(|tip| Driven::new(problem, rule, tip, factors, before))
+        .map(|tip| DrivenTip::new(problem, rule, tip, factors, before))
         .collect();
-    driven.iter().filter(|tip| tip.fate == Fate::Grows).try_for_each(Driven::check)?;
+    driven.iter().filter(|tip| tip.fate == TipStatus::Grows).try_for_each(DrivenTip::check)?;
     let load = load(rule, &driven)?;
     share(rule, &mut driven, load);
     let increment = increment(problem, rule, &driven);
@@ -138,7 +138,7 @@ pub(super) fn grown(problem: &Problem, growth: &Growth) -> Result<Problem, Solve
 }
 
 /// Adds the way of a tip to its crack.
-fn extend(crack: &mut Crack, row: &Advance) {
+fn extend(crack: &mut Crack, row: &TipIncrement) {
     match row.tip.end {
         End::Last => crack.points.extend(&row.path),
         End::Start => {
@@ -157,7 +157,7 @@ fn pressed(factors: &TipIntensity) -> Option<TipIntensity> {
     (open.k1.hypot(open.k2) > error).then_some(open)
 }
 
-impl<'a> Driven<'a> {
+impl<'a> DrivenTip<'a> {
     fn new(
         problem: &Problem,
         rule: &GrowthRule,
@@ -173,9 +173,9 @@ impl<'a> Driven<'a> {
             None => Drive::new(rule.criterion, factors),
         });
         let fate = match (factors, drive) {
-            (None, _) => Fate::Unknown,
-            (_, None) => Fate::Closed,
-            _ => Fate::Grows,
+            (None, _) => TipStatus::Unknown,
+            (_, None) => TipStatus::Closed,
+            _ => TipStatus::Grows,
         };
         let toughness = rule.toughness.as_ref().map(|toughness| toughness.value(at));
         let before = before.and_then(|growth| growth.tips.iter().find(|row| row.tip == tip));
@@ -190,14 +190,14 @@ impl<'a> Driven<'a> {
     }
 
     /// Asks whether the toughness at the tip is one, if there is any.
-    fn check(&self) -> Result<(), Undecided> {
+    fn check(&self) -> Result<(), GrowthDataError> {
         let is_one = self.toughness.is_none_or(|k| k > 0.0 && k.is_finite());
-        let refused = |toughness| Undecided::Toughness { at: self.at, toughness };
+        let refused = |toughness| GrowthDataError::Toughness { at: self.at, toughness };
         if is_one { Ok(()) } else { Err(refused(self.toughness.unwrap_or(0.0))) }
     }
 
-    fn strength(&self) -> f64 {
-        self.drive.map_or(f64::NAN, |drive| drive.kink.strength)
+    fn k_eq(&self) -> f64 {
+        self.drive.map_or(f64::NAN, |drive| drive.kink.k_eq)
     }
 
     /// The turn that the criterion asks for without looking ahead.
@@ -205,8 +205,8 @@ impl<'a> Driven<'a> {
         self.drive.map_or(0.0, |drive| drive.kink.angle)
     }
 
-    /// What the tip did after the step before, if it has grown before.
-    fn last(&self) -> Option<&'a Advance> {
+    /// Returns the increment of the previous step, if the tip grew in it.
+    fn last(&self) -> Option<&'a TipIncrement> {
         self.before.filter(|row| row.length > 0.0)
     }
 
@@ -248,26 +248,26 @@ impl<'a> Driven<'a> {
         at_start + length * self.heading(length).1.abs()
     }
 
-    /// What the tip does, if the tip that grows most does so by `increment`.
-    fn advance(&self, problem: &Problem, cracks: &[Crack], increment: f64) -> Advance {
+    /// Returns the increment of the tip when the tip that grows most advances by `increment`.
+    fn advance(&self, problem: &Problem, cracks: &[Crack], increment: f64) -> TipIncrement {
         let so_far = self.before.map_or([0.0; 2], |row| [row.due, row.extension + row.length]);
-        let mut row = Advance {
-            strength: self.strength(),
+        let mut row = TipIncrement {
+            k_eq: self.k_eq(),
             direction: self.axis,
             due: so_far[0],
             extension: so_far[1],
-            ..Advance::staying(self.tip, self.fate)
+            ..TipIncrement::staying(self.tip, self.fate)
         };
-        if self.fate != Fate::Grows {
+        if self.fate != TipStatus::Grows {
             return row;
         }
         if is_joined(problem, cracks, self.tip) {
-            row.fate = Fate::Joined;
+            row.fate = TipStatus::Joined;
             return row;
         }
         row.due += self.share * increment;
         if row.due < DUE * increment {
-            row.fate = Fate::Waits;
+            row.fate = TipStatus::Waits;
             return row;
         }
         (row.direction, row.curvature) = self.heading(row.due);
@@ -292,7 +292,8 @@ fn behind(path: &[Vec2], length: f64) -> Vec<Vec2> {
     Vec::new()
 }
 
-/// What was decided in a step with other curvatures of some arcs, given with their tips.
+/// Returns the growth of a step with other curvatures of some arcs, which are given with their
+/// tips.
 pub(super) fn bent(problem: &Problem, growth: &Growth, curvatures: &[(TipId, f64)]) -> Growth {
     let mut so_far = problem.cracks().to_vec();
     let mut bent = growth.clone();
@@ -318,9 +319,9 @@ fn is_joined(problem: &Problem, cracks: &[Crack], tip: TipId) -> bool {
 }
 
 /// Sends a tip along its arc, among the cracks as they are.
-fn go(problem: &Problem, cracks: &[Crack], length: f64, row: &mut Advance) {
+fn go(problem: &Problem, cracks: &[Crack], length: f64, row: &mut TipIncrement) {
     let from = problem.cracks()[row.tip.crack as usize].end_point(row.tip.end);
-    let arc = Arc { from, direction: row.direction, curvature: row.curvature, length };
+    let arc = IncrementArc { from, direction: row.direction, curvature: row.curvature, length };
     let way = way(problem, cracks, row.tip, arc);
     (row.length, row.fate, row.path) = (way.length, way.fate, way.path);
 }
@@ -332,25 +333,25 @@ fn turned(from: f64, to: f64) -> f64 {
 }
 
 /// The factor of the load: the least at which a tip reaches its toughness, if that is asked for.
-fn load(rule: &GrowthRule, driven: &[Driven<'_>]) -> Result<f64, Undecided> {
+fn load(rule: &GrowthRule, driven: &[DrivenTip<'_>]) -> Result<f64, GrowthDataError> {
     if rule.load == LoadControl::Constant {
         return Ok(1.0);
     }
-    let growing = driven.iter().filter(|tip| tip.fate == Fate::Grows && tip.strength() > 0.0);
-    let factors = growing.filter_map(|tip| Some(tip.toughness? / tip.strength()));
+    let growing = driven.iter().filter(|tip| tip.fate == TipStatus::Grows && tip.k_eq() > 0.0);
+    let factors = growing.filter_map(|tip| Some(tip.toughness? / tip.k_eq()));
     match factors.reduce(f64::min) {
         None => Ok(1.0),
         Some(least) if (1.0 / FARTHEST..=FARTHEST).contains(&least) => Ok(least),
-        Some(least) => Err(Undecided::Load(least)),
+        Some(least) => Err(GrowthDataError::Load(least)),
     }
 }
 
 /// Finds which tips grow, and how much in parts of what the fastest grows.
-fn share(rule: &GrowthRule, driven: &mut [Driven<'_>], load: f64) {
+fn share(rule: &GrowthRule, driven: &mut [DrivenTip<'_>], load: f64) {
     let enough = if rule.load == LoadControl::Critical { 1.0 - TOGETHER } else { 1.0 };
-    let most = driven.iter().map(|tip| load * tip.strength()).fold(0.0, f64::max);
-    for tip in driven.iter_mut().filter(|tip| tip.fate == Fate::Grows) {
-        let strength = load * tip.strength();
+    let most = driven.iter().map(|tip| load * tip.k_eq()).fold(0.0, f64::max);
+    for tip in driven.iter_mut().filter(|tip| tip.fate == TipStatus::Grows) {
+        let strength = load * tip.k_eq();
         let grows = match &rule.paris {
             Some(paris) => paris.grows(strength),
             None => tip.toughness.is_none_or(|toughness| strength >= enough * toughness),
@@ -359,15 +360,15 @@ fn share(rule: &GrowthRule, driven: &mut [Driven<'_>], load: f64) {
         let power = rule.paris.as_ref().map_or(0.0, |paris| paris.m);
         tip.share = if grows { (strength / most).powf(power) } else { 0.0 };
         if !grows {
-            tip.fate = Fate::Held;
+            tip.fate = TipStatus::Held;
         }
     }
 }
 
-/// The length of the largest increment: the one given, or one that the cracks and the plate allow
+/// The length of the largest increment: the one given, or one that the cracks and the body allow
 /// and the paths do not turn much on. It follows the turns of the last one by a factor of at most
 /// two, since what a path has turned before acts on it as far as it was long.
-fn increment(problem: &Problem, rule: &GrowthRule, driven: &[Driven<'_>]) -> f64 {
+fn increment(problem: &Problem, rule: &GrowthRule, driven: &[DrivenTip<'_>]) -> f64 {
     if let Some(increment) = rule.increment {
         return increment;
     }
@@ -378,7 +379,7 @@ fn increment(problem: &Problem, rule: &GrowthRule, driven: &[Driven<'_>]) -> f64
     let growing = || driven.iter().filter(|tip| tip.share > 0.0);
     let turn = |length: f64| growing().map(|tip| tip.turn(length)).fold(0.0, f64::max);
     let halve = |length, _| if turn(length) > CHOSEN_TURN { 0.5 * length } else { length };
-    let last = growing().filter_map(Driven::last).map(|row| row.length).reduce(f64::max);
+    let last = growing().filter_map(DrivenTip::last).map(|row| row.length).reduce(f64::max);
     let chosen = match last {
         Some(last) => last * (CHOSEN_TURN / turn(last)).clamp(0.5, 2.0),
         None => (0..HALVINGS).fold(largest, halve),
@@ -391,19 +392,19 @@ fn increment(problem: &Problem, rule: &GrowthRule, driven: &[Driven<'_>]) -> f64
 fn cycles(
     rule: &GrowthRule,
     before: Option<&Growth>,
-    driven: &[Driven<'_>],
-) -> Result<Option<f64>, Undecided> {
+    driven: &[DrivenTip<'_>],
+) -> Result<Option<f64>, GrowthDataError> {
     let Some(paris) = &rule.paris else { return Ok(None) };
     let Some(before) = before else { return Ok(Some(0.0)) };
     let rows = before.tips.iter().filter(|row| row.length > 0.0);
     let so_far = before.cycles.unwrap_or(0.0);
-    let fastest = rows.max_by(|a, b| a.strength.total_cmp(&b.strength));
+    let fastest = rows.max_by(|a, b| a.k_eq.total_cmp(&b.k_eq));
     let Some(row) = fastest else { return Ok(Some(so_far)) };
-    let then = paris.ln_rate(row.strength);
-    let now = driven.iter().find(|tip| tip.tip == row.tip && paris.grows(tip.strength()));
-    let now = now.map_or(then, |tip| paris.ln_rate(tip.strength()));
+    let then = paris.ln_rate(row.k_eq);
+    let now = driven.iter().find(|tip| tip.tip == row.tip && paris.grows(tip.k_eq()));
+    let now = now.map_or(then, |tip| paris.ln_rate(tip.k_eq()));
     let last = cycles_along(row.length, then, now);
-    if last.is_normal() { Ok(Some(so_far + last)) } else { Err(Undecided::Cycles(last)) }
+    if last.is_normal() { Ok(Some(so_far + last)) } else { Err(GrowthDataError::Cycles(last)) }
 }
 
 /// ∫ da / rate along a length on which the rate grows or falls like an exponential from one value
@@ -415,10 +416,10 @@ fn cycles_along(length: f64, from: f64, to: f64) -> f64 {
     length * (-from).exp() * mean
 }
 
-/// What ends the series here.
-fn stop(rule: &GrowthRule, driven: &[Driven<'_>], growth: &Growth) -> Option<GrowthStop> {
-    let breaks = |tip: &Driven<'_>| {
-        rule.paris.is_some() && tip.toughness.is_some_and(|toughness| tip.strength() >= toughness)
+/// Returns the reason why the series ends here.
+fn stop(rule: &GrowthRule, driven: &[DrivenTip<'_>], growth: &Growth) -> Option<GrowthStop> {
+    let breaks = |tip: &DrivenTip<'_>| {
+        rule.paris.is_some() && tip.toughness.is_some_and(|toughness| tip.k_eq() >= toughness)
     };
     if driven.is_empty() {
         return Some(GrowthStop::NoTips);
@@ -426,6 +427,6 @@ fn stop(rule: &GrowthRule, driven: &[Driven<'_>], growth: &Growth) -> Option<Gro
     if driven.iter().any(breaks) {
         return Some(GrowthStop::Fracture);
     }
-    let moves = |row: &Advance| row.fate.goes_on() || row.fate == Fate::Waits;
+    let moves = |row: &TipIncrement| row.fate.goes_on() || row.fate == TipStatus::Waits;
     (!growth.tips.iter().any(moves)).then_some(GrowthStop::AllHeld)
 }

@@ -8,9 +8,9 @@
 //! which the path has turned so far: tips then lie on the path up to the second power of the
 //! increments. By the criterion of local symmetry the arc is bent until K_II = 0 at its end.
 //!
-//! Each step is solved for itself, from its cracks alone, and given away when it is complete. What
-//! follows it is decided with it and stored in its [`Growth`](ppum::dataset::Growth), so that a
-//! series goes on from any of its steps with the same bits.
+//! Each step is solved for itself, from its cracks alone, and given away when it is complete. The
+//! increments after it are decided with it and stored in its [`Growth`](ppum::dataset::Growth), so
+//! that a series goes on from any of its steps with the same bits.
 
 mod criterion;
 mod decision;
@@ -18,18 +18,18 @@ mod path;
 mod settle;
 mod step;
 
-pub use criterion::{Kink, kink};
-pub use decision::Undecided;
+pub use criterion::{KinkDirection, kink};
+pub use decision::GrowthDataError;
 
 use crate::solve::SolveError;
 use decision::grown;
 use ppum::dataset::{Dataset, Step};
 use ppum::progress::Watcher;
 use ppum_problem::{GrowthRule, Problem, ProblemData};
-use ppum_solve::watched::InStep;
+use ppum_solve::watched::CycleWatcher;
 use settle::settled;
 use std::convert::Infallible;
-use step::{Before, GrowthSeries, closed};
+use step::{GrowthSeries, PreviousStep, closed};
 
 /// A series that has ended before its end.
 #[derive(Debug, thiserror::Error)]
@@ -40,15 +40,15 @@ pub enum GrowthError<E> {
     Solve(#[from] SolveError),
     /// Nothing can be decided in the first step.
     #[error("growth: {0}")]
-    Undecided(#[from] Undecided),
-    /// What a step was given to wants no more.
+    Undecided(#[from] GrowthDataError),
+    /// The receiver of the steps has ended the series.
     #[error(transparent)]
     Kept(E),
 }
 
 /// The last step of a series that is to go on, and its number.
 #[derive(Clone, Copy, Debug)]
-pub struct Last<'s> {
+pub struct ResumePoint<'s> {
     /// Its number, from 0.
     pub number: usize,
     /// The step, with its [`Growth`](ppum::dataset::Growth).
@@ -65,7 +65,7 @@ pub struct Last<'s> {
 /// A first step that cannot be solved; cancelled; those of `keep`.
 pub fn grow<E>(
     problem: &Problem,
-    last: Option<Last<'_>>,
+    last: Option<ResumePoint<'_>>,
     memory: Option<u64>,
     watcher: &dyn Watcher,
     mut keep: impl FnMut(Dataset) -> Result<(), E>,
@@ -79,7 +79,7 @@ pub fn grow<E>(
     };
     let mut done: Option<Dataset> = None;
     while number <= rule.steps {
-        let here = InStep { watcher, step: number };
+        let here = CycleWatcher { watcher, step: number };
         let plan = series.plan(&current, &here);
         if let Some(dataset) = done.take() {
             let (dataset, ends) = closed(dataset, plan.as_ref().err());
@@ -100,7 +100,7 @@ pub fn grow<E>(
             Ok(next) => next,
             Err(error) => return keep(closed(dataset, Some(&error)).0).map_err(GrowthError::Kept),
         };
-        before = Some(Before { problem: std::mem::replace(&mut current, next), growth });
+        before = Some(PreviousStep { problem: std::mem::replace(&mut current, next), growth });
         (done, number) = (Some(dataset), number + 1);
     }
     Ok(())
@@ -140,14 +140,16 @@ pub fn series(
 }
 
 /// Number and problem of the next step, and what was decided in the one before.
-type NextStep = (usize, Problem, Option<Before>);
+type NextStep = (usize, Problem, Option<PreviousStep>);
 
 /// The next step; none if the series has ended.
-fn start(problem: &Problem, last: Option<Last<'_>>) -> Result<Option<NextStep>, SolveError> {
-    let Some(Last { number, step }) = last else { return Ok(Some((0, problem.clone(), None))) };
+fn start(problem: &Problem, last: Option<ResumePoint<'_>>) -> Result<Option<NextStep>, SolveError> {
+    let Some(ResumePoint { number, step }) = last else {
+        return Ok(Some((0, problem.clone(), None)));
+    };
     let going_on = step.growth.as_ref().filter(|growth| growth.stop.is_none());
     let Some(growth) = going_on.cloned() else { return Ok(None) };
     let problem = problem.with_cracks(step.cracks.clone());
     let next = grown(&problem, &growth)?;
-    Ok(Some((number + 1, next, Some(Before { problem, growth }))))
+    Ok(Some((number + 1, next, Some(PreviousStep { problem, growth }))))
 }

@@ -1,17 +1,17 @@
-//! The way of a tip through the plate: an arc, up to what it meets.
+//! The way of a tip through the body: an arc, up to what it meets.
 
 use ppum::border::touch;
 use ppum::crack::{Crack, End, TipId, tips};
-use ppum::dataset::Fate;
+use ppum::dataset::TipStatus;
 use ppum::domain::Hole;
 use ppum::line::Line;
 use ppum::segment::{Segment, distance};
 use ppum::vec2::{Rect, Vec2};
-use ppum_problem::{Edge, Problem, arc_from};
+use ppum_problem::{DomainEdge, Problem, arc_from};
 
 /// The arc along which a tip would go on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Arc {
+pub(super) struct IncrementArc {
     /// The tip.
     pub(super) from: Vec2,
     /// Angle to the x axis at the tip.
@@ -23,10 +23,10 @@ pub(super) struct Arc {
 
 /// The way that a tip goes: the vertices after the tip, and what it comes to.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Way {
+pub(super) struct IncrementPath {
     pub(super) path: Vec<Vec2>,
     pub(super) length: f64,
-    pub(super) fate: Fate,
+    pub(super) fate: TipStatus,
 }
 
 /// Part of an increment that may not be left between the new tip and what is ahead of it: the way
@@ -38,10 +38,15 @@ const LEFT: f64 = 0.5;
 const JOINS: f64 = 0.25;
 
 /// The way of a tip along an arc, among the cracks as they are.
-pub(super) fn way(problem: &Problem, cracks: &[Crack], tip: TipId, arc: Arc) -> Way {
+pub(super) fn way(
+    problem: &Problem,
+    cracks: &[Crack],
+    tip: TipId,
+    arc: IncrementArc,
+) -> IncrementPath {
     let ahead = Ahead { problem, cracks, tip, reach: JOINS * arc.length };
-    // along an edge rounding must not lead out of the plate
-    let edge = problem.body.line_of(tip.crack as usize).and_then(|line| Edge::of_line(&line));
+    // along an edge rounding must not lead out of the body
+    let edge = problem.body.line_of(tip.crack as usize).and_then(|line| DomainEdge::of_line(&line));
     let bounds = &problem.domain().bounds;
     let on_edge = |points: Vec<Vec2>| match edge {
         Some(edge) => points.iter().map(|p| edge.point(bounds, edge.coordinate(*p))).collect(),
@@ -55,21 +60,25 @@ pub(super) fn way(problem: &Problem, cracks: &[Crack], tip: TipId, arc: Arc) -> 
     let beyond = arc_from(*path.last().unwrap_or(&arc.from), end, 0.0, LEFT * arc.length);
     let beyond = on_edge(beyond);
     match ahead.first(*path.last().unwrap_or(&arc.from), &beyond) {
-        None => Way { path, length: arc.length, fate: Fate::Grows },
+        None => IncrementPath { path, length: arc.length, fate: TipStatus::Grows },
         Some(hit) => {
             let length = 0.5 * (arc.length + hit.distance);
-            Way { path: on_edge(Arc { length, ..arc }.points()), length, fate: Fate::Grows }
+            IncrementPath {
+                path: on_edge(IncrementArc { length, ..arc }.points()),
+                length,
+                fate: TipStatus::Grows,
+            }
         }
     }
 }
 
-impl Arc {
+impl IncrementArc {
     fn points(&self) -> Vec<Vec2> {
         arc_from(self.from, self.direction, self.curvature, self.length)
     }
 }
 
-/// What lies ahead of a tip.
+/// The obstacles ahead of a tip.
 struct Ahead<'a> {
     problem: &'a Problem,
     cracks: &'a [Crack],
@@ -86,18 +95,18 @@ struct Hit {
     /// Distance along the way.
     distance: f64,
     at: Vec2,
-    fate: Fate,
+    fate: TipStatus,
 }
 
 impl Hit {
     /// The way up to the place.
-    fn way(self, mut path: Vec<Vec2>) -> Way {
-        if self.fate == Fate::MeetsItself {
-            return Way { path: Vec::new(), length: 0.0, fate: self.fate };
+    fn way(self, mut path: Vec<Vec2>) -> IncrementPath {
+        if self.fate == TipStatus::MeetsItself {
+            return IncrementPath { path: Vec::new(), length: 0.0, fate: self.fate };
         }
         path.truncate(self.segment);
         path.push(self.at);
-        Way { path, length: self.distance, fate: self.fate }
+        IncrementPath { path, length: self.distance, fate: self.fate }
     }
 }
 
@@ -117,18 +126,20 @@ impl Ahead<'_> {
         None
     }
 
-    /// What a segment meets: the part of it before that, the place, and the fate.
-    fn meets(&self, s: Segment) -> impl Iterator<Item = (f64, Vec2, Fate)> + '_ {
+    /// Returns the obstacles that a segment meets: for each the part of the segment before it, the
+    /// place, and the status that the tip gets there.
+    fn meets(&self, s: Segment) -> impl Iterator<Item = (f64, Vec2, TipStatus)> + '_ {
         let domain = self.problem.domain();
         let near = touch(&domain.bounds);
-        let border = leaves(s, &domain.bounds).map(|(t, at)| (t, at, Fate::LeavesPlate));
+        let border = leaves(s, &domain.bounds).map(|(t, at)| (t, at, TipStatus::LeavesPlate));
         let holes = (0u32..).zip(&domain.holes).filter_map(move |(k, hole)| {
-            let fate = if hole.is_outside() { Fate::LeavesPlate } else { Fate::MeetsHole(k) };
+            let fate =
+                if hole.is_outside() { TipStatus::LeavesPlate } else { TipStatus::MeetsHole(k) };
             enters(s, hole).map(|t| (t, on(s, t), fate))
         });
         let others = (0u32..).zip(self.cracks).flat_map(move |(k, crack)| {
             let own = k == self.tip.crack;
-            let fate = if own { Fate::MeetsItself } else { Fate::MeetsCrack(k) };
+            let fate = if own { TipStatus::MeetsItself } else { TipStatus::MeetsCrack(k) };
             let segments = crack.points.windows(2).enumerate();
             let others = segments.filter(move |(j, _)| !(own && self.is_last(crack, *j)));
             others
@@ -139,14 +150,14 @@ impl Ahead<'_> {
     }
 
     /// The tips of other cracks beside a segment.
-    fn tips(&self, s: Segment) -> impl Iterator<Item = (f64, Vec2, Fate)> + '_ {
+    fn tips(&self, s: Segment) -> impl Iterator<Item = (f64, Vec2, TipStatus)> + '_ {
         let others = tips(self.cracks).filter(|other| other.crack != self.tip.crack);
         let (along, square) = (s[1] - s[0], (s[1] - s[0]).dot(s[1] - s[0]));
         others.filter_map(move |other| {
             let at = self.cracks[other.crack as usize].end_point(other.end);
             let t = ((at - s[0]).dot(along) / square).clamp(0.0, 1.0);
             let is_near = distance(s, at) <= self.reach && (at - s[0]).dot(along) > 0.0;
-            is_near.then_some((t, at, Fate::MeetsCrack(other.crack)))
+            is_near.then_some((t, at, TipStatus::MeetsCrack(other.crack)))
         })
     }
 
@@ -163,7 +174,7 @@ fn on(s: Segment, t: f64) -> Vec2 {
     s[0] + (s[1] - s[0]) * t
 }
 
-/// Where a segment that begins in a box comes to its border, and the place exactly on it.
+/// Where a segment that begins in a box comes to its boundary, and the place exactly on it.
 fn leaves(s: Segment, bounds: &Rect) -> Option<(f64, Vec2)> {
     let step = s[1] - s[0];
     let part = |from: f64, step: f64, min: f64, max: f64| {
@@ -212,7 +223,7 @@ mod tests {
     use super::*;
     use ppum::dataset::{Material, StressState};
     use ppum::vec2::vec2;
-    use ppum_problem::{Cells, Discretization, ProblemData};
+    use ppum_problem::{BaseCells, Discretization, ProblemData};
     use ppum_testkit::random::Random;
     use std::f64::consts::PI;
 
@@ -220,7 +231,7 @@ mod tests {
         let bounds = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
         let steel = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
         let domain = ppum::domain::Domain { bounds, holes };
-        let set = Discretization::new(Cells::Level(3));
+        let set = Discretization::new(BaseCells::Level(3));
         let plate = ProblemData::elasticity(domain, steel, set);
         let plate = cracks.iter().fold(plate, |plate, points| plate.with_crack(points));
         Problem::new(plate).expect("a problem in order")
@@ -228,12 +239,17 @@ mod tests {
 
     const TIP: TipId = TipId { crack: 0, end: End::Last };
 
-    fn from_origin(problem: &Problem, direction: f64, curvature: f64, length: f64) -> Way {
-        let arc = Arc { from: vec2(0.0, 0.0), direction, curvature, length };
+    fn from_origin(
+        problem: &Problem,
+        direction: f64,
+        curvature: f64,
+        length: f64,
+    ) -> IncrementPath {
+        let arc = IncrementArc { from: vec2(0.0, 0.0), direction, curvature, length };
         way(problem, problem.cracks(), TIP, arc)
     }
 
-    /// Ways end exactly on the border, and not shortly before it.
+    /// Ways end exactly on the boundary, and not shortly before it.
     #[test]
     fn the_border() {
         let problem = plate(Vec::new(), &[&[[-0.5, 0.0], [0.0, 0.0]]]);
@@ -242,12 +258,12 @@ mod tests {
             let direction = random.between(-1.5, 1.5);
             let reach = 1.0 / direction.cos().max(direction.sin().abs());
             let long = from_origin(&problem, direction, 0.0, reach * random.between(1.01, 3.0));
-            assert_eq!(long.fate, Fate::LeavesPlate);
+            assert_eq!(long.fate, TipStatus::LeavesPlate);
             let end = long.path[0];
             assert!(end.x.abs() == 1.0 || end.y.abs() == 1.0, "{end:?}");
             assert!((long.length - reach).abs() < 1e-14);
             let near = from_origin(&problem, direction, 0.0, reach * random.between(0.68, 0.99));
-            assert_eq!(near.fate, Fate::Grows);
+            assert_eq!(near.fate, TipStatus::Grows);
             assert!((near.length - 0.5 * reach).abs() < 1e-14);
             let short = from_origin(&problem, direction, 0.0, 0.6 * reach);
             assert!((short.length - 0.6 * reach).abs() < 1e-14);
@@ -282,10 +298,10 @@ mod tests {
             let found = from_origin(&problem, 0.0, 0.0, 0.3);
             assert_eq!(
                 (found.fate, found.path.as_slice()),
-                (Fate::MeetsHole(0), &[vec2(0.25, 0.0)][..])
+                (TipStatus::MeetsHole(0), &[vec2(0.25, 0.0)][..])
             );
             let past = from_origin(&problem, 1.2, 0.0, 0.3);
-            assert_eq!(past.fate, Fate::Grows);
+            assert_eq!(past.fate, TipStatus::Grows);
         }
     }
 
@@ -299,20 +315,20 @@ mod tests {
         let found = from_origin(&problem, 0.0, 0.0, 0.7);
         assert_eq!(
             (found.fate, found.path.as_slice()),
-            (Fate::MeetsCrack(2), &[vec2(0.4, 0.0)][..])
+            (TipStatus::MeetsCrack(2), &[vec2(0.4, 0.0)][..])
         );
         let beside: [&[[f64; 2]]; 2] = [&[[-0.5, 0.0], [0.0, 0.0]], &[[0.3, 0.05], [0.8, 0.05]]];
         let problem = plate(Vec::new(), &beside);
         let found = from_origin(&problem, 0.0, 0.0, 0.4);
         assert_eq!(
             (found.fate, found.path.as_slice()),
-            (Fate::MeetsCrack(1), &[vec2(0.3, 0.05)][..])
+            (TipStatus::MeetsCrack(1), &[vec2(0.3, 0.05)][..])
         );
         assert_eq!(found.length, vec2(0.3, 0.05).length());
         let bent: [&[[f64; 2]]; 1] =
             [&[[0.5, -0.5], [0.5, 0.5], [-0.5, 0.5], [-0.5, 0.0], [0.0, 0.0]]];
         let problem = plate(Vec::new(), &bent);
         let found = from_origin(&problem, 0.0, 0.0, 0.7);
-        assert_eq!((found.fate, found.path.len()), (Fate::MeetsItself, 0));
+        assert_eq!((found.fate, found.path.len()), (TipStatus::MeetsItself, 0));
     }
 }

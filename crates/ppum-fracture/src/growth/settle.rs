@@ -9,16 +9,16 @@
 
 use super::criterion::kink;
 use super::decision::{SHARP, bent, grown};
-use super::step::{Before, GrowthSeries};
+use super::step::{GrowthSeries, PreviousStep};
 use crate::solve::{Plan, SolveError};
 use ppum::crack::{Crack, TipId};
-use ppum::dataset::{Advance, Dataset, Fate, Growth, TipIntensity, Warning, WarningKind};
+use ppum::dataset::{Dataset, Growth, TipIncrement, TipIntensity, TipStatus, Warning, WarningKind};
 use ppum::progress::Watcher;
 use ppum::text::trimmed;
 use ppum_problem::Criterion;
 
 /// Angle of the criterion at the end of an arc, in radians, that counts as none: K_II is 5e-5 of
-/// K_I then. What is left has one sign along a path, and paths would drift by half of it.
+/// K_I then. The remaining error has one sign along a path, and paths would drift by half of it.
 const SYMMETRIC: f64 = 1e-4;
 
 /// Most times that arcs are bent. The first leaves about a tenth of the angle, and each after it
@@ -28,12 +28,12 @@ const ROUNDS: usize = 8;
 /// The solution of a step, and its cracks, whose last arcs are bent if the criterion asks for it.
 pub(super) fn settled(
     plan: Plan<'_>,
-    before: Option<&Before>,
+    before: Option<&PreviousStep>,
     series: &GrowthSeries<'_>,
     watcher: &dyn Watcher,
 ) -> Result<(Vec<Crack>, Dataset), SolveError> {
     let cracks = plan.problem().cracks().to_vec();
-    let Some(Before { problem: base, growth }) = before else {
+    let Some(PreviousStep { problem: base, growth }) = before else {
         return Ok((cracks, plan.solve(watcher)?));
     };
     if series.rule.criterion != Criterion::LocalSymmetry {
@@ -49,7 +49,7 @@ pub(super) fn settled(
             }
             Err(factors) => factors,
         };
-        let found: Vec<_> = angles(&growth, &factors).map(Bend::new).collect();
+        let found: Vec<_> = angles(&growth, &factors).map(CurvatureTrial::new).collect();
         let curvatures: Vec<_> = found.iter().map(|bend| (bend.tip, bend.next(&known))).collect();
         known = found;
         let next = bent(base, &growth, &curvatures);
@@ -72,13 +72,13 @@ pub(super) fn settled(
 fn warned(mut dataset: Dataset, growth: &Growth, limit: f64) -> Dataset {
     let step = &mut dataset.steps[0];
     let left = angles(growth, &step.intensities).filter(|(_, angle)| angle.abs() > limit);
-    let told = |(row, _): (&Advance, f64)| unsettled(row, &step.intensities, limit);
+    let told = |(row, _): (&TipIncrement, f64)| unsettled(row, &step.intensities, limit);
     let left: Vec<_> = left.filter_map(told).collect();
     step.warnings.extend(left);
     dataset
 }
 
-fn unsettled(row: &Advance, factors: &[TipIntensity], limit: f64) -> Option<Warning> {
+fn unsettled(row: &TipIncrement, factors: &[TipIntensity], limit: f64) -> Option<Warning> {
     let (factors, &at) = (factors.iter().find(|found| found.tip == row.tip)?, row.path.last()?);
     let ratio = (factors.k2 / factors.k1).abs();
     let problem = if limit == SYMMETRIC {
@@ -101,15 +101,15 @@ fn unsettled(row: &Advance, factors: &[TipIntensity], limit: f64) -> Option<Warn
 }
 
 /// A curvature and the angle that was found with it.
-struct Bend {
+struct CurvatureTrial {
     tip: TipId,
     curvature: f64,
     angle: f64,
     length: f64,
 }
 
-impl Bend {
-    fn new((row, angle): (&Advance, f64)) -> Self {
+impl CurvatureTrial {
+    fn new((row, angle): (&TipIncrement, f64)) -> Self {
         Self { tip: row.tip, curvature: row.curvature, angle, length: row.length }
     }
 
@@ -128,12 +128,12 @@ fn is_settled(growth: &Growth, factors: &[TipIntensity]) -> bool {
     angles(growth, factors).all(|(_, angle)| angle.abs() <= SYMMETRIC)
 }
 
-/// Of the arcs whose ends are tips, the angles that the criterion asks for there.
+/// Returns the angles that the criterion demands at the ends of the arcs that are tips.
 fn angles<'a>(
     growth: &'a Growth,
     factors: &'a [TipIntensity],
-) -> impl Iterator<Item = (&'a Advance, f64)> {
-    let free = growth.tips.iter().filter(|row| row.fate == Fate::Grows);
+) -> impl Iterator<Item = (&'a TipIncrement, f64)> {
+    let free = growth.tips.iter().filter(|row| row.fate == TipStatus::Grows);
     free.filter_map(|row| {
         let found = factors.iter().find(|found| found.tip == row.tip)?;
         Some((row, kink(Criterion::LocalSymmetry, found)?.angle))

@@ -1,6 +1,6 @@
 //! A step of a series: its plan, what is decided with it, and whether the series ends there.
 
-use super::decision::{Decision, Undecided, decide};
+use super::decision::{Decision, GrowthDataError, decide};
 use crate::solve::{Plan, SolveError};
 use ppum::dataset::{Dataset, Growth, GrowthStop, Record, Step, Warning, WarningKind};
 use ppum::progress::Watcher;
@@ -8,7 +8,7 @@ use ppum_problem::{GrowthRule, Problem};
 use ppum_solve::report::ENERGIES;
 
 /// A step that has been solved: its problem, and what was decided.
-pub(super) struct Before {
+pub(super) struct PreviousStep {
     pub(super) problem: Problem,
     pub(super) growth: Growth,
 }
@@ -59,7 +59,7 @@ impl GrowthSeries<'_> {
         problem: &Problem,
         mut dataset: Dataset,
         before: Option<&Growth>,
-    ) -> Result<(Dataset, Growth), Undecided> {
+    ) -> Result<(Dataset, Growth), GrowthDataError> {
         let step = &mut dataset.steps[0];
         let decision = decide(problem, self.rule, &step.intensities, before);
         let Decision { growth, load } = match (decision, before) {

@@ -20,7 +20,7 @@ pub(super) struct Auxiliary<R = f64> {
 
 /// The body of the tip's material that the fields are in.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Body {
+pub(super) struct TipMaterialBody {
     /// λ and μ of the plane law.
     pub(super) moduli: Coefficients,
     /// Kolosov's κ.
@@ -31,7 +31,7 @@ pub(super) struct Body {
     scale: [f64; 2],
 }
 
-impl Body {
+impl TipMaterialBody {
     pub(super) fn new(material: &Material) -> Self {
         let (lambda, mu) = (material.lambda(), material.mu());
         let scale = [0.5 / (mu * TAU.sqrt()), 0.125 / (PI * mu)];
@@ -48,7 +48,7 @@ impl Body {
     ) -> [Auxiliary<R>; MODES] {
         let [f1, f2, f3, f4] = westergaard::<R, D>(point);
         let [one, two] = self.modes([f1.x, f1.y], [f2.x, f2.y], [f3.x, f3.y], [f4.x, f4.y]);
-        let mut along = [[[point.x.lit(0.0); 2]; 2]; 2];
+        let mut along = [[[point.x.broadcast(0.0); 2]; 2]; 2];
         if D >= 2 {
             along = self.modes([f1.xx, f1.xy], [f2.xx, f2.xy], [f3.xx, f3.xy], [f4.xx, f4.xy]);
         }
@@ -82,19 +82,19 @@ impl Body {
     /// that of one angle everywhere.
     #[inline(always)]
     fn point_force<R: Real, const D: usize>(&self, point: &TipPoint<R>) -> Auxiliary<R> {
-        let (kappa, scale, one) = (self.kappa, self.scale[1], point.x.lit(1.0));
+        let (kappa, scale, one) = (self.kappa, self.scale[1], point.x.broadcast(1.0));
         let inverse = one / (point.x * point.x + point.y * point.y);
         let (x, y) = (point.x * inverse, point.y * inverse);
         // cos² θ, sin² θ, sin θ cos θ
         let (cc, ss, sc) = (point.x * x, point.y * y, point.x * y);
-        let (two, four) = (one.lit(2.0), one.lit(4.0));
-        let (a, b) = (one.lit((kappa + 1.0) * scale), one.lit(2.0 * scale));
-        let c = one.lit((kappa - 1.0) * scale);
+        let (two, four) = (one.broadcast(2.0), one.broadcast(4.0));
+        let (a, b) = (one.broadcast((kappa + 1.0) * scale), one.broadcast(2.0 * scale));
+        let c = one.broadcast((kappa - 1.0) * scale);
         let gradient = [
             [(two * b * ss - a) * x, -((a + two * b * cc) * y)],
             [(c + b * (ss - cc)) * y, (b * (cc - ss) - c) * x],
         ];
-        let mut along = [[one.lit(0.0); 2]; 2];
+        let mut along = [[one.broadcast(0.0); 2]; 2];
         if D >= 2 {
             let [first, second] = [
                 [
@@ -103,7 +103,7 @@ impl Body {
                 ],
                 [
                     -(two * sc * (c + b + two * b * (ss - cc))),
-                    c * (cc - ss) + b * (one.lit(3.0) * ss - cc - four * ss * (ss - cc)),
+                    c * (cc - ss) + b * (one.broadcast(3.0) * ss - cc - four * ss * (ss - cc)),
                 ],
             ];
             along = [
@@ -117,7 +117,7 @@ impl Body {
 
 #[inline(always)]
 fn times<R: Real>(a: [R; 2], factor: f64) -> [R; 2] {
-    let factor = a[0].lit(factor);
+    let factor = a[0].broadcast(factor);
     [a[0] * factor, a[1] * factor]
 }
 
@@ -176,7 +176,7 @@ mod tests {
             for (x, y) in [(0.3, 0.4), (-0.7, 0.2), (-0.5, -0.6), (0.2, -0.9), (0.6, 0.0)] {
                 let h = 1e-5;
                 let at = |dx: f64, dy: f64| {
-                    Body::new(&material).fields::<f64, 2>(&point(x + dx, y + dy))
+                    TipMaterialBody::new(&material).fields::<f64, 2>(&point(x + dx, y + dy))
                 };
                 let own = at(0.0, 0.0);
                 let [e, w, n, s] = [[h, 0.0], [-h, 0.0], [0.0, h], [0.0, -h]];

@@ -1,24 +1,25 @@
-//! The part of the interaction integral that comes from the faces of the crack behind its kinks.
+//! The integrals over the faces of the crack with the field there: of the interaction integral the
+//! part behind kinks and that of faces that touch; of J the whole, with the tractions of loads.
 
 use super::auxiliary::{Auxiliary, stress, work};
-use super::course::{Bend, CourseSegment};
+use super::course::{BentPiece, CourseSegment};
 use super::integral::Interaction;
 use super::sums::{Gradients, Integrals, cut_off, square, turned};
 use ppum::crack::{SegmentId, Side};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
-use ppum_solve::quadrature::{EdgeRule, Face, Quadrature};
+use ppum_solve::quadrature::{CrackFace, EdgeRule, Quadrature};
 
 impl Interaction<'_> {
     /// The integrals over both faces of a piece.
-    pub(super) fn bend(&self, quadrature: &Quadrature<'_>, bend: &Bend) -> Integrals {
+    pub(super) fn bend(&self, quadrature: &Quadrature<'_>, bend: &BentPiece) -> Integrals {
         let segment = SegmentId { crack: self.course.tip().crack, segment: bend.part.segment };
         let mut sums = Integrals::default();
         for side in [Side::Above, Side::Below] {
-            let face = Face { segment, side };
+            let face = CrackFace { segment, side };
             let cell = &self.space.partition().cell[bend.cell];
-            let coverers = &self.space.coverers[bend.cell];
-            for rule in quadrature.part_of_face(cell, coverers, bend.ends, face) {
+            let covering_patches = &self.space.covering_patches[bend.cell];
+            for rule in quadrature.part_of_face(cell, covering_patches, bend.ends, face) {
                 sums = sums.plus(self.along(bend, face, &rule));
                 sums.doubt.add(&rule.doubt);
             }
@@ -27,7 +28,12 @@ impl Interaction<'_> {
     }
 
     /// The points of a rule on one face in a cell.
-    fn along(&self, bend: &Bend, Face { segment, side }: Face, rule: &EdgeRule) -> Integrals {
+    fn along(
+        &self,
+        bend: &BentPiece,
+        CrackFace { segment, side }: CrackFace,
+        rule: &EdgeRule,
+    ) -> Integrals {
         let between = self.between(rule, bend.cell);
         let mut jets = vec![Jet::constant(0.0); 2 * rule.offsets.len()];
         let local = self.field.on(segment, rule.anchor);
@@ -44,7 +50,7 @@ impl Interaction<'_> {
         jets: &[Jet<f64>],
         between: &[Vec2],
     ) -> Integrals {
-        let Some(Face { segment, side }) = rule.face else { return Integrals::default() };
+        let Some(CrackFace { segment, side }) = rule.face else { return Integrals::default() };
         let tip = self.course.on(part, rule.anchor);
         let mut sums = Integrals::default();
         let points = rule.offsets.iter().zip(&rule.weights).zip(&rule.normals);
@@ -70,7 +76,7 @@ impl Interaction<'_> {
     }
 
     /// σᵃ_i2 ∂u_i/∂s, with s along the face so that the normal points to its left: what P_j n_j is
-    /// but for the traction's part.
+    /// except for the traction's part.
     fn crossing(&self, u: &Gradients, aux: &Gradients, normal: Vec2) -> f64 {
         let (stress, along) = (stress(self.body.moduli, aux), -normal.left());
         (0..2).map(|i| stress[i][1] * Vec2::from(u[i]).dot(along)).sum()

@@ -8,18 +8,18 @@ use super::sums::{
 use ppum::crack::{LocalTip, Side, TipPoint};
 use ppum::field::LocalField;
 use ppum::jet::Jet;
-use ppum::real::{Job, Real, Scalar};
+use ppum::real::{LaneJob, LaneNumber, Real};
 use ppum::vec2::Vec2;
-use ppum_solve::assembly::{FACTORS, Kernel};
+use ppum_solve::assembly::{FACTORS, ModeKernel};
 use ppum_solve::law::Coefficients;
-use ppum_solve::quadrature::Rule;
+use ppum_solve::quadrature::CellRule;
 
 /// Sums at a point: of each disc those of its modes, J and the energy.
 const SUMS: usize = RINGS * MODES + 2;
 
-/// What is particular to a point.
+/// The terms that vary from point to point.
 #[derive(Clone, Copy, Debug)]
-struct Local {
+struct PointTerms {
     /// The coefficients of the law.
     moduli: Coefficients,
     /// The body force in the tip's frame.
@@ -29,7 +29,7 @@ struct Local {
 impl<'a> Interaction<'a> {
     /// The part of a rule's points inside the largest disc. `seen` is the field as it was last
     /// looked at: most rules around a tip have the tip as their anchor.
-    pub(super) fn rule(&self, rule: &Rule, seen: &mut Option<LocalField<'a>>) -> Integrals {
+    pub(super) fn rule(&self, rule: &CellRule, seen: &mut Option<LocalField<'a>>) -> Integrals {
         let near = rule.anchor - self.center;
         let all = rule.offsets.iter().zip(&rule.weights);
         let inside = all.filter(|(o, _)| (near + **o).length() < self.largest());
@@ -41,11 +41,11 @@ impl<'a> Interaction<'a> {
         PointBlock::new(self, rule.anchor, &offsets).integrals(&weights, &jets)
     }
 
-    /// What is particular to a point, where the field has a gradient that is given in the
-    /// tip's frame.
-    fn local(&self, world: Vec2) -> Local {
+    /// Returns the terms of a point, where the field has a gradient that is given in the tip's
+    /// frame.
+    fn local(&self, world: Vec2) -> PointTerms {
         let force = self.loads.body_force(world).unwrap_or_default();
-        Local { moduli: self.moduli(world), force: turned(self.axis, force).into() }
+        PointTerms { moduli: self.moduli(world), force: turned(self.axis, force).into() }
     }
 }
 
@@ -56,7 +56,7 @@ pub(super) struct PointBlock<'b> {
     anchor: Vec2,
     offsets: &'b [Vec2],
     /// None where all points are alike, and no force acts.
-    locals: Option<Vec<Local>>,
+    locals: Option<Vec<PointTerms>>,
 }
 
 impl<'b> PointBlock<'b> {
@@ -75,12 +75,13 @@ impl<'b> PointBlock<'b> {
         let gradients: Vec<_> = self.offsets.iter().zip(jets.chunks_exact(2)).map(at).collect();
         let energies = self.locals.as_ref().map(|locals| {
             let points = self.offsets.iter().zip(locals).zip(jets.chunks_exact(2));
-            let source = |((&offset, local), u): ((&Vec2, &Local), _)| {
+            let source = |((&offset, local), u): ((&Vec2, &PointTerms), _)| {
                 self.tip.energy_source(self.anchor + offset, local.force, u)
             };
             points.map(source).collect()
         });
-        let sums = f64::dispatch(Sums { block: self, weights, gradients: &gradients, energies });
+        let sums =
+            f64::dispatch(BlockSums { block: self, weights, gradients: &gradients, energies });
         let mut integrals =
             Integrals { j: -sums[SUMS - 2], energy: sums[SUMS - 1], ..Integrals::default() };
         for (modes, sums) in integrals.modes.iter_mut().zip(sums.chunks_exact(MODES)) {
@@ -90,7 +91,7 @@ impl<'b> PointBlock<'b> {
     }
 
     /// G of both modes, times the weights.
-    pub(super) fn kernels(&self, weights: &[f64]) -> Vec<[Kernel; FACTORS]> {
+    pub(super) fn kernels(&self, weights: &[f64]) -> Vec<[ModeKernel; FACTORS]> {
         f64::dispatch(Kernels { block: self, weights })
     }
 
@@ -107,7 +108,7 @@ impl<'b> PointBlock<'b> {
     #[inline(always)]
     fn locals<R: Real<Scalar = f64>>(&self, first: usize, zero: R) -> (Coefficients<R>, [R; 2]) {
         let Some(locals) = &self.locals else {
-            return (self.tip.body.moduli.map(|constant| zero.lit(constant)), [zero; 2]);
+            return (self.tip.body.moduli.map(|constant| zero.broadcast(constant)), [zero; 2]);
         };
         let at = |k: usize| &locals[(first + k).min(locals.len() - 1)];
         (
@@ -142,10 +143,10 @@ impl<R: Real> FieldSample<R> {
         moduli: Coefficients,
         auxiliary: &[Auxiliary<R>; MODES],
     ) -> Integrands<R> {
-        let moduli = moduli.map(|constant| self.point.x.lit(constant));
+        let moduli = moduli.map(|constant| self.point.x.broadcast(constant));
         let (own, at_tip) = (stress(self.moduli, &self.elastic), stress(moduli, &self.u));
         let through = self.through(&own, &at_tip, moduli);
-        let [mut flows, mut sources] = [[self.point.x.lit(0.0); MODES]; 2];
+        let [mut flows, mut sources] = [[self.point.x.broadcast(0.0); MODES]; 2];
         for (mode, auxiliary) in auxiliary.iter().enumerate() {
             let ([a, b], [c, d]) = (auxiliary.gradient, through);
             flows[mode] = c[0] * a[0] + c[1] * a[1] + (d[0] * b[0] + d[1] * b[1]);
@@ -156,9 +157,9 @@ impl<R: Real> FieldSample<R> {
         Integrands { flows, sources, stress: own }
     }
 
-    /// What P_j x_j is of ∇uᵃ: with σᵃ_ij u_i,1 x_j = C:(u_,1 x) on ∇uᵃ, and P_j = σ_ij uᵃ_i,1 +
-    /// σᵃ_ij u_i,1 − σᵃ_ik ε_ik δ_1j, where σᵃ_ik ε_ik is the stress that the tip's material would
-    /// have, on εᵃ.
+    /// Returns P_j x_j in terms of ∇uᵃ: with σᵃ_ij u_i,1 x_j = C:(u_,1 x) on ∇uᵃ, and P_j = σ_ij
+    /// uᵃ_i,1 + σᵃ_ij u_i,1 − σᵃ_ik ε_ik δ_1j, where σᵃ_ik ε_ik is the stress that the tip's
+    /// material would have, on εᵃ.
     #[inline(always)]
     fn through(
         &self,
@@ -192,11 +193,11 @@ impl<R: Real> FieldSample<R> {
 fn energy_flow<R: Real>(stress: &Gradients<R>, sample: &FieldSample<R>) -> R {
     let FieldSample { point, u, elastic, .. } = sample;
     let flow = |j: usize| stress[0][j] * u[0][0] + stress[1][j] * u[1][0];
-    (work(stress, elastic) * point.x.lit(0.5) - flow(0)) * point.x - flow(1) * point.y
+    (work(stress, elastic) * point.x.broadcast(0.5) - flow(0)) * point.x - flow(1) * point.y
 }
 
 /// The sums of all integrands over the points of a block, in their order.
-struct Sums<'b> {
+struct BlockSums<'b> {
     block: &'b PointBlock<'b>,
     weights: &'b [f64],
     /// ∇u and its part that has stress.
@@ -205,7 +206,7 @@ struct Sums<'b> {
     energies: Option<Vec<f64>>,
 }
 
-impl Job<f64> for Sums<'_> {
+impl LaneJob<f64> for BlockSums<'_> {
     type Output = [f64; SUMS];
 
     #[inline(always)]
@@ -214,7 +215,7 @@ impl Job<f64> for Sums<'_> {
     }
 }
 
-impl Sums<'_> {
+impl BlockSums<'_> {
     #[inline(always)]
     fn over<R: Real<Scalar = f64>, const D: usize>(&self, zero: R) -> [f64; SUMS] {
         let mut sums = [0.0; SUMS];
@@ -264,14 +265,14 @@ impl Sums<'_> {
     }
 }
 
-/// What the integrands over the largest disc are of ∇u, times E′/2 and the weights.
+/// The integrands over the largest disc in terms of ∇u, times E′/2 and the weights.
 struct Kernels<'b> {
     block: &'b PointBlock<'b>,
     weights: &'b [f64],
 }
 
-impl Job<f64> for Kernels<'_> {
-    type Output = Vec<[Kernel; FACTORS]>;
+impl LaneJob<f64> for Kernels<'_> {
+    type Output = Vec<[ModeKernel; FACTORS]>;
 
     #[inline(always)]
     fn run<R: Real<Scalar = f64>>(self, zero: R) -> Self::Output {
@@ -281,7 +282,7 @@ impl Job<f64> for Kernels<'_> {
 
 impl Kernels<'_> {
     #[inline(always)]
-    fn over<R: Real<Scalar = f64>, const D: usize>(&self, zero: R) -> Vec<[Kernel; FACTORS]> {
+    fn over<R: Real<Scalar = f64>, const D: usize>(&self, zero: R) -> Vec<[ModeKernel; FACTORS]> {
         let mut all = vec![[[Vec2::ZERO; 2]; FACTORS]; self.weights.len()];
         for (first, kernels) in (0..).step_by(R::LANES).zip(all.chunks_mut(R::LANES)) {
             for (component, [x, y]) in self.densities::<R, D>(first, zero).into_iter().enumerate() {
@@ -297,7 +298,7 @@ impl Kernels<'_> {
         all
     }
 
-    /// Of each component and axis the integrands of both modes for a gradient of one.
+    /// Returns the integrands of both modes for a gradient of one, for each component and axis.
     #[inline(always)]
     fn densities<R: Real<Scalar = f64>, const D: usize>(
         &self,
@@ -309,12 +310,15 @@ impl Kernels<'_> {
         let point = self.block.points(first, zero);
         let auxiliary = tip.body.fields::<R, D>(&point);
         let (q, slope) = flat_cut_off(square(&point), tip.radii[RINGS - 1]);
-        let halves = tip.halves().map(|halves| zero.lit(0.5 * tip.modulus() * halves));
+        let halves = tip.halves().map(|halves| zero.broadcast(0.5 * tip.modulus() * halves));
         let mut densities = [[[zero; FACTORS]; 2]; 2];
         for (component, of_component) in densities.iter_mut().enumerate() {
             for (axis, of_modes) in of_component.iter_mut().enumerate() {
                 let [[a, b], [c, d]] = unit(component, axis, tip.axis);
-                let u = [[zero.lit(a), zero.lit(b)], [zero.lit(c), zero.lit(d)]];
+                let u = [
+                    [zero.broadcast(a), zero.broadcast(b)],
+                    [zero.broadcast(c), zero.broadcast(d)],
+                ];
                 let of = FieldSample { point, u, elastic: u, moduli, force }
                     .integrands::<D>(tip.body.moduli, &auxiliary);
                 for ((density, half), (flow, source)) in

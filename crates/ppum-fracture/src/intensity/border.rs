@@ -1,4 +1,4 @@
-//! The border of a mesh around a tip.
+//! The boundary of a mesh around a tip.
 
 use ppum::crack::Side;
 use ppum::field::{Field, LocalField};
@@ -9,7 +9,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 /// Distance from a side at which it is looked what lies behind, in parts of its length.
 const BESIDE: f64 = 1e-6;
 
-/// Distance from a point to the nearest border of a mesh that is not a slit, within a radius.
+/// Distance from a point to the nearest boundary of a mesh that is not a slit, within a radius.
 pub(super) fn border_distance(field: &Field<'_>, center: Vec2, radius: f64) -> f64 {
     let local = field.at(center);
     let mut patches = Vec::new();

@@ -14,8 +14,8 @@ const PART: f64 = 0.75;
 const DEEPEST: u8 = 16;
 const MOST: usize = 16;
 
-/// Most pairs of a cell and a patch over it, which are kept in lists of 256 MiB. A million patches of
-/// a cover have nine million.
+/// Most pairs of a cell and a patch over it, which are kept in lists of 256 MiB. A million patches
+/// of a cover have nine million.
 const MOST_PAIRS: usize = 1 << 26;
 
 /// A dataset with the step, and its number there, with cells to integrate over if its patches are

@@ -4,8 +4,9 @@ use ppum::crack::{Crack, End, LocalTip, SegmentId, TipId};
 use ppum::vec2::Vec2;
 use ppum_problem::geometry::from_tip;
 
-/// Ratio of the distances to the tip at the ends of a [piece](Course::pieces). Auxiliary fields are
-/// powers of the distance: on an interval from r to 2r twelve Gauss points leave an error of 1e-15.
+/// Ratio of the distances to the tip at the ends of a [piece](TipPath::pieces). Auxiliary fields
+/// are powers of the distance: on an interval from r to 2r twelve Gauss points leave an error of
+/// 1e-15.
 const RATIO: f64 = 2.0;
 
 /// Length of the piece at the tip, in parts of its segment.
@@ -16,7 +17,7 @@ const FIRST: f64 = 1e-3;
 /// The auxiliary fields jump on it and on its straight continuation, not on the rest of the crack:
 /// what that does far away must not decide on which side a point of the disc lies.
 #[derive(Debug)]
-pub(super) struct Course {
+pub(super) struct TipPath {
     crack: Crack,
     tip: TipId,
     /// The whole crack's segment that is the first of this part.
@@ -38,13 +39,13 @@ pub(super) struct CourseSegment {
 
 /// A piece of the crack in a cell.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bend {
+pub(super) struct BentPiece {
     pub(super) part: CourseSegment,
     pub(super) ends: [Vec2; 2],
     pub(super) cell: usize,
 }
 
-impl Course {
+impl TipPath {
     /// The course through a disc inside the [clearance](super::TipClearance) of the tip.
     pub(super) fn new(own: &Crack, tip: TipId, radius: f64) -> Self {
         let center = own.end_point(tip.end);
@@ -74,12 +75,12 @@ impl Course {
         LocalTip::new(&self.crack, self.tip.end, anchor)
     }
 
-    /// The same for points that lie on a part.
+    /// Returns the tip as seen from an anchor, for points that lie on a part of the path.
     pub(super) fn on(&self, part: &CourseSegment, anchor: Vec2) -> LocalTip {
         LocalTip::on(&self.crack, part.local, self.tip.end, anchor)
     }
 
-    /// The segments, from the tip on, up to the border of the disc.
+    /// The segments, from the tip on, up to the boundary of the disc.
     pub(super) fn parts(&self) -> impl Iterator<Item = CourseSegment> {
         let points: Vec<Vec2> = from_tip(&self.crack, self.tip.end).collect();
         let last = points.len() - 2;
@@ -158,7 +159,7 @@ mod tests {
         for (end, segments, center) in
             [(End::Start, [0, 1], vec2(0.0, 0.0)), (End::Last, [3, 2], vec2(4.0, 0.0))]
         {
-            let course = Course::new(&crack(), TipId { crack: 0, end }, 1.4);
+            let course = TipPath::new(&crack(), TipId { crack: 0, end }, 1.4);
             let parts: Vec<_> = course.parts().collect();
             assert_eq!(parts.iter().map(|p| p.segment).collect::<Vec<_>>(), segments);
             assert_eq!((parts[0].ends[0], course.center()), (center, center));
@@ -172,7 +173,7 @@ mod tests {
     /// their distance.
     #[test]
     fn pieces_of_a_part() {
-        let course = Course::new(&crack(), TipId { crack: 0, end: End::Last }, 3.0);
+        let course = TipPath::new(&crack(), TipId { crack: 0, end: End::Last }, 3.0);
         for part in course.parts() {
             let pieces = course.pieces(&part, &[0.5, 1.2, 2.9]);
             assert_eq!([pieces[0][0], pieces[pieces.len() - 1][1]], part.ends);

@@ -20,8 +20,8 @@ use ppum::jet::Jet;
 use ppum::mesh::ElementField;
 use ppum::progress::Cancelled;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_solve::quadrature::{Doubt, EdgeRule, Face, gauss};
-use ppum_solve::watched::Stage;
+use ppum_solve::quadrature::{CrackFace, EdgeRule, QuadratureError, gauss};
+use ppum_solve::watched::WorkPhase;
 use rayon::prelude::*;
 
 /// Gauss points in each direction.
@@ -39,16 +39,16 @@ const BESIDE: f64 = 1e-6;
 
 /// A triangle in the coordinate of an element.
 #[derive(Clone, Copy, Debug)]
-struct Triangle {
+struct CoordinateTriangle {
     corners: [Vec2; 3],
     /// True if the first corner is the tip.
     is_at_tip: bool,
 }
 
 /// An element with what it is divided into.
-type ElementTriangles<'m, 'f> = (Vec<Triangle>, ElementField<'m, 'f>);
+type ElementTriangles<'m, 'f> = (Vec<CoordinateTriangle>, ElementField<'m, 'f>);
 
-impl Triangle {
+impl CoordinateTriangle {
     /// The four triangles between its corners and the middles of its sides.
     fn quarters(&self) -> [Self; 4] {
         let [a, b, c] = self.corners;
@@ -85,7 +85,7 @@ impl Interaction<'_> {
     ///
     /// # Errors
     /// Cancelled.
-    pub(super) fn mesh(&self, stage: &Stage<'_>) -> Result<Integrals, Cancelled> {
+    pub(super) fn mesh(&self, stage: &WorkPhase<'_>) -> Result<Integrals, Cancelled> {
         let local = self.field.at(self.center);
         let (mut patches, reach) = (Vec::new(), vec2(self.largest(), self.largest()));
         self.field.tree.query_box(&Rect::around(self.center, reach), &mut patches);
@@ -107,12 +107,13 @@ impl Interaction<'_> {
         let (at, most) = (self.center, LEAST.max(MOST / triangles_in_all.max(1)));
         let resolved = |(parts, wholes): (&ElementTriangles<'_, '_>, &Vec<Integrals>)| {
             let (triangles, element) = parts;
-            let integral = |triangle: &Triangle| self.triangle(element, triangle);
+            let integral = |triangle: &CoordinateTriangle| self.triangle(element, triangle);
             let mut sum = Integrals::default();
             for (triangle, whole) in triangles.iter().zip(wholes) {
                 stage.advance(0)?;
                 let integration = Integration { integral: &integral, scale: &scale, at, most };
-                sum = sum.plus(integration.resolve((*triangle, *whole), Triangle::quarters));
+                sum = sum
+                    .plus(integration.resolve((*triangle, *whole), CoordinateTriangle::quarters));
             }
             Ok::<_, Cancelled>(sum)
         };
@@ -123,7 +124,7 @@ impl Interaction<'_> {
     }
 
     /// The points of a triangle in the disc.
-    fn triangle(&self, element: &ElementField<'_, '_>, triangle: &Triangle) -> Integrals {
+    fn triangle(&self, element: &ElementField<'_, '_>, triangle: &CoordinateTriangle) -> Integrals {
         let (mut offsets, mut weights, mut jets) = (Vec::new(), Vec::new(), Vec::new());
         for (delta, weight) in triangle.points() {
             let point = element.point(delta);
@@ -140,7 +141,7 @@ impl Interaction<'_> {
     }
 
     /// The triangles of an element.
-    fn triangles(&self, element: &ElementField<'_, '_>) -> Vec<Triangle> {
+    fn triangles(&self, element: &ElementField<'_, '_>) -> Vec<CoordinateTriangle> {
         let corners = element.corners();
         let columns = |corner: &Vec2| element.point(*corner).columns;
         let first = columns(&corners[0]);
@@ -224,8 +225,8 @@ impl Interaction<'_> {
             offsets,
             weights,
             patches: Vec::new(),
-            face: Some(Face { segment, side }),
-            doubt: Doubt::default(),
+            face: Some(CrackFace { segment, side }),
+            doubt: QuadratureError::default(),
         }
     }
 
@@ -249,7 +250,7 @@ impl Interaction<'_> {
 }
 
 /// The triangles of a convex polygon, all with a corner at the tip if that lies in it.
-fn fan(polygon: &[Vec2], is_tip: &dyn Fn(&Vec2) -> bool) -> Vec<Triangle> {
+fn fan(polygon: &[Vec2], is_tip: &dyn Fn(&Vec2) -> bool) -> Vec<CoordinateTriangle> {
     let n = polygon.len();
     let area = |a: Vec2, b: Vec2, c: Vec2| (b - a).cross(c - a);
     let whole: f64 = (2..n).map(|k| area(polygon[0], polygon[k - 1], polygon[k])).sum();
@@ -260,7 +261,7 @@ fn fan(polygon: &[Vec2], is_tip: &dyn Fn(&Vec2) -> bool) -> Vec<Triangle> {
     let apex = tip.unwrap_or(polygon[0]);
     let all = (0..n).map(|k| [apex, side(k)[0], side(k)[1]]);
     let whole_ones = all.filter(|[a, b, c]| area(*a, *b, *c) > SAME * whole);
-    whole_ones.map(|corners| Triangle { corners, is_at_tip: tip.is_some() }).collect()
+    whole_ones.map(|corners| CoordinateTriangle { corners, is_at_tip: tip.is_some() }).collect()
 }
 
 /// The part of a convex polygon where depths, which are linear, have a sign.

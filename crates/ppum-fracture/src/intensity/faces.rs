@@ -1,7 +1,8 @@
-//! The part of the interaction integral that comes from loads on the faces of a crack.
+//! The part of the interaction integral that comes from loads on the faces of a crack. Their part
+//! of J needs the field there: `bent` has it.
 
-use super::auxiliary::Body;
-use super::course::{Course, CourseSegment};
+use super::auxiliary::TipMaterialBody;
+use super::course::{CourseSegment, TipPath};
 use super::loads::TipLoads;
 use super::sums::{Modes, cut_off, square, turned};
 use ppum::crack::{LocalTip, Side};
@@ -42,15 +43,15 @@ const MOST_BREAKS: usize = 512;
 const BALANCED: f64 = 1e-5;
 
 /// An interval of the face's coordinate with the integral over it.
-type Panel = ([f64; 2], Modes);
+type FaceInterval = ([f64; 2], Modes);
 
 /// A part of the crack, and the tip as seen from it.
 type SegmentAtTip<'s> = (&'s CourseSegment, &'s LocalTip);
 
 /// The faces of a crack behind one tip, in the discs around it.
-pub(super) struct Faces<'a> {
-    pub(super) course: &'a Course,
-    pub(super) body: &'a Body,
+pub(super) struct TipFaces<'a> {
+    pub(super) course: &'a TipPath,
+    pub(super) body: &'a TipMaterialBody,
     /// Radii of the discs, ascending.
     pub(super) radii: &'a [f64],
     pub(super) load: &'a dyn TipLoads,
@@ -61,7 +62,7 @@ pub(super) struct Faces<'a> {
     pub(super) is_half: bool,
 }
 
-impl Faces<'_> {
+impl TipFaces<'_> {
     /// −∫ t_i uᵃ_i,1 q ds over both faces, or over the one in the body. Panels are divided until
     /// they resolve the load, which may bend or jump anywhere.
     pub(super) fn integrals(&self) -> Modes {
@@ -83,7 +84,7 @@ impl Faces<'_> {
     }
 
     /// Panels that resolve the loads on a part.
-    fn resolved(&self, part: &CourseSegment) -> Vec<Panel> {
+    fn resolved(&self, part: &CourseSegment) -> Vec<FaceInterval> {
         let tip = &self.course.on(part, self.course.center());
         let at = |k: u32| f64::from(k) / f64::from(PANELS);
         let mut open: Vec<_> =
@@ -113,12 +114,12 @@ impl Faces<'_> {
         done
     }
 
-    fn halves(&self, of: SegmentAtTip<'_>, [from, to]: [f64; 2]) -> [Panel; 2] {
+    fn halves(&self, of: SegmentAtTip<'_>, [from, to]: [f64; 2]) -> [FaceInterval; 2] {
         let between = from + SHARE * (to - from);
         [[from, between], [between, to]].map(|ends| self.panel(of, ends))
     }
 
-    fn panel(&self, of: SegmentAtTip<'_>, ends: [f64; 2]) -> Panel {
+    fn panel(&self, of: SegmentAtTip<'_>, ends: [f64; 2]) -> FaceInterval {
         (ends, self.integral(of, ends, gauss(ORDER)))
     }
 
@@ -166,7 +167,11 @@ impl Faces<'_> {
 
 /// σ_22 in the tip's frame that the loads on the faces at a tip stand for, or those on one face and
 /// their image; none if these have a resultant, under which stresses grow like log r.
-pub(super) fn pressed(course: &Course, load: &dyn TipLoads, half: Option<Symmetry>) -> Option<f64> {
+pub(super) fn pressed(
+    course: &TipPath,
+    load: &dyn TipLoads,
+    half: Option<Symmetry>,
+) -> Option<f64> {
     let first = course.parts().next()?;
     let loads = LOOKS.map(|part| {
         let at = first.ends[0] + (first.ends[1] - first.ends[0]) * part;
@@ -226,10 +231,10 @@ mod tests {
         let crack = Crack { points, ends: [CrackEnd::Tip; 2] };
         let material = Material { young: 2.0, poisson: 0.2, state: StressState::PlaneStress };
         let tip = TipId { crack: 0, end: End::Last };
-        let course = Course::new(&crack, tip, RADII[2]);
-        Faces {
+        let course = TipPath::new(&crack, tip, RADII[2]);
+        TipFaces {
             course: &course,
-            body: &Body::new(&material),
+            body: &TipMaterialBody::new(&material),
             radii: &RADII,
             load,
             is_balanced: true,

@@ -1,8 +1,8 @@
 //! The interaction integral over the cells of a space.
 
-use super::auxiliary::{Auxiliary, Body, difference};
-use super::course::{Bend, Course, CourseSegment};
-use super::faces::{Faces, pressed};
+use super::auxiliary::{Auxiliary, TipMaterialBody, difference};
+use super::course::{BentPiece, CourseSegment, TipPath};
+use super::faces::{TipFaces, pressed};
 use super::loads::TipLoads;
 use super::sums::{
     Gradients, Integrals, MODES, Modes, RINGS, gradient, in_frame, tensor_in_frame, turned,
@@ -14,13 +14,13 @@ use ppum::jet::Jet;
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::Symmetry;
-use ppum_problem::geometry::{Placed, around};
+use ppum_problem::geometry::{BoxList, around};
 use ppum_solve::assembly::FACTORS;
-use ppum_solve::law::{Coefficients, EnergySlope, FacePoint, Law};
-use ppum_solve::quadrature::{Disc, Doubt, EdgeRule, Quadrature, Rule};
-use ppum_solve::space::Space;
+use ppum_solve::law::{Coefficients, EnergySlope, FaceLocation, Law};
+use ppum_solve::quadrature::{CellRule, Disc, EdgeRule, Quadrature, QuadratureError};
+use ppum_solve::space::TrialSpace;
 use ppum_solve::terms::{FaceLaw, FaceTraction};
-use ppum_solve::watched::Stage;
+use ppum_solve::watched::WorkPhase;
 use rayon::prelude::*;
 
 /// Gauss points in each direction of large pieces and at the tip: the cut-off bends there.
@@ -36,14 +36,15 @@ pub(super) struct TipIntegrals {
     pub(super) rings: [Ring; RINGS],
     pub(super) t_stress: Option<f64>,
     pub(super) j: Option<f64>,
-    /// See [`TipOutcome::strength`](super::TipOutcome::strength).
-    pub(super) strength: f64,
+    /// See [`TipResult::energy_scale`](super::TipResult::energy_scale).
+    pub(super) energy_scale: f64,
     /// Errors that quadrature leaves in the discs.
-    pub(super) doubt: Doubt,
+    pub(super) doubt: QuadratureError,
 }
 
 impl TipIntegrals {
-    /// The same as they are stored: the values of the largest disc, whose integral averages most.
+    /// Returns the factors as they are stored: the values of the largest disc, whose integral
+    /// averages most.
     pub(super) fn factors(&self, tip: TipId) -> TipIntensity {
         let Ring { k1, k2, .. } = self.rings[RINGS - 1];
         let Self { t_stress, j, .. } = *self;
@@ -54,12 +55,12 @@ impl TipIntegrals {
 /// The interaction integrals around one tip.
 pub(super) struct Interaction<'a> {
     pub(super) field: &'a Field<'a>,
-    pub(super) space: &'a Space<'a>,
+    pub(super) space: &'a TrialSpace<'a>,
     pub(super) law: &'a Law<'a>,
     /// The body of the material at the tip that the auxiliary fields are in.
-    pub(super) body: Body,
+    pub(super) body: TipMaterialBody,
     /// The crack in the discs.
-    pub(super) course: Course,
+    pub(super) course: TipPath,
     pub(super) center: Vec2,
     /// The direction of growth.
     pub(super) axis: Vec2,
@@ -73,7 +74,7 @@ pub(super) struct Interaction<'a> {
     slope: Option<EnergySlope<'a>>,
     /// σ_22 at the tip by the loads on its faces; none if these have a resultant there.
     pressed: Option<f64>,
-    /// What acts between the faces of the crack.
+    /// The law between the faces of the crack.
     face_law: Option<FaceLaw>,
     /// The symmetry to the axis of a field of which one half is in the body.
     half: Option<Symmetry>,
@@ -84,16 +85,16 @@ impl<'a> Interaction<'a> {
     /// those of the material at the tip. None unless the field is a displacement.
     pub(super) fn new(
         field: &'a Field<'a>,
-        space: &'a Space<'a>,
+        space: &'a TrialSpace<'a>,
         law: &'a Law<'a>,
         tip: TipId,
         radii: [f64; RINGS],
         loads: &'a dyn TipLoads,
     ) -> Option<Self> {
         let crack = &field.step.cracks[tip.crack as usize];
-        let course = Course::new(crack, tip, radii[RINGS - 1]);
+        let course = TipPath::new(crack, tip, radii[RINGS - 1]);
         let center = course.center();
-        let body = Body::new(&field.equation.elastic()?.at(center));
+        let body = TipMaterialBody::new(&field.equation.elastic()?.at(center));
         let slope = EnergySlope::new(law.clone(), center, radii[RINGS - 1]);
         let axis = crack.growth_direction(tip.end);
         let free = law.at(center).elastic(&[Vec2::ZERO; 2]).map(|row| -row);
@@ -139,7 +140,7 @@ impl<'a> Interaction<'a> {
     }
 
     /// The cells that meet the largest disc.
-    pub(super) fn cells(&self, cells: &Placed<usize>) -> impl Iterator<Item = usize> {
+    pub(super) fn cells(&self, cells: &BoxList<usize>) -> impl Iterator<Item = usize> {
         let (all, radius) = (&self.space.partition().cell, self.largest());
         let square = Rect::around(self.center, vec2(radius, radius));
         let near = cells.near(&square).copied().collect::<Vec<_>>().into_iter();
@@ -148,10 +149,10 @@ impl<'a> Interaction<'a> {
 
     /// The pieces of the crack that are not along the axis, or loaded, in all cells that they
     /// may meet.
-    fn bends(&self, cells: &Placed<usize>) -> Vec<Bend> {
+    fn bends(&self, cells: &BoxList<usize>) -> Vec<BentPiece> {
         let in_cells = |(part, ends): (CourseSegment, [Vec2; 2])| {
             let near = cells.near(&around(&ends));
-            near.map(move |&cell| Bend { part, ends, cell }).collect::<Vec<_>>()
+            near.map(move |&cell| BentPiece { part, ends, cell }).collect::<Vec<_>>()
         };
         self.pieces_of_faces().into_iter().flat_map(in_cells).collect()
     }
@@ -179,11 +180,11 @@ impl<'a> Interaction<'a> {
         all.into_iter().flatten().map(in_frame).collect()
     }
 
-    fn faces(&self) -> Option<Faces<'_>> {
+    fn faces(&self) -> Option<TipFaces<'_>> {
         let Self { course, body, radii, pressed, .. } = self;
         let (is_balanced, is_half) = (pressed.is_some(), self.half.is_some());
         self.loads.traction(course.tip().crack, Side::Above, self.center)?;
-        Some(Faces { course, body, radii, load: self.loads, is_balanced, is_half })
+        Some(TipFaces { course, body, radii, load: self.loads, is_balanced, is_half })
     }
 
     fn cell(
@@ -200,7 +201,7 @@ impl<'a> Interaction<'a> {
     }
 
     /// The rules for a cell.
-    fn rules(&self, quadrature: &Quadrature<'_>, c: usize) -> Vec<Rule> {
+    fn rules(&self, quadrature: &Quadrature<'_>, c: usize) -> Vec<CellRule> {
         let disc = Disc {
             center: self.center,
             radius: self.largest(),
@@ -208,7 +209,7 @@ impl<'a> Interaction<'a> {
             order: ORDER,
             least: self.space.degree() + 4,
         };
-        quadrature.disc(&self.space.partition().cell[c], &self.space.coverers[c], disc)
+        quadrature.disc(&self.space.partition().cell[c], &self.space.covering_patches[c], disc)
     }
 
     /// The number of halves, alike in the integrals of symmetric and of antisymmetric fields, that
@@ -240,7 +241,7 @@ impl<'a> Interaction<'a> {
     pub(super) fn elastic(
         &self,
         u: &[Jet<f64>],
-        (world, face): (Vec2, FacePoint),
+        (world, face): (Vec2, FaceLocation),
         axis: Vec2,
     ) -> Gradients {
         if !self.law.has_initial_stress() {
@@ -249,7 +250,8 @@ impl<'a> Interaction<'a> {
         tensor_in_frame(&self.law.on(world, face).elastic(&gradient(u)), axis)
     }
 
-    /// E_j,j of the flow of energy: W_,1 at a fixed ∇u, and what the body force adds to it, b_i u_i,1.
+    /// E_j,j of the flow of energy: W_,1 at a fixed ∇u, and what the body force adds to it, b_i
+    /// u_i,1.
     pub(super) fn energy_source(&self, world: Vec2, force: [f64; 2], u: &[Jet<f64>]) -> f64 {
         let slope = self.slope.as_ref().map_or(0.0, |s| s.at(world, self.axis, &gradient(u)));
         let shifted = self.gradient(u, self.axis);
@@ -271,9 +273,9 @@ impl<'a> Interaction<'a> {
         Integrals { modes, ..Integrals::default() }
     }
 
-    /// K = E′/2 M, and T = E′M + σ_22. Of the part of the field that is constant at the tip the
-    /// force sees ε_11 by its work, and σ_22 by the opening of its own field, u_2(−π) − u_2(π) =
-    /// (κ − 1)/(4μ): together E′M = σ_11 − σ_22.
+    /// K = E′/2 M, and T = E′M + σ_22. The part of the field that is constant at the tip adds ε_11
+    /// by the work of the force, and σ_22 by the opening of its own field, u_2(−π) − u_2(π) = (κ −
+    /// 1)/(4μ): together E′M = σ_11 − σ_22.
     fn integrals(&self, integrals: &Integrals) -> TipIntegrals {
         let (modulus, [one, two]) = (self.modulus(), self.halves());
         let integrals = &integrals.times(one.max(two));
@@ -284,22 +286,22 @@ impl<'a> Interaction<'a> {
             Ring { r1: 0.0, r2: self.radii[k], k1, k2 }
         });
         let of_force = one * modulus * integrals.modes[RINGS - 1][2];
-        let strength = (modulus * integrals.energy.max(0.0) / self.largest()).sqrt();
+        let energy_scale = (modulus * integrals.energy.max(0.0) / self.largest()).sqrt();
         TipIntegrals {
             rings,
             t_stress: self.pressed.map(|pressed| of_force + pressed).filter(|t| t.is_finite()),
             j: self.slope.as_ref().map(|_| integrals.j).filter(|j| j.is_finite()),
-            strength,
+            energy_scale,
             doubt: integrals.doubt,
         }
     }
 }
 
 /// Divisions of cells with formulas that vary fast, for all discs together. A cell in a layer takes
-/// some hundred; what more would be good for is told by a [`Doubt`].
+/// some hundred; a [`QuadratureError`] reports the errors that more of them would remove.
 const MOST_DIVISIONS: usize = 50_000;
 
-/// The same in operations of the formulas, one of which takes these many points in a division.
+/// The limit in operations of the formulas: a division evaluates them at this many points.
 const DIVISION_OPERATIONS: usize = 1 << 32;
 const DIVISION_POINTS: usize = 1 << 10;
 
@@ -309,7 +311,7 @@ const BATCH: usize = 1 << 14;
 /// A region to integrate over at a tip, which its number gives.
 enum TipRegion {
     Cell(usize, usize),
-    Bend(usize, Bend),
+    Bend(usize, BentPiece),
     /// All elements of a mesh.
     Mesh(usize),
 }
@@ -319,11 +321,11 @@ enum TipRegion {
 /// # Errors
 /// Cancelled.
 pub(super) fn integrate_tips<'a>(
-    space: &Space<'_>,
+    space: &TrialSpace<'_>,
     tips: &[Interaction<'a>],
     watcher: &dyn Watcher,
 ) -> Result<Vec<TipIntegrals>, Cancelled> {
-    let near = Placed::new(space.partition().cell.iter().copied().zip(0..));
+    let near = BoxList::new(space.partition().cell.iter().copied().zip(0..));
     let of_tip = |(k, tip): (usize, &Interaction<'_>)| {
         if tip.is_on_mesh() {
             return vec![TipRegion::Mesh(k)];
@@ -336,7 +338,7 @@ pub(super) fn integrate_tips<'a>(
         work.iter().flatten().filter(|work| is_counted(work)).count().max(1)
     };
     let cells_of_tips = count(|work| matches!(work, TipRegion::Cell(..)));
-    let stage = Stage::new(watcher, Phase::Intensity, count(|_| true))?;
+    let stage = WorkPhase::new(watcher, Phase::Intensity, count(|_| true))?;
     let operations = space.probe_operations().max(1);
     let divisions = MOST_DIVISIONS.min(DIVISION_OPERATIONS / (DIVISION_POINTS * operations));
     let [quadrature, finer] =

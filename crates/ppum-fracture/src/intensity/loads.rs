@@ -1,4 +1,4 @@
-//! What acts at the tips of a field.
+//! Loads at the tips of a field.
 
 use ppum::crack::{Side, TipId};
 use ppum::vec2::Vec2;
@@ -19,12 +19,12 @@ pub trait TipLoads: Sync {
         None
     }
 
-    /// What acts between the faces of a crack, given by its index, by the field there.
+    /// Returns the law between the faces of a crack, given by its index.
     fn face_law(&self, _crack: u32) -> Option<FaceLaw> {
         None
     }
 
-    /// The symmetry of the field at a tip on the border, which has no factors without.
+    /// The symmetry of the field at a tip on the boundary, which has no factors without.
     fn symmetry(&self, _: TipId) -> Option<Symmetry> {
         None
     }

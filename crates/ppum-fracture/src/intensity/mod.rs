@@ -23,8 +23,9 @@
 //!
 //! The crack may have kinks in the disc. The auxiliary fields then jump on the crack itself, where
 //! θ does, and not on its axis; so they load the faces that are not along it, and the last integral
-//! is −∫ P_j n_j q ds there. Of the gradient along a face, ∂u/∂s, and of that across it, the second
-//! cancels from σᵃ_ij n_j u_i,1 − σᵃ_ij u_i,j n_1, and with the outward normal n on the left of s
+//! is −∫ P_j n_j q ds there. The gradient has a part along a face, ∂u/∂s, and one across it; the
+//! latter cancels from σᵃ_ij n_j u_i,1 − σᵃ_ij u_i,j n_1, and with the outward normal n on the left
+//! of s
 //!
 //! ```text
 //! −∫ P_j n_j q ds = −∫ (t_i uᵃ_i,1 + σᵃ_i2 ∂u_i/∂s) q ds
@@ -52,15 +53,14 @@
 //!
 //! with the second integral over all faces.
 //!
-//! At a tip on a straight line of the border, with the other half of the body mirrored
-//! ([`Symmetry`]), the integrals over one half are doubled. Of a symmetric field those of K_I and
-//! T, and J, are twice that half: on the line ahead of the tip P_j n_j = 0 since there u_2 = uᵃ_2 =
-//! 0 and σ_12 = σᵃ_12 = 0. That of K_II is zero. Of an antisymmetric field that of K_II alone is
-//! not.
+//! At a tip on a straight line of the boundary, with the other half of the body mirrored
+//! ([`Symmetry`]), the integrals over one half are doubled. For a symmetric field those of K_I, T
+//! and J are twice that half: on the line ahead of the tip P_j n_j = 0 since there u_2 = uᵃ_2 = 0
+//! and σ_12 = σᵃ_12 = 0. That of K_II is zero. For an antisymmetric field only that of K_II does
+//! not vanish.
 //!
-//! J knows nothing of auxiliary fields: that J = G =
-//! (K_I² + K_II²)/E′ is a check. C is differentiated, so that there is no J where the material
-//! jumps in the disc.
+//! J does not use auxiliary fields: J = G = (K_I² + K_II²)/E′ is a check. C is differentiated, so
+//! that there is no J where the material jumps in the disc.
 
 mod auxiliary;
 mod bent;
@@ -86,13 +86,13 @@ use ppum::field::{Field, FieldError};
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::{Rect, Vec2};
 use ppum_problem::geometry::{AMPLE_CLEARANCE, interface_distance};
-pub use ppum_problem::geometry::{Obstacle, TipClearance};
+pub use ppum_problem::geometry::{TipClearance, TipObstacle};
 use ppum_problem::{Problem, Symmetry};
 use ppum_solve::law::{Law, Temperature};
-pub use ppum_solve::quadrature::Doubt;
-use ppum_solve::space::Space;
+pub use ppum_solve::quadrature::QuadratureError;
+use ppum_solve::space::TrialSpace;
 pub use ppum_solve::terms::FaceLaw;
-use ppum_solve::watched::Stage;
+use ppum_solve::watched::WorkPhase;
 pub(crate) use sensitivity::{Sensitivity, TipDisc};
 use sums::RINGS;
 
@@ -102,7 +102,7 @@ const RADII: [f64; RINGS] = [0.5, 0.7, 0.9];
 
 /// Least radius of a tip's [`TipClearance`], in cells at the tip, for which factors are given.
 ///
-/// Measured with tips beside another tip and beside the border, at orders 2 and 3
+/// Measured with tips beside another tip and beside the boundary, at orders 2 and 3
 /// (docs/decisions/0004): factors are off by at most 0.8 % from half a cell on, by 0.9 % from a
 /// fifth on, but by 4 % at a tenth of a cell, where the spread of the radii may say a tenth of
 /// that: the error is that of the field, which cells larger than the clearance do not resolve.
@@ -110,7 +110,7 @@ const LEAST_CLEARANCE: f64 = 0.5;
 
 /// The findings about a tip.
 #[derive(Clone, Debug, PartialEq)]
-pub struct TipOutcome {
+pub struct TipResult {
     /// The tip.
     pub tip: TipId,
     /// Its place.
@@ -122,19 +122,19 @@ pub struct TipOutcome {
     /// Distance to the nearest interface of two materials, if it is within the clearance and nearer
     /// than two of these cells.
     pub interface: Option<f64>,
-    /// Its factors; none if the clearance is too small for them, see [`TipOutcome::needed`].
+    /// Its factors; none if the clearance is too small for them, see [`TipResult::needed`].
     pub factors: Option<TipIntensity>,
     /// True if faces that may touch do so at the tip, so that K_I is nothing but an error.
     pub touches: bool,
     /// √(E′ W/R) with twice the strain energy W in the largest disc, of radius R: of the size that
     /// K has where the crack concentrates stress, and far above K where nothing does. Zero
     /// without factors.
-    pub strength: f64,
+    pub energy_scale: f64,
     /// Errors that quadrature leaves in the discs.
-    pub doubt: Doubt,
+    pub doubt: QuadratureError,
 }
 
-impl TipOutcome {
+impl TipResult {
     /// Radius of the clearance below which a tip has no factors.
     #[must_use]
     pub fn needed(&self) -> f64 {
@@ -162,31 +162,31 @@ impl TipOutcome {
 pub fn intensities(
     dataset: &Dataset,
     field: &Field<'_>,
-    space: &Space<'_>,
+    space: &TrialSpace<'_>,
     loads: &dyn TipLoads,
     watcher: &dyn Watcher,
-) -> Result<Vec<TipOutcome>, Cancelled> {
+) -> Result<Vec<TipResult>, Cancelled> {
     if field.has_temperature() {
         return Ok(Vec::new());
     }
     intensities_by(&Law::new(field.equation), dataset, field, space, loads, watcher)
 }
 
-/// The same of a displacement alone, in a body with a law.
+/// Finds the factors for a displacement, in a body with a law.
 pub(crate) fn intensities_by(
     law: &Law<'_>,
     dataset: &Dataset,
     field: &Field<'_>,
-    space: &Space<'_>,
+    space: &TrialSpace<'_>,
     loads: &dyn TipLoads,
     watcher: &dyn Watcher,
-) -> Result<Vec<TipOutcome>, Cancelled> {
+) -> Result<Vec<TipResult>, Cancelled> {
     if !field.is_displacement() {
         return Ok(Vec::new());
     }
-    let stage = Stage::uncounted(watcher, Phase::Intensity)?;
+    let stage = WorkPhase::uncounted(watcher, Phase::Intensity)?;
     let outcome =
-        |tip| stage.advance(0).map(|()| TipOutcome::new(dataset, field, tip, loads.symmetry(tip)));
+        |tip| stage.advance(0).map(|()| TipResult::new(dataset, field, tip, loads.symmetry(tip)));
     let mut tips = tips(&field.step.cracks).map(outcome).collect::<Result<Vec<_>, _>>()?;
     let wanted: Vec<_> = tips.iter_mut().filter(|outcome| outcome.has_room()).collect();
     let discs = wanted.iter().map(|o| (o.tip, RADII.map(|part| part * o.clearance.radius)));
@@ -196,7 +196,7 @@ pub(crate) fn intensities_by(
     let found = integrate_tips(space, &integrals, watcher)?;
     for (outcome, (integral, found)) in wanted.into_iter().zip(integrals.iter().zip(found)) {
         outcome.touches = integral.touches(outcome.cell);
-        outcome.strength = found.strength;
+        outcome.energy_scale = found.energy_scale;
         outcome.doubt = found.doubt;
         outcome.factors = Some(found.factors(outcome.tip));
     }
@@ -207,17 +207,17 @@ pub(crate) fn intensities_by(
 pub(crate) fn sensitivities<'a>(
     dataset: &Dataset,
     field: &'a Field<'a>,
-    space: &'a Space<'a>,
+    space: &'a TrialSpace<'a>,
     law: &'a Law<'a>,
     loads: &'a dyn TipLoads,
 ) -> Vec<Sensitivity<'a>> {
-    let of_tip = |outcome: TipOutcome| {
+    let of_tip = |outcome: TipResult| {
         let radii = RADII.map(|part| part * outcome.clearance.radius);
         Interaction::new(field, space, law, outcome.tip, radii, loads)
     };
     let outcomes = tips(&field.step.cracks)
-        .map(|tip| TipOutcome::new(dataset, field, tip, loads.symmetry(tip)));
-    outcomes.filter(TipOutcome::has_room).filter_map(of_tip).map(Sensitivity).collect()
+        .map(|tip| TipResult::new(dataset, field, tip, loads.symmetry(tip)));
+    outcomes.filter(TipResult::has_room).filter_map(of_tip).map(Sensitivity).collect()
 }
 
 /// The reason why there are no factors on a circle.
@@ -261,7 +261,7 @@ fn clearance_in(dataset: &Dataset, field: &Field<'_>, tip: TipId, cell: f64) -> 
     }
     let at = field.step.cracks[tip.crack as usize].end_point(tip.end);
     let radius = border_distance(field, at, clear.radius);
-    if radius < clear.radius { TipClearance { radius, end: Obstacle::Border } } else { clear }
+    if radius < clear.radius { TipClearance { radius, end: TipObstacle::Border } } else { clear }
 }
 
 /// The stress intensity factors at one tip by the discs inside a circle around it: the preferred
@@ -294,7 +294,7 @@ pub fn on_circle(
     }
 }
 
-/// The same of a displacement, in a body that a temperature may strain.
+/// Computes the factors for a displacement, in a body that a temperature may strain.
 fn on_plain(
     (dataset, step): (&Dataset, usize),
     heat: Option<Temperature>,
@@ -312,7 +312,7 @@ fn on_plain(
     if !field.is_displacement() {
         return Err(CircleError::NoDisplacement);
     }
-    let space = Space::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
+    let space = TrialSpace::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
     let law = Law::new(equation).heated(heat.as_ref());
     let radii = RADII.map(|part| part / RADII[RINGS - 1] * radius);
     let integral = Interaction::new(&field, &space, &law, tip, radii, &loads);
@@ -321,7 +321,7 @@ fn on_plain(
     Ok(found.factors(tip))
 }
 
-/// False at a tip of a crack on the border of which no symmetry is known: nothing is known of its
+/// False at a tip of a crack on the boundary of which no symmetry is known: nothing is known of its
 /// other half.
 fn is_half_known(dataset: &Dataset, crack: &Crack, symmetry: Option<Symmetry>) -> bool {
     symmetry.is_some() || dataset.domain.line_along(&crack.points).is_none()
@@ -333,7 +333,7 @@ fn cell_at(cells: &[Rect], at: Vec2) -> f64 {
     own.map(|cell| cell.size().x.max(cell.size().y)).fold(0.0, f64::max)
 }
 
-impl TipOutcome {
+impl TipResult {
     fn new(dataset: &Dataset, field: &Field<'_>, tip: TipId, symmetry: Option<Symmetry>) -> Self {
         let crack = &field.step.cracks[tip.crack as usize];
         let at = crack.end_point(tip.end);
@@ -354,8 +354,8 @@ impl TipOutcome {
             interface,
             factors: None,
             touches: false,
-            strength: 0.0,
-            doubt: Doubt::default(),
+            energy_scale: 0.0,
+            doubt: QuadratureError::default(),
         }
     }
 }

@@ -1,21 +1,21 @@
-//! What stress intensity factors are of the field: linear functionals.
+//! Stress intensity factors as linear functionals of the field.
 //!
 //! ```text
 //! K_m = ∫ G_m : ∇u dA + …      G_m : ∇u = E′/2 (P_j q_,j + (σ − σ_tip) : εᵃ_,1 q)
 //! ```
 //!
 //! with the integrand of the interaction integral over the largest disc, which is linear in ∇u. Its
-//! cut-off q is flatter at the tip than that of the factors: their dual solutions go there like
-//! (1 − q) r^(−1/2), which the space does not have, and 1 − q ~ r⁴ leaves less of it than r². The
-//! body force and the loads on faces add numbers that no error of the field changes. What faces
-//! behind kinks add is left out: it is small beside the rest.
+//! cut-off q is flatter at the tip than that of the factors: their dual solutions go there like (1
+//! − q) r^(−1/2), which the space does not have, and 1 − q ~ r⁴ leaves less of it than r². The body
+//! force and the loads on faces add numbers that no error of the field changes. The contribution of
+//! faces behind kinks is left out: it is small beside the rest.
 
 use super::block::PointBlock;
 use super::integral::Interaction;
 use ppum::vec2::Vec2;
-use ppum_problem::geometry::Placed;
-use ppum_solve::assembly::{FACTORS, Kernel, LinearFunctional};
-use ppum_solve::quadrature::Rule;
+use ppum_problem::geometry::BoxList;
+use ppum_solve::assembly::{FACTORS, LinearFunctional, ModeKernel};
+use ppum_solve::quadrature::CellRule;
 
 /// The factors of one tip as functionals.
 pub(crate) struct Sensitivity<'a>(pub(super) Interaction<'a>);
@@ -35,11 +35,11 @@ impl Sensitivity<'_> {
 }
 
 impl LinearFunctional for Sensitivity<'_> {
-    fn cells(&self, cells: &Placed<usize>) -> Vec<usize> {
+    fn cells(&self, cells: &BoxList<usize>) -> Vec<usize> {
         self.0.cells(cells).collect()
     }
 
-    fn kernels(&self, rule: &Rule) -> Vec<[Kernel; FACTORS]> {
+    fn kernels(&self, rule: &CellRule) -> Vec<[ModeKernel; FACTORS]> {
         PointBlock::new(&self.0, rule.anchor, &rule.offsets).kernels(&rule.weights)
     }
 }

@@ -1,10 +1,10 @@
-//! What is integrated around a tip: sums over discs, their cut-offs, and the frame of the tip.
+//! Integrals around a tip: sums over discs, their cut-offs, and the frame of the tip.
 
 use ppum::crack::TipPoint;
 use ppum::jet::Jet;
 use ppum::real::Real;
 use ppum::vec2::{Vec2, vec2};
-use ppum_solve::quadrature::Doubt;
+use ppum_solve::quadrature::QuadratureError;
 
 /// Exponent of the cut-off q = (1 − r²/R²)^m, which [`cut_off`] multiplies out. It is smooth enough
 /// for plain Gauss rules across r = R: with m = 4 their error is seen at 1e-7, with more at 1e-10.
@@ -28,10 +28,10 @@ pub(super) struct Integrals {
     /// Twice the strain energy in the largest disc.
     pub(super) energy: f64,
     /// Errors that the rules leave.
-    pub(super) doubt: Doubt,
+    pub(super) doubt: QuadratureError,
 }
 
-/// Of each component its gradient, in the tip's frame.
+/// The gradient of each component, in the tip's frame.
 pub(super) type Gradients<R = f64> = [[R; 2]; 2];
 
 impl Integrals {
@@ -51,7 +51,12 @@ impl Integrals {
     /// The sizes of the integrals.
     pub(super) fn sizes(&self) -> Self {
         let modes = self.modes.map(|modes| modes.map(f64::abs));
-        Self { modes, j: self.j.abs(), energy: self.energy.abs(), doubt: Doubt::default() }
+        Self {
+            modes,
+            j: self.j.abs(),
+            energy: self.energy.abs(),
+            doubt: QuadratureError::default(),
+        }
     }
 
     /// The largest ratio to sizes of the same kind.
@@ -74,10 +79,11 @@ pub(super) fn square<R: Real>(point: &TipPoint<R>) -> R {
 #[inline(always)]
 pub(super) fn cut_off<R: Real>(square: R, radius: f64) -> (R, R) {
     let inverse = (radius * radius).recip();
-    let base = (square.lit(1.0) - square * square.lit(inverse)).max(square.lit(0.0));
+    let base =
+        (square.broadcast(1.0) - square * square.broadcast(inverse)).max(square.broadcast(0.0));
     let fourth = base * base * (base * base);
     let power = fourth * base;
-    (base * power, square.lit(-2.0 * f64::from(CUT_OFF_POWER) * inverse) * power)
+    (base * power, square.broadcast(-2.0 * f64::from(CUT_OFF_POWER) * inverse) * power)
 }
 
 /// q and q′(r)/r of the functionals that have dual solutions, q = (1 − r⁴/R⁴)⁴: it is flatter at
@@ -85,10 +91,10 @@ pub(super) fn cut_off<R: Real>(square: R, radius: f64) -> (R, R) {
 #[inline(always)]
 pub(super) fn flat_cut_off<R: Real>(square: R, radius: f64) -> (R, R) {
     let inverse = (radius * radius).recip();
-    let part = square * square.lit(inverse);
-    let base = (square.lit(1.0) - part * part).max(square.lit(0.0));
+    let part = square * square.broadcast(inverse);
+    let base = (square.broadcast(1.0) - part * part).max(square.broadcast(0.0));
     let third = base * base * base;
-    (base * third, square.lit(-16.0 * inverse) * part * third)
+    (base * third, square.broadcast(-16.0 * inverse) * part * third)
 }
 
 /// A vector in a frame with the given x axis.

@@ -9,14 +9,14 @@ use super::solved::Solved;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
-use ppum_problem::{Adaptivity, Keep};
+use ppum_problem::{Adaptivity, StepsKept};
 use ppum_solve::adapt::{Adviser, mark};
 use ppum_solve::report::StopReason;
-use ppum_solve::space::{Change, Mesh};
-use ppum_solve::watched::{InStep, Stage};
+use ppum_solve::space::{CellChange, CoverMesh};
+use ppum_solve::watched::{CycleWatcher, WorkPhase};
 
 /// The next step, or why there is none.
-enum Next<'p> {
+enum NextCycle<'p> {
     Plan(Box<Plan<'p>>),
     Stop(StopReason),
 }
@@ -32,16 +32,16 @@ pub(super) fn adapted(
 ) -> Result<Dataset, SolveError> {
     let (mut plan, mut kept) = (first, Vec::new());
     for step in 0.. {
-        let here = InStep { watcher, step };
+        let here = CycleWatcher { watcher, step };
         let diagnosed = Diagnosed::new(Solved::new(plan, &here)?, &here)?;
-        match diagnosed.next(set, step, &InStep { watcher, step: step + 1 })? {
-            Next::Plan(next) => {
-                if set.keep == Keep::All {
+        match diagnosed.next(set, step, &CycleWatcher { watcher, step: step + 1 })? {
+            NextCycle::Plan(next) => {
+                if set.keep == StepsKept::All {
                     kept.append(&mut diagnosed.dataset(None, &here)?.steps);
                 }
                 plan = *next;
             }
-            Next::Stop(stop) => {
+            NextCycle::Stop(stop) => {
                 let mut dataset = diagnosed.dataset(Some(stop), &here)?;
                 kept.append(&mut dataset.steps);
                 dataset.steps = kept;
@@ -59,7 +59,7 @@ impl<'p> Diagnosed<'p> {
         set: &Adaptivity,
         step: usize,
         watcher: &dyn Watcher,
-    ) -> Result<Next<'p>, SolveError> {
+    ) -> Result<NextCycle<'p>, SolveError> {
         let error = self.report.estimated_error.unwrap_or(0.0);
         let GoalError { of_cells, of_segments, cells: parts } = self.goal();
         // cells take nothing of what segments err by
@@ -75,37 +75,37 @@ impl<'p> Diagnosed<'p> {
         if error == 0.0 || is_enough {
             let is_reached = error == 0.0 || !is_out_of_reach;
             let stop = if is_reached { StopReason::Tolerance } else { StopReason::Segments };
-            return Ok(Next::Stop(stop));
+            return Ok(NextCycle::Stop(stop));
         }
         if step >= set.steps {
-            return Ok(Next::Stop(StopReason::Steps));
+            return Ok(NextCycle::Stop(StopReason::Steps));
         }
         let clock = Clock::new();
-        let stage = Stage::uncounted(watcher, Phase::Cover)?;
+        let stage = WorkPhase::uncounted(watcher, Phase::Cover)?;
         let parts = if set.accuracy.is_some() { &parts } else { &self.squares };
         let Some(mesh) = self.improved(set, parts)? else {
-            return Ok(Next::Stop(StopReason::Limits));
+            return Ok(NextCycle::Stop(StopReason::Limits));
         };
         let Plan { discretised: Discretised { problem, .. }, memory, .. } = self.plan;
         if mesh.n_cells() > most_cells(problem, memory) {
-            return Ok(Next::Stop(StopReason::Memory));
+            return Ok(NextCycle::Stop(StopReason::Memory));
         }
         match Plan::on(problem, mesh, memory, (clock, &stage)) {
-            Err(SolveError::TooLarge { .. }) => Ok(Next::Stop(StopReason::Memory)),
+            Err(SolveError::TooLarge { .. }) => Ok(NextCycle::Stop(StopReason::Memory)),
             Ok(plan) if plan.estimate.unknowns > set.max_unknowns as f64 => {
-                Ok(Next::Stop(StopReason::Unknowns))
+                Ok(NextCycle::Stop(StopReason::Unknowns))
             }
-            other => Ok(Next::Plan(Box::new(other?))),
+            other => Ok(NextCycle::Plan(Box::new(other?))),
         }
     }
 
     /// The mesh of the next step, given the parts that the cells have in the error; none if nothing
     /// can be improved where it is needed.
-    fn improved(&self, set: &Adaptivity, parts: &[f64]) -> Result<Option<Mesh>, SolveError> {
+    fn improved(&self, set: &Adaptivity, parts: &[f64]) -> Result<Option<CoverMesh>, SolveError> {
         let Discretised { problem, mesh, dataset, space, .. } = &self.plan.discretised;
         let field = Field::new(dataset, 0)?;
         let adviser = Adviser::new(set.kind, problem, &field, space);
-        let mut changes = vec![Change::Keep; parts.len()];
+        let mut changes = vec![CellChange::Keep; parts.len()];
         for cell in mark(parts, set.fraction) {
             changes[cell] = adviser.advice(cell);
         }

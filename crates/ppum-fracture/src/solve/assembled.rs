@@ -7,22 +7,22 @@ use crate::intensity::{LoadCase, Sensitivity, TipDisc, sensitivities};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
 use ppum_solve::assembly::{
-    Assembly, Duals, FaceContacts, FreeModes, Functionals, Gauge, LinearFunctional, System,
-    slivers, values_at,
+    Assembly, Duals, FaceContacts, FreeModes, Functionals, LinearFunctional, NullSpaceConstraint,
+    System, slivers, values_at,
 };
 use ppum_solve::basis::StableBasis;
 use ppum_solve::equilibrium::Plate;
 use ppum_solve::law::Law;
-use ppum_solve::quadrature::Face;
+use ppum_solve::quadrature::CrackFace;
 use ppum_solve::terms::known_fields;
-use ppum_solve::watched::Stage;
+use ppum_solve::watched::WorkPhase;
 
-/// The system in the stable basis, without the penalty of the gauge.
+/// The system in the stable basis, without the penalty of the constraint.
 pub(super) struct Assembled {
     pub(super) plate: Plate,
     pub(super) basis: StableBasis,
     pub(super) system: System,
-    pub(super) gauge: Gauge,
+    pub(super) constraint: NullSpaceConstraint,
     /// The faces that may touch, whose terms are not in the system.
     pub(super) contacts: FaceContacts,
     /// The discs of the tips whose factors are functionals of the system.
@@ -30,7 +30,7 @@ pub(super) struct Assembled {
 }
 
 impl Assembled {
-    /// The system of what is given on the plate.
+    /// The system of what is given on the body.
     ///
     /// # Errors
     /// Loads without restraint, data and functions that are not finite; cancelled.
@@ -49,7 +49,7 @@ impl Assembled {
         let basis = stable_basis(discretised, law, watcher)?;
         clock.lap(Phase::Basis);
         let assembly = Assembly { problem, space, basis: &basis, law };
-        let stage = Stage::new(watcher, Phase::Assembly, assembly.n_cells())?;
+        let stage = WorkPhase::new(watcher, Phase::Assembly, assembly.n_cells())?;
         let free = FreeModes::new(&plate);
         let duals =
             Duals::new(tips.iter().map(|tip| tip as &dyn LinearFunctional).collect(), space);
@@ -59,33 +59,34 @@ impl Assembled {
         add_known(assembly, &mut system);
         let contacts = FaceContacts::new(assembly, &stage).map_err(SolveError::of_data)?;
         let moments = (std::mem::take(&mut system.moments), system.known.clone());
-        let gauge = Gauge::new(free, moments, &system.matrix);
+        let constraint = NullSpaceConstraint::new(free, moments, &system.matrix);
         let values = |x| values_at(assembly, &system.matrix, (x, None));
         let conditions = plate.conditions(&problem.supports)?;
-        let gauge = gauge.with_supports(&problem.supports, &conditions, &values);
+        let constraint = constraint.with_supports(&problem.supports, &conditions, &values);
         clock.lap(Phase::Assembly);
         let tips = tips.iter().map(Sensitivity::disc).collect();
-        Ok(Self { plate, basis, system, gauge, contacts, tips })
+        Ok(Self { plate, basis, system, constraint, contacts, tips })
     }
 }
 
 /// Adds F·N(x₀) of the loads F at singular points x₀ to the load.
 fn add_known(assembly: Assembly<'_>, system: &mut System) {
     for field in known_fields(assembly.problem) {
-        let values = values_at(assembly, &system.matrix, (field.at, field.face.map(Face::from)));
+        let values =
+            values_at(assembly, &system.matrix, (field.at, field.face.map(CrackFace::from)));
         for (values, factor) in values.functionals.iter().zip([field.load.x, field.load.y]) {
             system.load.iter_mut().zip(values).for_each(|(load, value)| *load += factor * value);
         }
     }
 }
 
-/// The stable basis, damped where the border cuts slivers.
+/// The stable basis, damped where the boundary cuts slivers.
 fn stable_basis(
     Discretised { problem, space, .. }: &Discretised<'_>,
     law: &Law<'_>,
     watcher: &dyn Watcher,
 ) -> Result<StableBasis, SolveError> {
-    let stage = Stage::new(watcher, Phase::Basis, 3 * space.partition().len())?;
+    let stage = WorkPhase::new(watcher, Phase::Basis, 3 * space.partition().len())?;
     let mut basis = StableBasis::new(space, &stage).map_err(SolveError::of_basis)?;
     let assembly = Assembly { problem, space, basis: &basis, law };
     let slivers = slivers(assembly, &stage).map_err(SolveError::of_data)?;

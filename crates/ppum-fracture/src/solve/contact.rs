@@ -28,8 +28,8 @@ use super::SolveError;
 use faer::linalg::solvers::Solve as _;
 use faer::{Col, Mat};
 use ppum_linear::{BlockMatrix, Cholesky, LinearError, LinearSolver as _};
-use ppum_solve::assembly::{FaceContacts, FaceState, Gauge, RowFactors, System};
-use ppum_solve::watched::Stage;
+use ppum_solve::assembly::{FaceContacts, FaceState, NullSpaceConstraint, RowFactors, System};
+use ppum_solve::watched::WorkPhase;
 use std::collections::BTreeMap;
 
 /// Most fields u₀, and steps from each, before the states must have settled.
@@ -54,23 +54,24 @@ const HALVINGS: usize = 40;
 /// Slope of the functional at the next field, in parts of that at the last, that is none.
 const FLAT: f64 = 1e-8;
 
-/// Adds the terms of faces that touch to the system, which has its gauge, and returns the number of
-/// factors that this took; zero where no faces overlap without, and the system stays as it is.
+/// Adds the terms of faces that touch to the system, which has its constraint, and returns the
+/// number of factors that this took; zero where no faces overlap without, and the system stays as
+/// it is.
 ///
 /// # Errors
 /// A system that cannot be solved, states that do not settle; cancelled.
 pub(super) fn close(
     contacts: &FaceContacts,
-    gauge: &Gauge,
+    constraint: &NullSpaceConstraint,
     System { matrix, load, .. }: &mut System,
     located: &dyn Fn(LinearError) -> SolveError,
-    stage: &Stage<'_>,
+    stage: &WorkPhase<'_>,
 ) -> Result<usize, SolveError> {
     let factor = |matrix: BlockMatrix| {
         stage.advance(0)?;
         Cholesky::owned(matrix).map_err(located)
     };
-    let spring = gauge.spring(matrix);
+    let spring = constraint.spring(matrix);
     if spring.is_empty() {
         let open = factor(matrix.clone())?.solve(load).map_err(located)?.unknowns;
         if contacts.is_open(&contacts.stresses(matrix, &open)) {
@@ -83,7 +84,7 @@ pub(super) fn close(
         let solver = factor(tangent)?;
         Ok::<_, SolveError>((Reference { solver, states, columns: BTreeMap::new() }, load))
     };
-    let faces = Faces::new(contacts, matrix, load);
+    let faces = ContactSystem::new(contacts, matrix, load);
     // faces that hold together have pressures of the size that they will have
     let (mut known, tied) = reference(vec![FaceState::Tied; faces.rows.len()])?;
     let mut field = known.solver.solve(&tied).map_err(located)?.unknowns;
@@ -118,7 +119,7 @@ pub(super) fn close(
 }
 
 /// The faces, and the system in which they have no tractions.
-struct Faces<'a> {
+struct ContactSystem<'a> {
     contacts: &'a FaceContacts,
     rows: Vec<RowFactors>,
     matrix: BlockMatrix,
@@ -143,7 +144,7 @@ struct Reference {
     columns: BTreeMap<usize, Vec<f64>>,
 }
 
-impl<'a> Faces<'a> {
+impl<'a> ContactSystem<'a> {
     fn new(contacts: &'a FaceContacts, matrix: &BlockMatrix, load: &[f64]) -> Self {
         let rows = contacts.factors();
         let (matrix, load) =
@@ -196,7 +197,7 @@ impl Reference {
     }
 
     /// Finds the columns of rows; false if a new factor takes less time.
-    fn extend(&mut self, rows: &[usize], faces: &Faces<'_>) -> Result<bool, LinearError> {
+    fn extend(&mut self, rows: &[usize], faces: &ContactSystem<'_>) -> Result<bool, LinearError> {
         let is_new = |row: &usize| !self.columns.contains_key(row);
         let new: Vec<usize> = rows.iter().copied().filter(is_new).collect();
         if new.len() > MOST_NEW || self.columns.len() + new.len() > MOST_ROWS {
@@ -214,7 +215,7 @@ impl Reference {
 
 /// The search for the states from a field u₀ on.
 struct Descent<'a> {
-    faces: &'a Faces<'a>,
+    faces: &'a ContactSystem<'a>,
     start: &'a FaceField<'a>,
     /// True for rows that are tied in K_R.
     is_tied: Vec<bool>,
@@ -229,7 +230,7 @@ struct Descent<'a> {
 }
 
 /// A way from a field to the next.
-struct Step {
+struct DescentStep {
     /// Changes of λ, and of P_d.
     forces: Vec<f64>,
     changes: Vec<f64>,
@@ -237,7 +238,7 @@ struct Step {
 
 impl<'a> Descent<'a> {
     fn new(
-        faces: &'a Faces<'a>,
+        faces: &'a ContactSystem<'a>,
         start: &'a FaceField<'a>,
         states: &[FaceState],
         way: &[f64],
@@ -299,7 +300,7 @@ impl<'a> Descent<'a> {
     }
 
     /// Newton's step: λ + δλ = ρ + ρ′ δP.
-    fn step(&self, rows: &[usize], known: &Reference) -> Step {
+    fn step(&self, rows: &[usize], known: &Reference) -> DescentStep {
         let rest = 1.0 - self.part;
         let columns: Vec<&[f64]> = rows.iter().map(|row| &known.columns[row][..]).collect();
         let matrix = Mat::from_fn(rows.len(), rows.len(), |a, b| {
@@ -317,11 +318,11 @@ impl<'a> Descent<'a> {
             forces[k] = found[a];
             changes.iter_mut().zip(column).for_each(|(sum, change)| *sum += found[a] * change);
         }
-        Step { forces, changes }
+        DescentStep { forces, changes }
     }
 
     /// The slope of the functional at a part of a step.
-    fn slope(&self, step: &Step, t: f64) -> f64 {
+    fn slope(&self, step: &DescentStep, t: f64) -> f64 {
         let rest = 1.0 - self.part;
         let (mut of_start, mut of_rows) = (rest * self.fall, 0.0);
         for (k, row) in self.faces.rows.iter().enumerate() {
@@ -334,7 +335,7 @@ impl<'a> Descent<'a> {
     }
 
     /// Goes to where the functional is least on the way; all of it if it still falls there.
-    fn advance(&mut self, step: &Step) {
+    fn advance(&mut self, step: &DescentStep) {
         let halve = |[low, high]: [f64; 2], _| {
             let middle = 0.5 * (low + high);
             if self.slope(step, middle) < 0.0 { [middle, high] } else { [low, middle] }

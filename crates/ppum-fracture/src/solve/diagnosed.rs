@@ -6,20 +6,20 @@ use super::goal::Goal;
 use super::plan::Plan;
 use super::solved::Solved;
 use crate::diagnostics::{DiagnosedSolution, error_of_segments};
-use crate::intensity::TipOutcome;
+use crate::intensity::TipResult;
 use ppum::dataset::{Attribute, Dataset, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
-use ppum_solve::adapt::{Estimated, LocalFields, estimated};
+use ppum_solve::adapt::{ErrorEstimate, LocalFields, estimated};
 use ppum_solve::law::{Law, Temperature};
 use ppum_solve::norms::energy;
-use ppum_solve::report::{SolverReport, StopReason, Unresolved};
-use ppum_solve::space::Space;
+use ppum_solve::report::{SolverReport, StopReason, UnresolvedIntegrand};
+use ppum_solve::space::TrialSpace;
 use ppum_solve::terms::known_fields;
-use ppum_solve::watched::Stage;
+use ppum_solve::watched::WorkPhase;
 
-/// Part of the largest [strength](TipOutcome::strength) of a tip below which factors count as
-/// nothing, and are no measure of their errors.
+/// Part of the largest [energy scale](TipResult::energy_scale) of a tip below which factors count
+/// as nothing, and are no measure of their errors.
 const NOTHING: f64 = 1e-2;
 
 /// Part of the energy that a field of the same size could have up to which the energy is rounding:
@@ -32,22 +32,22 @@ pub(super) struct Diagnosed<'p> {
     temperature: Option<Temperature>,
     pub(super) report: SolverReport,
     /// Integrands that quadrature did not resolve.
-    unresolved: Vec<Unresolved>,
+    unresolved: Vec<UnresolvedIntegrand>,
     /// The squares of the estimated error, cell by cell.
     pub(super) squares: Vec<f64>,
-    /// What is known of the tips.
-    tips: Vec<TipOutcome>,
+    /// The results of the tips.
+    tips: Vec<TipResult>,
     goal: Goal,
 }
 
 /// The largest estimated error of the factors of a tip, as a part of their size; without tips that
 /// of the energy.
 pub(super) struct GoalError {
-    /// What better cells take away.
+    /// The part that finer cells or higher orders would remove.
     pub(super) of_cells: f64,
-    /// What is due to the straight segments of curved cracks.
+    /// The part due to the straight segments of curved cracks.
     pub(super) of_segments: f64,
-    /// Of each cell its part in the sum of all.
+    /// The part of each cell in the sum of all.
     pub(super) cells: Vec<f64>,
 }
 
@@ -57,14 +57,15 @@ impl<'p> Diagnosed<'p> {
     /// # Errors
     /// Data that are not finite; cancelled.
     pub(super) fn new(solved: Solved<'p>, watcher: &dyn Watcher) -> Result<Self, SolveError> {
-        let Solved { mut plan, temperature, mut report, local, unresolved, lonely, .. } = solved;
+        let Solved { mut plan, temperature, mut report, local, unresolved, sole_support, .. } =
+            solved;
         let (contact, mut tips) = (solved.contact, solved.tips);
         let Plan { discretised: Discretised { problem, dataset, space, .. }, clock, .. } =
             &mut plan;
-        let stage = Stage::new(watcher, Phase::Estimation, 2 * space.partition().len())?;
+        let stage = WorkPhase::new(watcher, Phase::Estimation, 2 * space.partition().len())?;
         let field = Field::new(dataset, 0)?;
         let law = &Law::new(&problem.equation).heated(temperature.as_ref());
-        let fields = LocalFields { space, law, coefficients: &local, lonely: &lonely };
+        let fields = LocalFields { space, law, coefficients: &local, sole_support: &sole_support };
         let found = estimated(problem, &field, fields, &stage).map_err(SolveError::of_data)?;
         let cells = &space.partition().cell;
         let mut goal = Goal::new(&solved.dual_tips, cells, &found.products, &contact);
@@ -74,7 +75,7 @@ impl<'p> Diagnosed<'p> {
             let of_segments = of_segments(dataset, factors);
             factors.error = Some(error + of_segments * size(factors));
         }
-        let Estimated { mut energy, squares, .. } = found;
+        let ErrorEstimate { mut energy, squares, .. } = found;
         if known_fields(problem).is_empty() {
             report.energy = Some(energy);
             report.whole_energy = problem.images().map(|images| images * energy);
@@ -101,9 +102,10 @@ impl<'p> Diagnosed<'p> {
 
     /// The estimated error that an accuracy bounds.
     pub(super) fn goal(&self) -> GoalError {
-        let with_factors = self.tips.iter().filter_map(|o| Some((o.strength, o.factors.as_ref()?)));
+        let with_factors =
+            self.tips.iter().filter_map(|o| Some((o.energy_scale, o.factors.as_ref()?)));
         let (strengths, sizes): (Vec<_>, Vec<_>) =
-            with_factors.map(|(strength, factors)| (strength, size(factors))).unzip();
+            with_factors.map(|(energy_scale, factors)| (energy_scale, size(factors))).unzip();
         let largest = strengths.into_iter().fold(0.0, f64::max);
         if largest == 0.0 {
             let of_cells = self.report.estimated_error.unwrap_or(0.0).powi(2);
@@ -176,7 +178,7 @@ fn size(tip: &TipIntensity) -> f64 {
 }
 
 /// The energy of a field without its known part.
-fn energy_of_unknowns(dataset: &Dataset, space: &Space<'_>) -> Result<f64, SolveError> {
+fn energy_of_unknowns(dataset: &Dataset, space: &TrialSpace<'_>) -> Result<f64, SolveError> {
     let mut rest = dataset.clone();
     for patch in 0..space.partition().len() {
         for component in rest.steps[0].fields[0].coefficients_mut(patch) {

@@ -4,21 +4,21 @@ use super::SolveError;
 use ppum::dataset::{Dataset, Step};
 use ppum::progress::{Phase, Watcher};
 use ppum_problem::Problem;
-use ppum_solve::assembly::Given;
+use ppum_solve::assembly::PrescribedData;
 use ppum_solve::equilibrium::{BodyPieces, Plate};
 use ppum_solve::refine::n_crossed_twice;
-use ppum_solve::space::{Mesh, Space, SpaceError, discretise_on};
+use ppum_solve::space::{CoverMesh, SpaceError, TrialSpace, discretise_on};
 use ppum_solve::terms::known_fields;
-use ppum_solve::watched::Stage;
+use ppum_solve::watched::WorkPhase;
 
 /// A problem whose cover and functions are known.
 pub(super) struct Discretised<'p> {
     pub(super) problem: &'p Problem,
-    pub(super) mesh: Mesh,
+    pub(super) mesh: CoverMesh,
     /// The dataset, whose coefficients are zero until the system is solved.
     pub(super) dataset: Dataset,
     /// The space of its step: the only one from here to the last warning.
-    pub(super) space: Space<'p>,
+    pub(super) space: TrialSpace<'p>,
     /// The step of a temperature that is solved for on the same mesh.
     pub(super) heat: Option<Step>,
     /// Number of patches that a crack or rim crosses twice.
@@ -32,8 +32,8 @@ impl<'p> Discretised<'p> {
     /// A space that cannot be built or could not be stored; cancelled.
     pub(super) fn new(
         problem: &'p Problem,
-        mesh: Mesh,
-        stage: &Stage<'_>,
+        mesh: CoverMesh,
+        stage: &WorkPhase<'_>,
     ) -> Result<Self, SolveError> {
         let step = discretise_on(problem, &mesh, stage)?;
         let crossed_twice = n_crossed_twice(problem, step.partition.boxes());
@@ -42,7 +42,7 @@ impl<'p> Discretised<'p> {
         stage.advance(0)?;
         let heat = problem.heat().map(|heat| discretise_on(heat, &mesh, stage));
         let heat = heat.transpose().map_err(|error| SolveError::of_heat(error.into()))?;
-        let space = Space::of_problem(problem, step, heat.as_ref())?;
+        let space = TrialSpace::of_problem(problem, step, heat.as_ref())?;
         let bounds = &problem.domain().bounds;
         if let Some(field) =
             known_fields(problem).iter().find(|field| !field.fits(space.partition(), bounds))
@@ -54,18 +54,21 @@ impl<'p> Discretised<'p> {
         Ok(Self { problem, mesh, dataset, space, heat, crossed_twice })
     }
 
-    /// The data of the problem, and the plate that they act on.
+    /// The data of the problem, and the body that they act on.
     ///
     /// # Errors
     /// Loads without restraint, data that are not finite; cancelled.
-    pub(super) fn loaded(&self, watcher: &dyn Watcher) -> Result<(Given<'p>, Plate), SolveError> {
+    pub(super) fn loaded(
+        &self,
+        watcher: &dyn Watcher,
+    ) -> Result<(PrescribedData<'p>, Plate), SolveError> {
         let Self { problem, space, .. } = self;
         let pieces = BodyPieces::new(problem.domain(), problem.cracks());
         if pieces.all().is_empty() {
             return Err(SpaceError::Nothing.into());
         }
-        let stage = Stage::uncounted(watcher, Phase::Basis)?;
-        let given = Given::new(problem, space, &stage).map_err(SolveError::of_data)?;
+        let stage = WorkPhase::uncounted(watcher, Phase::Basis)?;
+        let given = PrescribedData::new(problem, space, &stage).map_err(SolveError::of_data)?;
         let balances = given.balance(space, &pieces, &stage).map_err(SolveError::of_data)?;
         let plate = Plate::new(pieces, balances, problem)?;
         plate.conditions(&problem.supports)?;

@@ -8,7 +8,7 @@ use ppum::function::FunctionError;
 use ppum::progress::Cancelled;
 use ppum_linear::{EigenError, LinearError};
 use ppum_problem::ProblemError;
-use ppum_problem::geometry::Around;
+use ppum_problem::geometry::Vicinity;
 use ppum_solve::equilibrium::{PlateError, SupportError, UnbalancedError};
 use ppum_solve::space::SpaceError;
 use ppum_solve::watched::Halt;
@@ -28,7 +28,7 @@ pub enum SolveError {
         "the data of the problem are not finite, or too large to compute with, {0}: look at the formulas and tables \
          of the material, the loads and what is given on the border (an `exchange` must not be negative)"
     )]
-    Data(Around),
+    Data(Vicinity),
     /// Its data are not finite at an unknown location: an eigenvalue problem did not converge.
     #[error(
         "the data of the problem are not finite, or too large to compute with: look at the formulas and tables of \
@@ -37,7 +37,7 @@ pub enum SolveError {
     Eigen(#[from] EigenError),
     /// A function of the local spaces is not finite.
     #[error("a function of the local spaces is not finite, or too large to compute with, {0}")]
-    Basis(Around),
+    Basis(Vicinity),
     /// Loads on a piece without restraint are not in equilibrium.
     #[error(transparent)]
     Unbalanced(UnbalancedError),
@@ -51,7 +51,7 @@ pub enum SolveError {
     #[error("{around}: {error}")]
     Singular {
         /// The neighbourhood of the patch.
-        around: Around,
+        around: Vicinity,
         /// The reason.
         error: LinearError,
     },

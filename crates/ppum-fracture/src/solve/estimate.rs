@@ -1,16 +1,16 @@
 //! The memory that a solution takes, known before it is computed.
 //!
 //! The patches that overlap are known once there is a cover, and with them the non-zeros of the
-//! system. What the elimination adds is counted on the graph of the patches, in the order of the
+//! system. The cost of the elimination is counted on the graph of the patches, in the order of the
 //! elimination, each patch with the number of its unknowns. How long a solution takes is not
 //! predicted: it can be watched, and stopped.
 
 use ppum::dataset::monomials;
 use ppum_linear::{BlockPattern, fill};
-use ppum_problem::{Order, Problem, SolverKind};
+use ppum_problem::{PolynomialOrder, Problem, SolverKind};
 use ppum_solve::assembly::pattern;
 use ppum_solve::report::LinearKind;
-use ppum_solve::space::Space;
+use ppum_solve::space::TrialSpace;
 use std::fmt;
 
 /// Bytes of a value of the system or its factor.
@@ -66,7 +66,7 @@ pub struct Estimate {
 impl Estimate {
     /// The estimate for the space of a problem, with the linear solver that the problem names or
     /// that suits it and a memory \[bytes\].
-    pub(crate) fn of_space(problem: &Problem, space: &Space<'_>, memory: Option<u64>) -> Self {
+    pub(crate) fn of_space(problem: &Problem, space: &TrialSpace<'_>, memory: Option<u64>) -> Self {
         let sizes: Vec<_> = (0..space.sizes.len()).map(|patch| space.unknowns(patch)).collect();
         let pattern = pattern(space);
         let multilevel = Self::multilevel(&sizes, nonzeros(&pattern, &sizes));
@@ -104,8 +104,8 @@ impl Estimate {
     /// The number of cells of a cover from which on a problem does not fit into a memory.
     pub(crate) fn most_cells(problem: &Problem, memory: u64) -> usize {
         let order = match &problem.discretization.order {
-            Order::Uniform(order) => *order,
-            Order::Formula(_) => 0,
+            PolynomialOrder::Uniform(order) => *order,
+            PolynomialOrder::Formula(_) => 0,
         };
         let size = (monomials(order) * problem.components()) as f64;
         let bytes = match problem.solver_kind() {

@@ -21,16 +21,17 @@
 //! at one and a half of it.
 //!
 //! The functionals of all tips are added up, so that two dual solutions serve any number of tips.
-//! What a cell adds may be due to any of them, the more the nearer: the strain of a dual solution
-//! falls like r^(−3/2) from its tip, so a tip at the distance r counts (r_nearest / r)^(3/2) of it.
-//! A cell far from all tips, as at a corner that pollutes all factors, counts fully for each.
+//! The contribution of a cell may be due to any of them, the more the nearer: the strain of a dual
+//! solution falls like r^(−3/2) from its tip, so a tip at the distance r counts (r_nearest /
+//! r)^(3/2) of it. A cell far from all tips, as at a corner that pollutes all factors, counts fully
+//! for each.
 //!
-//! Of faces that touch the weak form misses ρ = σ_m − min(P, 0), with the error −∫ ρ P(z − z_h)/β
+//! For faces that touch the weak form misses ρ = σ_m − min(P, 0), with the error −∫ ρ P(z − z_h)/β
 //! (`assembly/contact.rs`). The dual solution belongs to the faces that touch in u_h; where contact
 //! ends in a cell the others are unknown, and so is z: there ∫ |ρ| |P(z_h)|/β is added. A tip whose
 //! faces touch has K_I = 0, so that K_I is an error.
 
-use crate::intensity::{TipDisc, TipOutcome};
+use crate::intensity::{TipDisc, TipResult};
 use faer::Mat;
 use ppum::vec2::Rect;
 use ppum_solve::assembly::CellErrors;
@@ -54,20 +55,20 @@ const KNOWN: f64 = 0.5;
 /// The estimated errors of factors.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Goal {
-    /// Of (K_I, K_II) of each tip with factors, in their order.
+    /// The errors of (K_I, K_II) of each tip with factors, in their order.
     pub(super) errors: Vec<f64>,
-    /// Of each cell, what it adds to the error of the nearest tip, and the number of that tip.
+    /// The contribution of each cell to the error of the nearest tip, and the number of that tip.
     pub(super) cells: Vec<(usize, f64)>,
 }
 
-/// What cells add to the error of a factor.
+/// The contributions of cells to the error of a factor.
 #[derive(Clone, Copy, Debug, Default)]
 struct ErrorSum {
     /// With their signs.
     signed: f64,
     /// Without signs.
     magnitude: f64,
-    /// Of faces that touch.
+    /// The error of faces that touch.
     contact: f64,
 }
 
@@ -84,8 +85,9 @@ impl ErrorSum {
 }
 
 impl Goal {
-    /// What cells add to the errors of the factors of tips, from the products of the disagreements
-    /// of the solution and the dual solutions, and where faces touch; none without tips.
+    /// Computes the contributions of cells to the errors of the factors of tips, from the products
+    /// of the disagreements of the solution and the dual solutions, and where faces touch; none
+    /// without tips.
     pub(super) fn new(
         tips: &[TipDisc],
         cells: &[Rect],
@@ -122,7 +124,7 @@ impl Goal {
     }
 
     /// Adds what the factors themselves tell of their errors.
-    pub(super) fn add_own(&mut self, tips: &[TipOutcome]) {
+    pub(super) fn add_own(&mut self, tips: &[TipResult]) {
         let factors = tips.iter().filter_map(|tip| Some((tip, tip.factors.as_ref()?)));
         for (error, (tip, factors)) in self.errors.iter_mut().zip(factors) {
             let of_tip = if tip.touches { factors.k1.abs() } else { 0.0 };

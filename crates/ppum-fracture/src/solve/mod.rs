@@ -3,7 +3,7 @@
 //! ```text
 //! Plan          whether it can be solved: unknowns, memory, linear solver
 //! Discretised   cover, local spaces, pieces of the plate and their loads
-//! Assembled     stable basis, system, gauge
+//! Assembled     stable basis, system, constraint
 //! Solved        unknowns, coefficients, stress intensity factors
 //! Diagnosed     estimated errors; then warnings and the report
 //! ```
@@ -25,7 +25,7 @@ pub use error::SolveError;
 pub use estimate::Estimate;
 pub use plan::Plan;
 pub use ppum_linear::{EigenError, LinearError, Spectrum};
-pub use ppum_problem::geometry::Around;
+pub use ppum_problem::geometry::Vicinity;
 pub use ppum_solve::equilibrium::{SupportError, UnbalancedError};
 
 use adaptive::adapted;
@@ -37,7 +37,7 @@ use ppum::progress::{Phase, Watcher};
 use ppum_linear::Cholesky;
 use ppum_problem::Problem;
 use ppum_solve::law::Law;
-use ppum_solve::watched::Stage;
+use ppum_solve::watched::WorkPhase;
 use solved::Solved;
 
 /// Solves a problem: one step, one field; several steps where the problem asks for adaptation and
@@ -62,9 +62,9 @@ pub fn spectrum(problem: &Problem, watcher: &dyn Watcher) -> Result<Spectrum, So
     let plan = Plan::new(problem, None, watcher)?;
     let law = &Law::new(&problem.equation);
     let assembled = Assembled::new(&plan.discretised, law, &mut Clock::new(), watcher)?;
-    let Assembled { mut system, gauge, .. } = assembled;
-    gauge.add_penalty(&mut system.matrix);
-    let stage = Stage::uncounted(watcher, Phase::Solution)?;
+    let Assembled { mut system, constraint, .. } = assembled;
+    constraint.add_penalty(&mut system.matrix);
+    let stage = WorkPhase::uncounted(watcher, Phase::Solution)?;
     let solver = Cholesky::new(&system.matrix).map_err(SolveError::Factor)?;
     Spectrum::new(&system.matrix, &solver, &|| Ok(stage.advance(0)?))
 }

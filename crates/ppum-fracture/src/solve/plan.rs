@@ -1,4 +1,4 @@
-//! What a solution takes, known before it is made.
+//! The cost of a solution, known before it is made.
 
 use super::SolveError;
 use super::clock::Clock;
@@ -7,22 +7,22 @@ use super::estimate::Estimate;
 use ppum::dataset::Dataset;
 use ppum::progress::{Phase, Watcher};
 use ppum_problem::Problem;
-use ppum_solve::space::{Mesh, Space};
-use ppum_solve::watched::Stage;
+use ppum_solve::space::{CoverMesh, TrialSpace};
+use ppum_solve::watched::WorkPhase;
 
 /// A problem whose cover and functions are known, and with them what its solution takes.
 ///
 /// ```
 /// use ppum::progress::unwatched;
 /// use ppum::vec2::{Rect, vec2};
-/// use ppum_problem::{Cells, Condition, Discretization, Edge, Problem, ProblemData};
-/// use crate::solve::{Plan, SolveError};
+/// use ppum_problem::{BaseCells, Condition, Discretization, DomainEdge, Problem, ProblemData};
+/// use ppum_fracture::solve::{Plan, SolveError};
 ///
 /// let domain = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
 /// let plate = |level| {
-///     let plate = ProblemData::poisson(domain, 1.0, Discretization::new(Cells::Level(level)));
+///     let plate = ProblemData::poisson(domain, 1.0, Discretization::new(BaseCells::Level(level)));
 ///     let zero = vec![Condition::Dirichlet(0.0.into())];
-///     Problem::new(plate.with_boundary(Edge::Left, zero)).map_err(SolveError::Problem)
+///     Problem::new(plate.with_boundary(DomainEdge::Left, zero)).map_err(SolveError::Problem)
 /// };
 /// let (small, large) = (plate(3)?, plate(10)?);
 /// let memory = Some(1 << 30);
@@ -41,8 +41,8 @@ pub struct Plan<'p> {
 }
 
 impl<'p> Plan<'p> {
-    /// The plan of a problem, whose solution may take so much memory \[bytes\]. Of a problem that
-    /// asks for adaptation it is the plan of the first step.
+    /// The plan of a problem, whose solution may take so much memory \[bytes\]. If the problem asks
+    /// for adaptation, this is the plan of its first step.
     ///
     /// # Errors
     /// A space that cannot be built, functions that are not finite, a solution that takes more
@@ -53,17 +53,17 @@ impl<'p> Plan<'p> {
         watcher: &dyn Watcher,
     ) -> Result<Self, SolveError> {
         let clock = Clock::new();
-        let stage = Stage::uncounted(watcher, Phase::Cover)?;
-        let mesh = Mesh::new(problem, most_cells(problem, memory), &stage)?;
+        let stage = WorkPhase::uncounted(watcher, Phase::Cover)?;
+        let mesh = CoverMesh::new(problem, most_cells(problem, memory), &stage)?;
         Self::on(problem, mesh, memory, (clock, &stage))
     }
 
     /// The plan on a mesh.
     pub(super) fn on(
         problem: &'p Problem,
-        mesh: Mesh,
+        mesh: CoverMesh,
         memory: Option<u64>,
-        (mut clock, stage): (Clock, &Stage<'_>),
+        (mut clock, stage): (Clock, &WorkPhase<'_>),
     ) -> Result<Self, SolveError> {
         let mut discretised = Discretised::new(problem, mesh, stage)?;
         let estimate = fits(estimate(&mut discretised, memory)?, memory)?;
@@ -88,7 +88,7 @@ impl<'p> Plan<'p> {
         self.discretised.problem
     }
 
-    /// Looks whether the loads on each piece of the plate balance, or something holds it. That
+    /// Looks whether the loads on each piece of the body balance, or something holds it. That
     /// takes their integrals, and no system.
     ///
     /// # Errors
@@ -111,7 +111,7 @@ impl Plan<'_> {
         heat: &'h Problem,
         watcher: &dyn Watcher,
     ) -> Result<Plan<'h>, SolveError> {
-        let stage = Stage::uncounted(watcher, Phase::Cover)?;
+        let stage = WorkPhase::uncounted(watcher, Phase::Cover)?;
         let mesh = self.discretised.mesh.clone();
         Plan::on(heat, mesh, self.memory, (Clock::new(), &stage)).map_err(SolveError::of_heat)
     }
@@ -125,7 +125,7 @@ fn estimate(
     let Discretised { problem, space, heat, .. } = discretised;
     let own = Estimate::of_space(problem, space, memory);
     let Some((heat, step)) = problem.heat().zip(heat.take()) else { return Ok(own) };
-    let space = Space::of_problem(heat, step, None)?;
+    let space = TrialSpace::of_problem(heat, step, None)?;
     Ok(own.after(&Estimate::of_space(heat, &space, memory)))
 }
 

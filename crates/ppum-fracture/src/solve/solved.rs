@@ -5,15 +5,15 @@ use super::assembled::Assembled;
 use super::discretised::Discretised;
 use super::plan::Plan;
 use super::unknowns::Unknowns;
-use crate::intensity::{LoadCase, TipDisc, TipOutcome, intensities_by};
+use crate::intensity::{LoadCase, TipDisc, TipResult, intensities_by};
 use faer::Mat;
 use ppum::dataset::{Attribute, FieldData, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
 use ppum_solve::assembly::CellErrors;
 use ppum_solve::law::{Law, Temperature};
-use ppum_solve::report::{ASSEMBLY_SECONDS, SolverReport, Unresolved};
-use ppum_solve::space::Space;
+use ppum_solve::report::{ASSEMBLY_SECONDS, SolverReport, UnresolvedIntegrand};
+use ppum_solve::space::TrialSpace;
 
 /// A solution with the stress intensity factors of its tips.
 pub(super) struct Solved<'p> {
@@ -22,20 +22,20 @@ pub(super) struct Solved<'p> {
     pub(super) temperature: Option<Temperature>,
     /// The numbers of the report that are known with the solution.
     pub(super) report: SolverReport,
-    /// Of each patch, the coefficients of the functions that the solver evaluates: a row for each
+    /// The coefficients of the functions that the solver evaluates, for each patch: a row for each
     /// component of the solution and of the dual solutions.
     pub(super) local: Vec<Mat<f64>>,
     /// Integrands that quadrature did not resolve.
-    pub(super) unresolved: Vec<Unresolved>,
-    /// Of each patch, the first functions of components of which nearly nothing lies where it
-    /// is alone.
-    pub(super) lonely: Vec<Vec<usize>>,
+    pub(super) unresolved: Vec<UnresolvedIntegrand>,
+    /// For each patch, the first functions of components whose support lies almost entirely under
+    /// other patches.
+    pub(super) sole_support: Vec<Vec<usize>>,
     /// The discs of the tips whose factors have dual solutions.
     pub(super) dual_tips: Vec<TipDisc>,
     /// The cells in which contact ends.
     pub(super) contact: Vec<CellErrors>,
     /// The findings about all tips.
-    pub(super) tips: Vec<TipOutcome>,
+    pub(super) tips: Vec<TipResult>,
 }
 
 impl<'p> Solved<'p> {
@@ -79,9 +79,19 @@ impl<'p> Solved<'p> {
         let mut local = basis.local_coefficients(&unknowns.all, components);
         write_known(space, &mut step.fields[0], &mut local);
         let unresolved = std::mem::take(&mut system.unresolved);
-        let (lonely, tips, contact) = (basis.lonely, Vec::new(), unknowns.contact);
+        let (sole_support, tips, contact) = (basis.sole_support, Vec::new(), unknowns.contact);
         let temperature = None;
-        Self { plan, temperature, report, local, unresolved, lonely, dual_tips, contact, tips }
+        Self {
+            plan,
+            temperature,
+            report,
+            local,
+            unresolved,
+            sole_support,
+            dual_tips,
+            contact,
+            tips,
+        }
     }
 
     /// The factors of the tips that have any.
@@ -102,7 +112,7 @@ fn temperature(plan: &Plan<'_>, watcher: &dyn Watcher) -> Result<Option<Temperat
 
 /// The report of a linear solver, with the numbers of the system.
 fn report(assembled: &Assembled, solver: SolverReport, components: usize) -> SolverReport {
-    let Assembled { plate, basis, system, gauge, .. } = assembled;
+    let Assembled { plate, basis, system, constraint, .. } = assembled;
     let cut_off = basis.cut_off(components).sum::<usize>() as u64;
     let kept = basis.unknowns(components).sum::<usize>() as u64;
     let (all, left) = (kept + cut_off, kept - solver.dependent.unwrap_or(0));
@@ -121,7 +131,7 @@ fn report(assembled: &Assembled, solver: SolverReport, components: usize) -> Sol
         ],
         nitsche: Some(system.nitsche),
         pieces: Some(plate.pieces.all().len() as u64),
-        free_modes: Some(gauge.len() as u64),
+        free_modes: Some(constraint.n_free() as u64),
         imbalance: Some(plate.imbalance()),
         quadrature_points: Some(system.points().iter().sum::<f64>() as u64),
         ..solver
@@ -133,7 +143,7 @@ fn attribute(name: &str, values: Vec<f64>) -> Attribute {
 }
 
 /// Writes the coefficients that are known, also among those that the solver evaluates.
-fn write_known(space: &Space<'_>, data: &mut FieldData, local: &mut [Mat<f64>]) {
+fn write_known(space: &TrialSpace<'_>, data: &mut FieldData, local: &mut [Mat<f64>]) {
     for (patch, local) in local.iter_mut().enumerate() {
         for known in space.known(patch) {
             for (i, component) in data.coefficients_mut(patch).enumerate() {

@@ -8,10 +8,10 @@ use super::estimate::Estimate;
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum_linear::{Cholesky, LinearError, LinearSolution, LinearSolver, Multilevel};
 use ppum_solve::assembly::CellErrors;
-use ppum_solve::hierarchy::Finest;
+use ppum_solve::hierarchy::FinestLevel;
 use ppum_solve::report::{LevelSize, LinearKind, SolverReport};
-use ppum_solve::space::Space;
-use ppum_solve::watched::Stage;
+use ppum_solve::space::TrialSpace;
+use ppum_solve::watched::WorkPhase;
 
 /// The unknowns in the stable basis.
 pub(super) struct Unknowns {
@@ -49,24 +49,24 @@ impl Unknowns {
     fn of_kind(
         kind: LinearKind,
         Discretised { problem, mesh, space, .. }: &Discretised<'_>,
-        Assembled { plate, basis, system, gauge, contacts, .. }: &mut Assembled,
+        Assembled { plate, basis, system, constraint, contacts, .. }: &mut Assembled,
         watcher: &dyn Watcher,
     ) -> Result<Self, SolveError> {
         let located = |error| located(error, space);
-        let stage = Stage::new(watcher, Phase::Solution, 3)?;
+        let stage = WorkPhase::new(watcher, Phase::Solution, 3)?;
         let goes_on = || stage.advance(0).is_ok();
-        let free = gauge.loads(&system.matrix);
+        let free = constraint.loads(&system.matrix);
         let mut contact_steps = None;
         let solver: Box<dyn LinearSolver + '_> = match kind {
             LinearKind::Direct => {
-                gauge.add_penalty(&mut system.matrix);
+                constraint.add_penalty(&mut system.matrix);
                 if !contacts.is_empty() {
-                    contact_steps = Some(close(contacts, gauge, system, &located, &stage)?);
+                    contact_steps = Some(close(contacts, constraint, system, &located, &stage)?);
                 }
                 Box::new(Cholesky::new(&system.matrix).map_err(located)?)
             }
             LinearKind::Multilevel => {
-                let coarser = Finest { problem, plate, mesh, space, basis }.coarser(&stage)?;
+                let coarser = FinestLevel { problem, plate, mesh, space, basis }.coarser(&stage)?;
                 let wanted = (problem.solver.tolerance, &goes_on as &(dyn Fn() -> bool + Sync));
                 let solver = Multilevel::new(&system.matrix, coarser, &free, wanted);
                 Box::new(solver.map_err(located)?)
@@ -76,7 +76,7 @@ impl Unknowns {
         stage.advance(1)?;
         let mut solution = solver.solve(&system.load).map_err(located)?;
         stage.advance(1)?;
-        gauge.center(solver, &system.matrix, &mut solution.unknowns).map_err(located)?;
+        constraint.center(solver, &system.matrix, &mut solution.unknowns).map_err(located)?;
         stage.advance(1)?;
         let mut report = report(kind, solver, &solution);
         if let Some(steps) = contact_steps {
@@ -121,7 +121,7 @@ fn level_size(of: [usize; 4]) -> LevelSize {
 }
 
 /// The error at the place of its patch.
-fn located(error: LinearError, space: &Space<'_>) -> SolveError {
+fn located(error: LinearError, space: &TrialSpace<'_>) -> SolveError {
     match error.patch() {
         Some(patch) => {
             let around = space.partition().support(patch).into();

@@ -11,8 +11,8 @@ use ppum::domain::{Domain, Hole};
 use ppum::progress::{Phase, Progress, Verdict, unwatched};
 use ppum::vec2::{Vec2, vec2};
 use ppum_fracture::solve::{Plan, SolveError, solve};
-use ppum_problem::{AdaptKind, Adaptivity, Cells, Keep, ProblemData};
-use ppum_solve::report::{SolverReport, StopReason, forget_times};
+use ppum_problem::{AdaptKind, Adaptivity, BaseCells, ProblemData, StepsKept};
+use ppum_solve::report::{SolverReport, StopReason, strip_timings};
 use ppum_testkit::random::Random;
 use std::ops::Range;
 use std::sync::Mutex;
@@ -190,7 +190,7 @@ fn results_do_not_depend_on_threads() {
     let with = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
         let mut dataset = pool.install(|| solved(&problem));
-        dataset.steps.iter_mut().for_each(forget_times);
+        dataset.steps.iter_mut().for_each(strip_timings);
         dataset
     };
     assert!(with(1) == with(3));
@@ -222,7 +222,7 @@ fn what_has_ended_it_is_told() {
     let few = with(&|set| set.max_unknowns = 100);
     assert_eq!((stop(&few), few.steps.len()), (Some(StopReason::Unknowns), 2));
     assert!(few.steps.iter().all(|step| record(step, "unknowns") <= 100.0));
-    let last = with(&|set| set.keep = Keep::Last);
+    let last = with(&|set| set.keep = StepsKept::Last);
     assert_eq!((stop(&last), last.steps.len()), (Some(StopReason::Steps), 1));
     assert_eq!(last.steps[0].partition, steps.steps[2].partition);
     // of the highest order
@@ -235,7 +235,7 @@ fn what_has_ended_it_is_told() {
 fn memory_ends_it() {
     let problem = on(corner(), 1, set(AdaptKind::H, 8, 100_000));
     let mut finer = problem.clone();
-    finer.discretization.cells = Cells::Level(4);
+    finer.discretization.cells = BaseCells::Level(4);
     let ready = checked(&finer);
     let plan = Plan::new(&ready, None, unwatched()).expect("a plan");
     let memory = plan.estimate().memory as u64;

@@ -5,7 +5,7 @@ use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::solve::solve;
-use ppum_problem::{Cells, Discretization, Edge, ProblemData};
+use ppum_problem::{BaseCells, Discretization, DomainEdge, ProblemData};
 use ppum_solve::space::discretise;
 use ppum_testkit::exact::{CrackInPlane, ExactField};
 
@@ -17,7 +17,7 @@ use crate::studies::support::{checked, solved};
 const CELL: f64 = 1.0 / 6.0;
 
 fn twelve() -> Discretization {
-    Discretization::new(Cells::Grid([12, 12]))
+    Discretization::new(BaseCells::Grid([12, 12]))
 }
 
 /// Distance of (K_I, K_II) from what it should be, relative to the latter.
@@ -50,8 +50,8 @@ fn loads_of_any_size() {
     let of = |load: f64| {
         let plate = ProblemData::elasticity(SQUARE, MATERIAL, twelve())
             .with_crack(&[[-0.3, 0.0], [0.2, 0.1]])
-            .with_boundary(Edge::Bottom, traction(0.0.into(), (-load).into()))
-            .with_boundary(Edge::Top, traction(0.0.into(), load.into()));
+            .with_boundary(DomainEdge::Bottom, traction(0.0.into(), (-load).into()))
+            .with_boundary(DomainEdge::Top, traction(0.0.into(), load.into()));
         solve(&checked(&plate), unwatched())
     };
     let unit = of(1.0).expect("a solution");
@@ -77,7 +77,7 @@ fn a_tip_near_the_border() {
 
 fn assert_short_crack(length: f64, cells: u32) {
     let (a, b) = (vec2(0.1, 0.03), vec2(0.1 + length, 0.03 + 0.3 * length));
-    let set = Discretization::new(Cells::Grid([cells; 2]));
+    let set = Discretization::new(BaseCells::Grid([cells; 2]));
     let (problem, exact) = in_plane(SQUARE, set, a, b);
     let error = error_of_k(&format!("length {length}"), &solved(&problem), exact);
     assert!(error < 2e-3, "length {length}: {error}");
@@ -123,7 +123,7 @@ fn a_crack_that_leaves_at_five_degrees() {
 /// Asserts that cells of a long plate are nearly square, and factors in it.
 fn assert_long_plate(half: Vec2) {
     let domain = Rect::around(Vec2::ZERO, half);
-    let set = Discretization::new(Cells::Level(4));
+    let set = Discretization::new(BaseCells::Level(4));
     let (problem, exact) = in_plane(domain, set, vec2(-0.31, 0.03), vec2(0.3, 0.05));
     let uncracked = problem.clone().with_lines([]);
     let cells = discretise(&checked(&uncracked), unwatched())

@@ -2,17 +2,17 @@
 
 use crate::SQUARE_BODY;
 use crate::studies::support::{checked, parsed, quantity, record, solved};
-use ppum::dataset::{Dataset, Fate, Material, StressState, TipIntensity, WarningKind};
+use ppum::dataset::{Dataset, Material, StressState, TipIntensity, TipStatus, WarningKind};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::diagnostics::recompute;
 use ppum_fracture::growth::series;
 use ppum_fracture::solve::{SolveError, solve};
 use ppum_problem::{
-    BorderPart, Cells, Condition, Discretization, Edge, GrowthRule, Order, ProblemData, SolverKind,
-    Support,
+    BaseCells, BoundaryPart, Condition, Discretization, DomainEdge, GrowthRule, PolynomialOrder,
+    ProblemData, SolverKind, Support,
 };
-use ppum_solve::report::forget_times;
+use ppum_solve::report::strip_timings;
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
 
@@ -38,7 +38,7 @@ impl Stress {
     }
 
     /// The tractions on an edge.
-    fn on(self, edge: Edge) -> Vec<Condition> {
+    fn on(self, edge: DomainEdge) -> Vec<Condition> {
         let n = edge.normal();
         let t = [self.xx * n.x + self.xy * n.y, self.xy * n.x + self.yy * n.y];
         t.map(|t| Condition::Neumann(t.into())).to_vec()
@@ -51,12 +51,13 @@ type Line = Vec<[f64; 2]>;
 /// A free square plate under the tractions of a stress, with cracks.
 fn plate(half: f64, cells: u32, cracks: &[Line], stress: Stress) -> ProblemData {
     let bounds = Rect::new(vec2(-half, -half), vec2(half, half));
-    let mut set = Discretization::new(Cells::Grid([cells, cells]));
-    set.order = Order::Uniform(2);
+    let mut set = Discretization::new(BaseCells::Grid([cells, cells]));
+    set.order = PolynomialOrder::Uniform(2);
     let problem = ProblemData::elasticity(bounds, MATERIAL, set);
     let problem = cracks.iter().fold(problem, |problem, crack| problem.with_crack(crack));
-    let load = |problem: ProblemData, edge: Edge| problem.with_boundary(edge, stress.on(edge));
-    Edge::ALL.into_iter().fold(problem, load)
+    let load =
+        |problem: ProblemData, edge: DomainEdge| problem.with_boundary(edge, stress.on(edge));
+    DomainEdge::ALL.into_iter().fold(problem, load)
 }
 
 /// The problem with all faces touching.
@@ -306,8 +307,8 @@ fn several_cracks_open_and_close() {
     let problem = touching(plate(1.0, 16, &cracks, stress), 0.0);
     let [first, mut again] = [0; 2].map(|_| solved(&problem));
     let mut first = first;
-    forget_times(&mut first.steps[0]);
-    forget_times(&mut again.steps[0]);
+    strip_timings(&mut first.steps[0]);
+    strip_timings(&mut again.steps[0]);
     assert_eq!(first, again);
     for tip in tips(&first) {
         match tip.tip.crack {
@@ -321,7 +322,7 @@ fn several_cracks_open_and_close() {
 #[test]
 fn pressed_cracks_grow_wings() {
     let mut problem = touching(plate(4.0, 16, &[slanted(45.0)], PRESSED_ALONG_Y), 0.0);
-    problem.discretization.order = Order::Uniform(1);
+    problem.discretization.order = PolynomialOrder::Uniform(1);
     let mut rule = GrowthRule::new(2);
     rule.increment = Some(0.3);
     let dataset =
@@ -357,9 +358,9 @@ fn closed_tips_grow_by_what_slides_alone() {
         (growth.tips.iter().map(|row| row.fate).collect::<Vec<_>>(), negative)
     };
     let (slides, negative) = fates(0.2);
-    assert_eq!(slides, [Fate::Grows; 2]);
+    assert_eq!(slides, [TipStatus::Grows; 2]);
     assert!(negative > 0, "the cells are no longer too coarse for this test");
-    assert_eq!(fates(2.0).0, [Fate::Closed; 2]);
+    assert_eq!(fates(2.0).0, [TipStatus::Closed; 2]);
 }
 
 /// Cracks with kinks and arcs, whose points change their states many times, take a few factors.
@@ -383,7 +384,7 @@ fn kinks_take_few_factors() {
 #[test]
 fn contact_that_cannot_be() {
     let problem = || touching(plate(1.0, 8, &[vec![[-0.4, 0.0], [0.4, 0.1]]], PRESSURE), 0.0);
-    let loaded = problem().with_pressure(BorderPart::Crack { crack: 0, face: None }, 1.0);
+    let loaded = problem().with_pressure(BoundaryPart::Crack { crack: 0, face: None }, 1.0);
     let mut multilevel = problem();
     multilevel.solver.kind = SolverKind::Multilevel;
     let half = problem().with_lines([vec![vec2(-1.0, -1.0), vec2(0.1, -1.0)]]);

@@ -5,7 +5,9 @@ use ppum::dataset::{Material, StressState};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, vec2};
 use ppum_fracture::solve::{Plan, SolveError, solve};
-use ppum_problem::{Cells, Condition, Discretization, Edge, Order, ProblemData, SolverKind};
+use ppum_problem::{
+    BaseCells, Condition, Discretization, DomainEdge, PolynomialOrder, ProblemData, SolverKind,
+};
 use ppum_solve::report::LinearKind;
 use ppum_testkit::random::Random;
 
@@ -13,14 +15,14 @@ const STEEL: Material = Material { young: 1.0, poisson: 0.3, state: StressState:
 
 fn plate(level: u32, order: usize) -> ProblemData {
     let square = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
-    let mut discretization = Discretization::new(Cells::Level(level));
-    discretization.order = Order::Uniform(order);
+    let mut discretization = Discretization::new(BaseCells::Level(level));
+    discretization.order = PolynomialOrder::Uniform(order);
     let hold = vec![Condition::Dirichlet(0.0.into()); 2];
     let pull = vec![Condition::Neumann(0.0.into()), Condition::Neumann(1.0.into())];
     ProblemData::elasticity(square, STEEL, discretization)
         .with_crack(&[[-0.4, 0.1], [0.3, 0.1]])
-        .with_boundary(Edge::Bottom, hold)
-        .with_boundary(Edge::Top, pull)
+        .with_boundary(DomainEdge::Bottom, hold)
+        .with_boundary(DomainEdge::Top, pull)
 }
 
 fn refused(problem: &ProblemData, memory: u64) -> bool {
@@ -119,14 +121,18 @@ fn the_memory_of_large_systems_is_as_estimated() {
     assert_memory("multilevel", &[(4, 3), (6, 1), (6, 2), (5, 3)]);
 }
 
-/// Asserts the estimate at pairs of a level and an order, to a factor of 1.5.
+/// Bytes that the program takes without a system, which are more than those of a test.
+const FIXED: f64 = 8e7;
+
+/// Asserts the estimate at pairs of a level and an order, to a factor of 1.5 and the fixed part.
 fn assert_memory(kind: &str, sizes: &[(u32, usize)]) {
     for (level, order) in sizes {
         let problem = format!("{kind} {level} {order}");
         let [estimated, used] = measured(&problem);
         let ratio = used / estimated;
         println!("{problem}: {used:.2e} bytes, {ratio:.2} of the estimate");
-        assert!((1.0 / 1.5..1.5).contains(&ratio), "{problem}: {ratio}");
+        assert!(used < 1.5 * estimated, "{problem}: {ratio}");
+        assert!(estimated - FIXED < 1.5 * used, "{problem}: {ratio}");
     }
 }
 

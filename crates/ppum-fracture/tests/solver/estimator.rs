@@ -13,7 +13,7 @@ use ppum::domain::{Domain, Hole};
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_problem::{Cells, Edge, Order, ProblemData};
+use ppum_problem::{BaseCells, DomainEdge, PolynomialOrder, ProblemData};
 use ppum_testkit::exact::{ExactField as _, RoundHole, Smooth};
 use ppum_testkit::random::Random;
 
@@ -36,7 +36,7 @@ fn assert_effective(name: &str, dataset: &Dataset, error: f64, [least, most]: [f
 fn assert_manufactured(covers: &[(usize, u32)]) {
     let field = Smooth { material: MATERIAL };
     for &(order, level) in covers {
-        let set = discretization(Cells::Level(level), order);
+        let set = discretization(BaseCells::Level(level), order);
         let mut problem = held(ProblemData::elasticity(SQUARE, MATERIAL, set), field.formulas());
         problem.source = expressions(field.body_force_formulas());
         let dataset = solved(&problem);
@@ -61,7 +61,7 @@ fn assert_tip(covers: &[(usize, u32)]) {
     let field =
         OBLIQUE.field().with_intensities(1.0, 0.5).with_t_stress(0.3).with_term(3, 0.4, 0.3);
     for &(order, level) in covers {
-        let mut set = discretization(Cells::Level(level), order);
+        let mut set = discretization(BaseCells::Level(level), order);
         set.enrichment_radius = Some(0.4);
         let dataset = solved(&OBLIQUE.problem(&field, set));
         let error = errors(&dataset, &|p| both(field.evaluate(p))).energy;
@@ -89,7 +89,7 @@ fn round_holes() {
     for order in 1..=3 {
         for cells in [4, 8] {
             let domain = Domain { bounds, holes: vec![Hole::Circle { center, radius: 1.0 }] };
-            let set = discretization(Cells::Grid([cells; 2]), order);
+            let set = discretization(BaseCells::Grid([cells; 2]), order);
             let problem = held(ProblemData::elasticity(domain, MATERIAL, set), field.formulas());
             let dataset = solved(&problem);
             let error = errors(&dataset, &|p| both(field.evaluate(p))).energy;
@@ -116,8 +116,8 @@ fn known_energies() {
     ] {
         for (order, level) in [(1, 3), (2, 3), (3, 2)] {
             let mut problem = problem.clone();
-            problem.discretization.cells = Cells::Level(level);
-            problem.discretization.order = Order::Uniform(order);
+            problem.discretization.cells = BaseCells::Level(level);
+            problem.discretization.order = PolynomialOrder::Uniform(order);
             problem.discretization.refine = name == "crack";
             let dataset = solved(&problem);
             let found = record(&dataset.steps[0], "energy");
@@ -145,8 +145,8 @@ fn assert_potential(
 ) {
     for (order, level) in [(1, 4), (2, 3), (3, 3)] {
         let mut problem = problem.clone();
-        problem.discretization.cells = Cells::Level(level);
-        problem.discretization.order = Order::Uniform(order);
+        problem.discretization.cells = BaseCells::Level(level);
+        problem.discretization.order = PolynomialOrder::Uniform(order);
         problem.discretization.refine = false;
         problem.discretization.interfaces = false;
         let dataset = solved(&problem);
@@ -227,9 +227,9 @@ fn nothing_is_estimated_of_nothing_and_scale_plays_no_part() {
     }
 }
 
-fn problem_top(length: f64) -> ppum_problem::BorderPart {
+fn problem_top(length: f64) -> ppum_problem::BoundaryPart {
     let half = vec2(length, length);
-    ppum_problem::BorderPart::edge(Edge::Top, &Rect::new(-half, half))
+    ppum_problem::BoundaryPart::edge(DomainEdge::Top, &Rect::new(-half, half))
 }
 
 /// Kinked cracks in [−1, 1]², the angle by which they turn, their ends, and energies by finite
@@ -245,7 +245,7 @@ fn assert_effective_at_kinks(kinks: &[(u32, [f64; 2], f64)], cells: u32, order: 
     for (degrees, to, energy) in kinks {
         let crack = [[0.429901, 0.132984], [0.0, 0.0], *to];
         let mut problem = pulled(SQUARE, [cells; 2], &[&crack]);
-        problem.discretization.order = Order::Uniform(order);
+        problem.discretization.order = PolynomialOrder::Uniform(order);
         let dataset = solved(&problem);
         let error = (1.0 - record(&dataset.steps[0], "energy") / energy).sqrt();
         assert_effective(&format!("{degrees}°, {order}"), &dataset, error, SMOOTH);

@@ -6,7 +6,7 @@ use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_fracture::solve::solve;
-use ppum_problem::{Cells, Problem, ProblemData};
+use ppum_problem::{BaseCells, Problem, ProblemData};
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -116,7 +116,7 @@ fn errors_fall_and_are_estimated() {
         let at = |cells: [u32; 2]| {
             let (u, h) = ("(sin(3*x)*cosh(3*y))", "(2 + sin(4*x + y))");
             let mut problem = surrounded(u, derivatives, h, "", order);
-            problem.discretization.cells = Cells::Grid(cells);
+            problem.discretization.cells = BaseCells::Grid(cells);
             let solution = solved(&problem);
             let error = errors(&solution, &wave).energy;
             let estimate = record(&solution.steps[0], "estimated error");

@@ -14,8 +14,8 @@ use ppum::jet::Jet;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::{
-    BorderPart, BoundaryCondition, Cells, Condition, Discretization, Edge, Expression, Order,
-    ProblemData,
+    BaseCells, BoundaryCondition, BoundaryPart, Condition, Discretization, DomainEdge, Expression,
+    PolynomialOrder, ProblemData,
 };
 use ppum_testkit::random::Random;
 
@@ -121,9 +121,9 @@ impl Case {
     fn problem(&self) -> ProblemData {
         let hole = |&(center, radius): &(Vec2, f64)| Hole::Circle { center, radius };
         let domain = Domain { bounds: self.bounds, holes: self.holes.iter().map(hole).collect() };
-        let cells = Cells::Level(self.level);
+        let cells = BaseCells::Level(self.level);
         let mut set = Discretization::new(cells);
-        (set.order, set.refine) = (Order::Uniform(self.order), self.refine);
+        (set.order, set.refine) = (PolynomialOrder::Uniform(self.order), self.refine);
         let problem = match self.flux.components {
             1 => ProblemData::poisson(domain, CONDUCTIVITY, set),
             _ => ProblemData::elasticity(domain, MATERIAL, set),
@@ -133,10 +133,10 @@ impl Case {
     }
 
     fn on_edges(&self) -> Dataset {
-        let with = |problem: ProblemData, edge: Edge| {
+        let with = |problem: ProblemData, edge: DomainEdge| {
             problem.with_boundary(edge, self.flux.through(edge.normal()))
         };
-        solved(&Edge::ALL.into_iter().fold(self.problem(), with))
+        solved(&DomainEdge::ALL.into_iter().fold(self.problem(), with))
     }
 
     /// Kinked cracks get a pressure of 1, which is that of all-round tension.
@@ -144,7 +144,7 @@ impl Case {
         let mut problem = self.problem();
         for (crack, points) in self.cracks.iter().enumerate() {
             for (side, out) in [(Side::Above, -1.0), (Side::Below, 1.0)] {
-                let on = BorderPart::Crack { crack, face: Some(side) };
+                let on = BoundaryPart::Crack { crack, face: Some(side) };
                 let normal = (points[1] - points[0]).unit().left() * out;
                 problem.boundary.push(match points.len() {
                     2 => BoundaryCondition::new(on, self.flux.through(-normal)),
@@ -154,7 +154,7 @@ impl Case {
         }
         for (hole, &(center, radius)) in self.holes.iter().enumerate() {
             let load = self.flux.off_rim(center, radius);
-            problem.boundary.push(BoundaryCondition::new(BorderPart::Hole(hole), load));
+            problem.boundary.push(BoundaryCondition::new(BoundaryPart::Hole(hole), load));
         }
         solved(&problem)
     }
@@ -323,8 +323,9 @@ fn one_face_alone() {
         let case = Case::new(vec![points.clone()], 3, round, ALL_ROUND);
         let loaded = |case: &Case, side: Side| {
             let fixed = || Condition::Dirichlet(0.0.into());
-            let mut problem = case.problem().with_boundary(Edge::Left, vec![fixed(), fixed()]);
-            let on = BorderPart::Crack { crack: 0, face: Some(side) };
+            let mut problem =
+                case.problem().with_boundary(DomainEdge::Left, vec![fixed(), fixed()]);
+            let on = BoundaryPart::Crack { crack: 0, face: Some(side) };
             let load = [traction.x, traction.y].map(|t| Condition::Neumann(t.into()));
             problem.boundary.push(BoundaryCondition::new(on, load.into()));
             solved(&problem)

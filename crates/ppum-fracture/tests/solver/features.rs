@@ -5,7 +5,7 @@ use crate::studies::support::{checked, parsed};
 use Feature as F;
 use ppum::progress::unwatched;
 use ppum_fracture::solve::solve;
-use ppum_problem::{Feature, Location, Problem};
+use ppum_problem::{Feature, Problem, ProblemLocation};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
@@ -187,7 +187,10 @@ fn excluded_pairs_are_refused() {
             Err(error) => {
                 assert!(!is_allowed(&pair), "{pair:?} is refused: {error}\n{text}");
                 for mistake in error.mistakes() {
-                    assert!(matches!(mistake.location, Location::Text { .. }), "{mistake:?}");
+                    assert!(
+                        matches!(mistake.location, ProblemLocation::Text { .. }),
+                        "{mistake:?}"
+                    );
                     assert!(mistake.message.contains("; "), "{mistake:?}");
                 }
                 refused += 1;

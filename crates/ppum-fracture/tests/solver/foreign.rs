@@ -16,9 +16,9 @@ use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 use ppum_fracture::diagnostics::recompute;
-use ppum_fracture::intensity::{Obstacle, clearance, on_circle};
+use ppum_fracture::intensity::{TipObstacle, clearance, on_circle};
 use ppum_testkit::exact::Williams;
-use ppum_testkit::meshes::{Elements, Polynomial};
+use ppum_testkit::meshes::{BivariatePolynomial, MeshBuilder};
 use ppum_testkit::random::Random;
 use std::f64::consts::{PI, TAU};
 
@@ -175,7 +175,7 @@ fn solutions_without_their_cells() {
 
 /// A mesh of [−1, 1]² under a map of the plane, with a crack from beyond the left to the middle.
 struct Plate {
-    elements: Elements,
+    elements: MeshBuilder,
     axis: Vec2,
     tip: Vec2,
     from: Vec2,
@@ -185,16 +185,21 @@ impl Plate {
     /// The plate turned by an angle, after (x, y) ↦ (x + bend y², y + bend x y), in n × n squares,
     /// some or all of which are cut into triangles.
     fn new(n: i32, angle: f64, bend: f64, is_cut: impl Fn(i32, i32) -> bool) -> Self {
-        let (x, y) = (Polynomial::linear(-1.0, 2.0, 0.0), Polynomial::linear(-1.0, 0.0, 2.0));
-        let bent = Polynomial::linear(bend, 0.0, 0.0);
+        let (x, y) = (
+            BivariatePolynomial::linear(-1.0, 2.0, 0.0),
+            BivariatePolynomial::linear(-1.0, 0.0, 2.0),
+        );
+        let bent = BivariatePolynomial::linear(bend, 0.0, 0.0);
         let moved = [x.plus(&bent.times(&y.times(&y))), y.plus(&bent.times(&x.times(&y)))];
         let (axis, tip) = (vec2(angle.cos(), angle.sin()), vec2(0.3, -0.2));
         let plane = [[axis.x, -axis.y, tip.x], [axis.y, axis.x, tip.y]].map(|[a, b, c]| {
-            let [a, b] = [a, b].map(|factor| Polynomial::linear(factor, 0.0, 0.0));
-            a.times(&moved[0]).plus(&b.times(&moved[1])).plus(&Polynomial::linear(c, 0.0, 0.0))
+            let [a, b] = [a, b].map(|factor| BivariatePolynomial::linear(factor, 0.0, 0.0));
+            a.times(&moved[0])
+                .plus(&b.times(&moved[1]))
+                .plus(&BivariatePolynomial::linear(c, 0.0, 0.0))
         });
         let degree = if bend == 0.0 { 1 } else { 2 };
-        let elements = Elements::tiles([n, n], degree, &plane, is_cut);
+        let elements = MeshBuilder::tiles([n, n], degree, &plane, is_cut);
         Self { elements, axis, tip, from: tip - axis * 2.0 }
     }
 
@@ -283,7 +288,7 @@ fn tips_on_meshes() {
         let dataset = plate.enriched();
         dataset.check().expect("a dataset");
         let clear = clearance(&dataset, 0, TIP).expect("a tip");
-        assert_eq!(clear.end, Obstacle::Border);
+        assert_eq!(clear.end, TipObstacle::Border);
         assert!((clear.radius - 1.0).abs() < 0.1, "{clear:?}");
         assert_exact(&format!("mesh of {n}, {angle}, {bend}"), &dataset, 1e-9);
     }

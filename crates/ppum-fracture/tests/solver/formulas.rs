@@ -14,12 +14,12 @@ use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::solve::solve;
 use ppum_problem::{
-    BorderPart, BoundaryCondition, Cells, Condition, Edge, Enrichment, LocalEnrichment, Order,
-    Problem, ProblemData, Region, Site,
+    BaseCells, BoundaryCondition, BoundaryPart, Condition, DomainEdge, Enrichment,
+    EnrichmentRegion, LocalEnrichment, PolynomialOrder, Problem, ProblemData, Site,
 };
 use ppum_solve::norms::norms;
-use ppum_solve::report::forget_times;
-use ppum_solve::space::{Space, discretise};
+use ppum_solve::report::strip_timings;
+use ppum_solve::space::{TrialSpace, discretise};
 use ppum_testkit::exact::ExactField;
 
 use crate::studies::exact_fields::{OBLIQUE, SQUARE, discretization};
@@ -32,8 +32,8 @@ pub(crate) type Exact<'a> = &'a (dyn Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync);
 fn example(name: &str, order: usize, level: u32) -> ProblemData {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
     let mut problem = Problem::read(&folder.join(name)).expect("a problem in order").into_data();
-    problem.discretization.order = Order::Uniform(order);
-    problem.discretization.cells = Cells::Level(level);
+    problem.discretization.order = PolynomialOrder::Uniform(order);
+    problem.discretization.cells = BaseCells::Level(level);
     problem
 }
 
@@ -67,7 +67,7 @@ pub(crate) fn given(problem: &ProblemData) -> impl Fn(Vec2, Vec2) -> [Jet<f64>; 
 /// the same cover.
 pub(crate) fn energy_error(dataset: &Dataset, fine: &ProblemData, exact: Exact<'_>) -> f64 {
     let step = discretise(&checked(fine), unwatched()).expect("a space");
-    let space = Space::new(&step, fine.domain(), &fine.equation, &fine.tables)
+    let space = TrialSpace::new(&step, fine.domain(), &fine.equation, &fine.tables)
         .expect("functions that compile");
     let field = Field::new(dataset, 0).expect("a field");
     let [_, reference, difference] = norms(&field, &space, exact);
@@ -219,7 +219,7 @@ fn a_corner_function_on_fine_covers() {
 #[test]
 fn a_corner_function_everywhere_is_exact() {
     let mut problem = corner_problem(2, 2);
-    problem.enrichments[0].region = Region::Near(10.0);
+    problem.enrichments[0].region = EnrichmentRegion::Near(10.0);
     let error = energy_error(&solved(&problem), &problem, &corner);
     println!("corner everywhere: {error:.1e}");
     // λ is given to 12 digits
@@ -294,7 +294,7 @@ level = 2
 fn a_round_inclusion() {
     let problem = |level| {
         let mut problem = parsed(DISC);
-        problem.discretization.cells = Cells::Level(level);
+        problem.discretization.cells = BaseCells::Level(level);
         problem
     };
     let error = |level| {
@@ -316,7 +316,7 @@ fn a_round_inclusion() {
 /// singular at a point of the border.
 fn changing_boundary() -> ProblemData {
     let domain = Rect::new(vec2(-1.0, 0.0), vec2(1.0, 1.0));
-    let mut set = discretization(Cells::Grid([6, 3]), 2);
+    let mut set = discretization(BaseCells::Grid([6, 3]), 2);
     set.enrichment = Enrichment::None;
     let mut problem = ProblemData::poisson(domain, 1.0, set);
     let root = "sqrt(hypot(x, y))*sin(atan2(y, x)/2)";
@@ -324,16 +324,18 @@ fn changing_boundary() -> ProblemData {
     let site = Site::Point { at: vec2(0.0, 0.0), angle: 0.0 };
     problem.enrichments.push(LocalEnrichment::new(&["sqrt(r)*sin(theta/2)"], site));
     let zero = vec![Condition::Dirichlet(0.0.into())];
-    let lower = BorderPart::Edge { edge: Edge::Bottom, from: 0.0, to: 1.0 };
+    let lower = BoundaryPart::Edge { edge: DomainEdge::Bottom, from: 0.0, to: 1.0 };
     problem.boundary.push(BoundaryCondition::new(lower, zero));
-    [Edge::Left, Edge::Right, Edge::Top].into_iter().fold(problem, ProblemData::with_exact_boundary)
+    [DomainEdge::Left, DomainEdge::Right, DomainEdge::Top]
+        .into_iter()
+        .fold(problem, ProblemData::with_exact_boundary)
 }
 
 #[test]
 fn a_singular_point_on_the_border() {
     let problem = changing_boundary();
     let mut everywhere = problem.clone();
-    everywhere.enrichments[0].region = Region::Near(10.0);
+    everywhere.enrichments[0].region = EnrichmentRegion::Near(10.0);
     let exact = |anchor: Vec2, offset: Vec2| {
         let p = anchor + offset;
         let (r, half) = (p.length(), 0.5 * p.y.atan2(p.x));
@@ -352,7 +354,7 @@ fn a_singular_point_on_the_border() {
 #[test]
 fn williams_terms_as_enrichments() {
     let field = OBLIQUE.field().with_intensities(1.0, 0.5).with_term(3, 0.4, 0.3);
-    let mut set = discretization(Cells::Level(2), 2);
+    let mut set = discretization(BaseCells::Level(2), 2);
     set.enrichment = Enrichment::Zone;
     set.enrichment_radius = Some(10.0);
     set.tip_degree = 0;
@@ -367,7 +369,7 @@ fn williams_terms_as_enrichments() {
     ];
     let mut more = problem.clone();
     more.enrichments = vec![LocalEnrichment {
-        region: Region::Near(10.0),
+        region: EnrichmentRegion::Near(10.0),
         degree: Some(0),
         ..LocalEnrichment::new(&functions, Site::Tips)
     }];
@@ -381,7 +383,7 @@ fn williams_terms_as_enrichments() {
 #[test]
 fn built_in_and_own_tip_functions_are_one() {
     let field = OBLIQUE.field().with_intensities(1.0, 0.5);
-    let mut set = discretization(Cells::Level(3), 2);
+    let mut set = discretization(BaseCells::Level(3), 2);
     set.enrichment = Enrichment::Zone;
     set.enrichment_radius = Some(0.4);
     let built_in = OBLIQUE.problem(&field, set);
@@ -393,7 +395,7 @@ fn built_in_and_own_tip_functions_are_one() {
     }];
     let step = |problem: &ProblemData| {
         let mut step = solved(problem).steps.remove(0);
-        forget_times(&mut step);
+        strip_timings(&mut step);
         for function in &mut step.functions {
             if let FunctionKind::Formula { role, .. } = &mut function.kind {
                 *role = Role::User;
@@ -407,7 +409,7 @@ fn built_in_and_own_tip_functions_are_one() {
 /// Functions that a space cannot hold are named, with the place.
 #[test]
 fn functions_that_cannot_be_used() {
-    let mut set = discretization(Cells::Level(3), 1);
+    let mut set = discretization(BaseCells::Level(3), 1);
     set.enrichment = Enrichment::None;
     let one = ProblemData::poisson(SQUARE, 1.0, set);
     let problem = |function: &str, site, region| {
@@ -417,12 +419,22 @@ fn functions_that_cannot_be_used() {
         problem
     };
     let at = |x, y| Site::Point { at: vec2(x, y), angle: 0.0 };
-    let right = |x: f64| Region::Where(format!("x - {x}").parse().expect("a formula"));
+    let right = |x: f64| EnrichmentRegion::Where(format!("x - {x}").parse().expect("a formula"));
     for (function, site, region, part) in [
-        ("sqrt(x)", Site::World, Region::Default, "the enrichment `sqrt(x)` is NaN at [-"),
-        ("log(r)", at(0.3, 0.2), Region::Default, "infinite energy around [0.3, 0.2]"),
-        ("r^(-0.2)", at(0.3, 0.2), Region::Default, "infinite energy around [0.3, 0.2]"),
-        ("theta", at(0.3, 0.2), Region::Near(0.5), "`theta at [0.3, 0.2]` has infinite energy"),
+        (
+            "sqrt(x)",
+            Site::World,
+            EnrichmentRegion::Default,
+            "the enrichment `sqrt(x)` is NaN at [-",
+        ),
+        ("log(r)", at(0.3, 0.2), EnrichmentRegion::Default, "infinite energy around [0.3, 0.2]"),
+        ("r^(-0.2)", at(0.3, 0.2), EnrichmentRegion::Default, "infinite energy around [0.3, 0.2]"),
+        (
+            "theta",
+            at(0.3, 0.2),
+            EnrichmentRegion::Near(0.5),
+            "`theta at [0.3, 0.2]` has infinite energy",
+        ),
         ("abs(y)", Site::World, right(2.0), "no patch has the enrichment `abs(y)`"),
     ] {
         let error =

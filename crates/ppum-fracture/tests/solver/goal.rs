@@ -7,7 +7,7 @@ use crate::studies::plates::{Known, Plate, centre_cracks, end_shear, slanted_cra
 use crate::studies::support::{parsed, solved};
 use ppum::dataset::WarningKind;
 use ppum::vec2::vec2;
-use ppum_problem::{Adaptivity, Cells, Order, ProblemData};
+use ppum_problem::{Adaptivity, BaseCells, PolynomialOrder, ProblemData};
 use ppum_testkit::random::Random;
 
 /// Limits of the effectivity, the estimated error over the error. Where K is nearly right by chance
@@ -29,7 +29,7 @@ fn errors_of_factors_are_known() {
     for plate in [CENTRE, EDGE, SLANTED].map(|k| &plates[k]) {
         for order in [2, 3] {
             let mut problem = plate.problem.clone();
-            problem.discretization.order = Order::Uniform(order);
+            problem.discretization.order = PolynomialOrder::Uniform(order);
             for [size, error, estimated] in errors_of_factors(plate, &solved(&problem)) {
                 let (name, effectivity) = (&plate.name, estimated / error);
                 println!("{name}, order {order}: {:.1e}, × {effectivity:.2}", error / size);
@@ -68,8 +68,8 @@ fn random_plate(random: &mut Random) -> ProblemData {
 fn effectivities(random: &mut Random, orders: &[usize], plates: usize) -> Vec<f64> {
     let on = |problem: &ProblemData, cells: u32, order: usize| {
         let mut problem = problem.clone();
-        problem.discretization.cells = Cells::Grid([cells; 2]);
-        problem.discretization.order = Order::Uniform(order);
+        problem.discretization.cells = BaseCells::Grid([cells; 2]);
+        problem.discretization.order = PolynomialOrder::Uniform(order);
         solved(&problem).steps.remove(0).intensities
     };
     let mut all = Vec::new();
@@ -143,8 +143,8 @@ fn clamped_and_stiff() -> Plate {
 /// docs/validation.md has more plates and accuracies.
 fn assert_reached(plate: &Plate, accuracy: f64) {
     let mut problem = plate.problem.clone().with_adaptivity(Adaptivity::to(accuracy));
-    if problem.discretization.order == Order::Uniform(2) {
-        problem.discretization.cells = Cells::Level(2);
+    if problem.discretization.order == PolynomialOrder::Uniform(2) {
+        problem.discretization.cells = BaseCells::Level(2);
     }
     let dataset = solved(&problem);
     let (name, unknowns) = (&plate.name, dataset.steps[0].unknowns());
@@ -170,9 +170,12 @@ fn steps_begin_near_their_end() {
     let hard = [("1e-6", 3, 4), ("1e-7", 3, 6), ("1e-8", 3, 7)];
     for (accuracy, level, order) in easy.into_iter().chain(hard) {
         let found = first(&format!("accuracy = {accuracy}"));
-        assert_eq!((found.cells, found.order), (Cells::Level(level), Order::Uniform(order)));
+        assert_eq!(
+            (found.cells, found.order),
+            (BaseCells::Level(level), PolynomialOrder::Uniform(order))
+        );
         let found = first(&format!("accuracy = {accuracy}\nlevel = 1\norder = 1"));
-        assert_eq!((found.cells, found.order), (Cells::Level(1), Order::Uniform(1)));
+        assert_eq!((found.cells, found.order), (BaseCells::Level(1), PolynomialOrder::Uniform(1)));
     }
 }
 

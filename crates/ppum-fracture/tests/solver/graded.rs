@@ -10,8 +10,8 @@ use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_fracture::intensity::{LoadCase, TipLoads, intensities};
-use ppum_problem::Cells;
-use ppum_solve::space::Space;
+use ppum_problem::BaseCells;
+use ppum_solve::space::TrialSpace;
 use ppum_testkit::exact::{Component, ExactField as _, Williams};
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
@@ -142,8 +142,8 @@ fn trace_gradient(p: Vec2) -> Vec2 {
 
 fn factors(dataset: &Dataset, loads: &dyn TipLoads) -> TipIntensity {
     let step = &dataset.steps[0];
-    let space =
-        Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables).expect("functions");
+    let space = TrialSpace::new(step, &dataset.domain, &dataset.equation, &dataset.tables)
+        .expect("functions");
     let found =
         intensities(dataset, &Field::new(dataset, 0).expect("a field"), &space, loads, unwatched())
             .expect("nobody stops it");
@@ -169,7 +169,7 @@ fn exact_fields_in_graded_bodies() {
         let field = Williams::new(material, OBLIQUE.tip, axis())
             .with_intensities(K[0], K[1])
             .with_t_stress(T_STRESS);
-        let mut set = discretization(Cells::Level(2), 2);
+        let mut set = discretization(BaseCells::Level(2), 2);
         set.enrichment_radius = Some(10.0);
         let mut dataset = solved(&OBLIQUE.problem_of(material, &field, set));
         let uniform = error(&factors(&dataset, &LoadCase::default()));

@@ -3,21 +3,21 @@
 
 use crate::studies::support::{checked, parsed};
 use ppum::crack::{CrackEnd, End, TipId};
-use ppum::dataset::{Advance, Dataset, Fate, GrowthStop, Step, TipIntensity};
+use ppum::dataset::{Dataset, GrowthStop, Step, TipIncrement, TipIntensity, TipStatus};
 use ppum::progress::{Progress, Verdict, unwatched};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::diagnostics::recompute;
-use ppum_fracture::growth::{GrowthError, Kink, Last, grow, kink, series};
+use ppum_fracture::growth::{GrowthError, KinkDirection, ResumePoint, grow, kink, series};
 use ppum_fracture::solve::SolveError;
 use ppum_problem::{Criterion, Problem};
-use ppum_solve::report::forget_times;
+use ppum_solve::report::strip_timings;
 
 fn grown(text: &str) -> Vec<Step> {
     series(&checked(&parsed(text)), None, unwatched()).expect("a series").steps
 }
 
 /// The row of a tip in the growth of a step.
-fn row(step: &Step, crack: u32, end: End) -> &Advance {
+fn row(step: &Step, crack: u32, end: End) -> &TipIncrement {
     let rows = &step.growth.as_ref().expect("a step of a series").tips;
     rows.iter().find(|row| row.tip == TipId { crack, end }).expect("a tip")
 }
@@ -109,7 +109,7 @@ fn kinks_of_local_symmetry() {
     let k = [1.0, ratio];
     let factors = TipIntensity::new(TipId { crack: 0, end: End::Last }, k[0], k[1]);
     let found = kink(Criterion::LocalSymmetry, &factors).expect("an open crack");
-    let Kink { angle, strength } = found;
+    let KinkDirection { angle, k_eq: strength } = found;
     let [long, short] = [0.04, 0.02].map(|length| kinked(k, angle, length));
     let limit = [0, 1].map(|i| 2.0 * short[i] - long[i]);
     println!(
@@ -296,9 +296,9 @@ fn ends_of_paths() {
     let crack = "[[-1, 0], [0, 0]]";
     // a wall is the first crack, the one that grows the last
     for (more, own, fate, end) in [
-        (hole, 0, Fate::MeetsHole(0), CrackEnd::Mouth),
-        (wall, 1, Fate::MeetsCrack(0), CrackEnd::Junction),
-        (beside, 1, Fate::MeetsCrack(0), CrackEnd::Junction),
+        (hole, 0, TipStatus::MeetsHole(0), CrackEnd::Mouth),
+        (wall, 1, TipStatus::MeetsCrack(0), CrackEnd::Junction),
+        (beside, 1, TipStatus::MeetsCrack(0), CrackEnd::Junction),
     ] {
         let held =
             r#"increment = 0.3, steps = 2, toughness = "if(y > 0.02 or y < -0.2, 100, 0.1)""#;
@@ -325,10 +325,10 @@ fn tips_that_meet() {
         let first = format!("[[crack]]\npoints = {first}");
         let steps = grown(&pulled(other, &first, "increment = 0.3, steps = 1"));
         let rows = &steps[0].growth.as_ref().expect("growth").tips;
-        let of = |crack: u32, fate: Fate| {
+        let of = |crack: u32, fate: TipStatus| {
             rows.iter().find(|row| row.tip.crack == crack && row.fate == fate).expect("a fate")
         };
-        let (goes, stays) = (of(0, Fate::MeetsCrack(1)), of(1, Fate::Joined));
+        let (goes, stays) = (of(0, TipStatus::MeetsCrack(1)), of(1, TipStatus::Joined));
         assert!(goes.length > 0.1 && stays.length == 0.0 && stays.path.is_empty());
         let [one, two] = [goes, stays].map(|row| {
             let crack = &steps[1].cracks[row.tip.crack as usize];
@@ -349,7 +349,7 @@ fn pieces_come_off() {
     let steps = grown(&text.replace(", refine = false", ""));
     assert_eq!(stop(&steps), Some(GrowthStop::PieceComesOff));
     let last = steps.last().expect("steps");
-    assert_eq!(row(last, 0, End::Last).fate, Fate::LeavesPlate);
+    assert_eq!(row(last, 0, End::Last).fate, TipStatus::LeavesPlate);
     let words = &last.warnings.last().expect("a warning").message;
     assert!(words.contains("a piece comes off") && words.contains("do not balance"), "{words}");
     assert!(steps.len() == 3 || steps.len() == 4, "{}", steps.len());
@@ -361,7 +361,7 @@ fn pieces_come_off() {
 fn tips_that_stay() {
     let steps = grown(&pulled_in(2, "[[-0.3, 0], [0.3, 0]]", "", "steps = 5, toughness = 10"));
     assert_eq!((steps.len(), stop(&steps)), (1, Some(GrowthStop::AllHeld)));
-    assert_eq!(row(&steps[0], 0, End::Start).fate, Fate::Held);
+    assert_eq!(row(&steps[0], 0, End::Start).fate, TipStatus::Held);
     let closed =
         pulled_in(2, "[[-0.3, 0], [0.3, 0]]", "", "steps = 5").replace("[0, 1]", "[0, -1]");
     let steps = grown(&closed.replace(
@@ -369,7 +369,7 @@ fn tips_that_stay() {
         "[0, 1] },\n            { on = \"top\"",
     ));
     assert_eq!((steps.len(), stop(&steps)), (1, Some(GrowthStop::AllHeld)));
-    assert_eq!(row(&steps[0], 0, End::Last).fate, Fate::Closed);
+    assert_eq!(row(&steps[0], 0, End::Last).fate, TipStatus::Closed);
     // a toughness that differs from place to place holds one end
     let steps = grown(&pulled_in(
         2,
@@ -377,7 +377,7 @@ fn tips_that_stay() {
         "",
         r#"steps = 2, increment = 0.05, toughness = "if(x > 0, 10, 0.1)""#,
     ));
-    assert_eq!(row(&steps[0], 0, End::Last).fate, Fate::Held);
+    assert_eq!(row(&steps[0], 0, End::Last).fate, TipStatus::Held);
     assert_eq!(steps[2].cracks[0].end_point(End::Last), vec2(0.3, 0.0));
     assert!((steps[2].cracks[0].end_point(End::Start) - vec2(-0.4, 0.0)).length() < 1e-3);
     // a corner of the left edge that is cut out, and that nothing acts on
@@ -405,7 +405,7 @@ fn critical_loads() {
     for (a, b) in once.steps.iter().zip(&twice.steps) {
         assert!((a.load / b.load - 2.0).abs() < 1e-9);
         let [k1, k2] = [a.intensities[0].k1, a.intensities[0].k2];
-        let strength = a.load * row(a, 0, End::Last).strength;
+        let strength = a.load * row(a, 0, End::Last).k_eq;
         assert!(
             (strength - 2.5).abs() < 1e-12 && (k1 / 2.5 - 1.0).abs() < 1e-2,
             "{strength} {k1} {k2}"
@@ -571,8 +571,8 @@ fn slow_tips() {
     let mut wanted = 0.0;
     for step in &steps[..4] {
         let (slow, fast) = (row(step, 0, End::Last), row(step, 1, End::Last));
-        assert!(slow.strength < fast.strength);
-        wanted += 0.05 * (slow.strength / fast.strength).powi(2);
+        assert!(slow.k_eq < fast.k_eq);
+        wanted += 0.05 * (slow.k_eq / fast.k_eq).powi(2);
     }
     let last = row(&steps[4], 0, End::Last);
     let due = row(&steps[3], 0, End::Last).due;
@@ -586,7 +586,7 @@ fn fracture_ends_fatigue() {
     let growth = "increment = 0.1, steps = 9, toughness = 2.6, paris = { c = 1, m = 2 }";
     let steps = grown(&pulled("[[-1, 0], [-0.4, 0]]", "", growth));
     assert_eq!(stop(&steps), Some(GrowthStop::Fracture));
-    let strengths: Vec<f64> = steps.iter().map(|step| row(step, 0, End::Last).strength).collect();
+    let strengths: Vec<f64> = steps.iter().map(|step| row(step, 0, End::Last).k_eq).collect();
     let (last, others) = strengths.split_last().expect("steps");
     assert!(*last >= 2.6 && others.iter().all(|strength| *strength < 2.6), "{strengths:?}");
 }
@@ -603,7 +603,7 @@ fn series_go_on_from_their_steps() {
         let text = pulled_in(2, edge, more, rule);
         let (problem, whole) = (parsed(&text), grown(&text));
         let mut rest = Vec::new();
-        let last = Last { number, step: &whole[number] };
+        let last = ResumePoint { number, step: &whole[number] };
         grow(&checked(&problem), Some(last), None, unwatched(), |mut step| {
             rest.append(&mut step.steps);
             Ok::<_, ()>(())
@@ -651,7 +651,7 @@ fn a_step_has_a_problem_of_its_own() {
 /// A step without the seconds that it took, in words: NaN is equal to itself there.
 fn timeless(step: &Step) -> String {
     let mut step = step.clone();
-    forget_times(&mut step);
+    strip_timings(&mut step);
     format!("{step:?}")
 }
 

@@ -6,14 +6,14 @@ use ppum::dataset::{Dataset, Material, StressState, TipIntensity, WarningKind};
 use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
-use ppum::sample::{Wanted, evaluate_each, points};
+use ppum::sample::{SampledQuantity, evaluate_each, points};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::diagnostics::recompute;
 use ppum_fracture::growth::series;
 use ppum_fracture::intensity::{CircleError, on_circle};
 use ppum_problem::{
-    BorderPart, BoundaryCondition, Cells, Condition, Discretization, Edge, Order, Problem,
-    ProblemData, SolverKind, Symmetry,
+    BaseCells, BoundaryCondition, BoundaryPart, Condition, Discretization, DomainEdge,
+    PolynomialOrder, Problem, ProblemData, SolverKind, Symmetry,
 };
 use ppum_testkit::random::Random;
 
@@ -22,8 +22,8 @@ use ppum_testkit::random::Random;
 struct Plate {
     bounds: Rect,
     cracks: Vec<[Vec2; 2]>,
-    loads: Vec<(Edge, Vec2)>,
-    symmetries: Vec<(Edge, Symmetry)>,
+    loads: Vec<(DomainEdge, Vec2)>,
+    symmetries: Vec<(DomainEdge, Symmetry)>,
     /// On all faces.
     pressure: f64,
     cells: [u32; 2],
@@ -33,8 +33,8 @@ struct Plate {
 impl Plate {
     fn problem(&self) -> ProblemData {
         let material = Material { young: 2.0, poisson: 0.3, state: StressState::PlaneStrain };
-        let mut set = Discretization::new(Cells::Grid(self.cells));
-        set.order = Order::Uniform(self.order);
+        let mut set = Discretization::new(BaseCells::Grid(self.cells));
+        set.order = PolynomialOrder::Uniform(self.order);
         let mut problem = ProblemData::elasticity(self.bounds, material, set);
         for crack in &self.cracks {
             problem = problem.with_crack(&crack.map(Into::into));
@@ -52,7 +52,7 @@ impl Plate {
             problem = problem.with_boundary(*edge, is_across.map(condition).to_vec());
         }
         for crack in (0..self.cracks.len()).filter(|_| self.pressure != 0.0) {
-            let on = BorderPart::Crack { crack, face: None };
+            let on = BoundaryPart::Crack { crack, face: None };
             problem.boundary.push(BoundaryCondition::pressure(on, self.pressure.into()));
         }
         problem
@@ -66,11 +66,11 @@ impl Plate {
     fn turned(&self, factor: f64) -> Self {
         let point = |p: Vec2| p.left() * factor;
         let corners = [point(self.bounds.min), point(self.bounds.max)];
-        let edge = |edge: Edge| match edge {
-            Edge::Left => Edge::Bottom,
-            Edge::Bottom => Edge::Right,
-            Edge::Right => Edge::Top,
-            Edge::Top => Edge::Left,
+        let edge = |edge: DomainEdge| match edge {
+            DomainEdge::Left => DomainEdge::Bottom,
+            DomainEdge::Bottom => DomainEdge::Right,
+            DomainEdge::Right => DomainEdge::Top,
+            DomainEdge::Top => DomainEdge::Left,
         };
         Self {
             bounds: Rect::new(corners[0].min(corners[1]), corners[0].max(corners[1])),
@@ -112,10 +112,10 @@ fn centre_crack(a: f64, order: usize) -> Plate {
         bounds: Rect::new(vec2(-1.0, -1.5), vec2(1.0, 1.5)),
         cracks: vec![[vec2(-a, 0.0), vec2(a, 0.0)]],
         loads: vec![
-            (Edge::Top, vec2(0.0, 1.0)),
-            (Edge::Bottom, vec2(0.0, -1.0)),
-            (Edge::Left, vec2(-0.3, 0.0)),
-            (Edge::Right, vec2(0.3, 0.0)),
+            (DomainEdge::Top, vec2(0.0, 1.0)),
+            (DomainEdge::Bottom, vec2(0.0, -1.0)),
+            (DomainEdge::Left, vec2(-0.3, 0.0)),
+            (DomainEdge::Right, vec2(0.3, 0.0)),
         ],
         symmetries: Vec::new(),
         pressure: 0.4,
@@ -129,15 +129,15 @@ fn part_of(whole: &Plate, kind: Symmetry, is_quarter: bool) -> Plate {
     let mut part = whole.clone();
     part.bounds.min.y = 0.0;
     part.cells[1] /= 2;
-    part.symmetries.push((Edge::Bottom, kind));
+    part.symmetries.push((DomainEdge::Bottom, kind));
     if is_quarter {
         part.bounds.min.x = 0.0;
         part.cells[0] /= 2;
-        part.symmetries.push((Edge::Left, Symmetry::Symmetric));
+        part.symmetries.push((DomainEdge::Left, Symmetry::Symmetric));
         part.cracks.retain(|crack| crack[1].x > 0.0);
         part.cracks.iter_mut().flatten().for_each(|p| p.x = p.x.max(0.0));
     }
-    let is_held = |edge: &Edge| part.symmetries.iter().any(|(on, _)| on == edge);
+    let is_held = |edge: &DomainEdge| part.symmetries.iter().any(|(on, _)| on == edge);
     part.loads.retain(|(edge, _)| !is_held(edge));
     part
 }
@@ -181,7 +181,7 @@ fn parts_of_plates_with_edge_cracks() {
     let single = Plate {
         bounds: Rect::new(vec2(0.0, -1.0), vec2(1.0, 1.0)),
         cracks: vec![[vec2(0.0, 0.0), vec2(random.between(0.3, 0.6), 0.0)]],
-        loads: vec![(Edge::Top, vec2(0.0, 1.0)), (Edge::Bottom, vec2(0.0, -1.0))],
+        loads: vec![(DomainEdge::Top, vec2(0.0, 1.0)), (DomainEdge::Bottom, vec2(0.0, -1.0))],
         cells: [6, 12],
         pressure: 0.0,
         ..centre_crack(0.5, 5)
@@ -225,10 +225,10 @@ fn half_of_a_plate_in_shear() {
     let mut whole = centre_crack(Random(44).between(0.35, 0.65), 5);
     (whole.loads, whole.pressure) = (
         vec![
-            (Edge::Top, vec2(1.0, 0.0)),
-            (Edge::Bottom, vec2(-1.0, 0.0)),
-            (Edge::Left, vec2(0.0, -1.0)),
-            (Edge::Right, vec2(0.0, 1.0)),
+            (DomainEdge::Top, vec2(1.0, 0.0)),
+            (DomainEdge::Bottom, vec2(-1.0, 0.0)),
+            (DomainEdge::Left, vec2(0.0, -1.0)),
+            (DomainEdge::Right, vec2(0.0, 1.0)),
         ],
         0.0,
     );
@@ -256,7 +256,11 @@ fn outer_faces_have_no_values() {
             Quantity::at_many(std::slice::from_ref(&quantity), &mut on, &offsets, side)[0]
         });
         let places = points(cracks, &[middle]);
-        let rows = evaluate_each(&field, Wanted::Values(std::slice::from_ref(&quantity)), &places);
+        let rows = evaluate_each(
+            &field,
+            SampledQuantity::Values(std::slice::from_ref(&quantity)),
+            &places,
+        );
         for [inner, outer] in [alone, together, [rows[0], rows[1]]] {
             assert!(inner.is_finite() && outer.is_nan(), "{inner} {outer}");
         }
@@ -314,7 +318,7 @@ fn estimates_of_errors_of_halves() {
 #[test]
 fn factors_of_a_half_are_found_again() {
     let mut problem = part_of(&centre_crack(0.45, 3), Symmetry::Symmetric, true).problem();
-    problem.discretization.cells = Cells::Grid([16, 24]);
+    problem.discretization.cells = BaseCells::Grid([16, 24]);
     let dataset = solved(&problem);
     let known = right_tip(&dataset);
     let ready = checked(&problem);

@@ -443,8 +443,8 @@ fn expansion_that_jumps_is_resolved() {
     }
 }
 
-/// The problem of a temperature has the body and the cells of its own where it says nothing of them:
-/// without these tables the solution has the same bits, and its dataset can be read again.
+/// The problem of a temperature has the body and the cells of its own where it says nothing of
+/// them: without these tables the solution has the same bits, and its dataset can be read again.
 #[test]
 fn temperatures_need_not_repeat_the_body() {
     let mut random = Random(77);

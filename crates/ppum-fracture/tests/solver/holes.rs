@@ -11,8 +11,8 @@ use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::solve::spectrum;
 use ppum_problem::{
-    BorderPart, BoundaryCondition, Cells, Condition, Discretization, Edge, Expression, Order,
-    ProblemData,
+    BaseCells, BoundaryCondition, BoundaryPart, Condition, Discretization, DomainEdge, Expression,
+    PolynomialOrder, ProblemData,
 };
 use ppum_testkit::exact::{ElasticField, ExactField as _, RoundHole};
 
@@ -25,7 +25,10 @@ fn square(half: f64) -> Rect {
 }
 
 fn set(cells: u32, order: usize) -> Discretization {
-    Discretization { order: Order::Uniform(order), ..Discretization::new(Cells::Grid([cells; 2])) }
+    Discretization {
+        order: PolynomialOrder::Uniform(order),
+        ..Discretization::new(BaseCells::Grid([cells; 2]))
+    }
 }
 
 fn plate(bounds: Rect, hole: Hole, set: Discretization) -> ProblemData {
@@ -37,7 +40,11 @@ fn formula(text: &str) -> Expression {
 }
 
 /// The problem with the tractions of an exact field on an edge.
-fn with_tractions(problem: ProblemData, field: &impl ElasticField, edge: Edge) -> ProblemData {
+fn with_tractions(
+    problem: ProblemData,
+    field: &impl ElasticField,
+    edge: DomainEdge,
+) -> ProblemData {
     let [xx, yy, xy] = field.stress_formulas().map(|text| formula(&text));
     let n = edge.normal();
     let traction = if n.x == 0.0 { [xy, yy] } else { [xx, xy] };
@@ -60,7 +67,7 @@ fn kirsch() -> RoundHole {
 fn kirsch_plate(cells: u32, order: usize) -> ProblemData {
     let hole = Hole::Circle { center: CENTER, radius: 1.0 };
     let problem = plate(square(4.0), hole, set(cells, order));
-    Edge::ALL.into_iter().fold(problem, |p, edge| with_tractions(p, &kirsch(), edge))
+    DomainEdge::ALL.into_iter().fold(problem, |p, edge| with_tractions(p, &kirsch(), edge))
 }
 
 /// Relative error of stresses in the energy norm: a plate under tractions alone has any motion.
@@ -102,12 +109,17 @@ fn kirsch_converges() {
 fn pressure_on_faces() {
     let a = 1.0;
     let crack = [[-a, 0.0], [a, 0.0]];
-    let set = Discretization { order: Order::Uniform(2), ..Discretization::new(Cells::Level(4)) };
+    let set = Discretization {
+        order: PolynomialOrder::Uniform(2),
+        ..Discretization::new(BaseCells::Level(4))
+    };
     let plate = ProblemData::elasticity(square(8.0), MATERIAL, set).with_crack(&crack);
     let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-    let pulled =
-        plate.clone().with_boundary(Edge::Top, pull(1.0)).with_boundary(Edge::Bottom, pull(-1.0));
-    let pressed = plate.with_pressure(BorderPart::Crack { crack: 0, face: None }, 1.0);
+    let pulled = plate
+        .clone()
+        .with_boundary(DomainEdge::Top, pull(1.0))
+        .with_boundary(DomainEdge::Bottom, pull(-1.0));
+    let pressed = plate.with_pressure(BoundaryPart::Crack { crack: 0, face: None }, 1.0);
     let factors = |problem: &ProblemData| {
         let dataset = solved(problem);
         dataset.steps[0].intensities.iter().map(|tip| (tip.k1, tip.k2)).collect::<Vec<_>>()
@@ -125,8 +137,9 @@ fn pressure_in_a_hole() {
     let field = RoundHole::new(MATERIAL, CENTER, 1.0).with_pressure(1.0);
     let hole = Hole::Circle { center: CENTER, radius: 1.0 };
     let problem = plate(square(4.0), hole, set(16, 3));
-    let problem = Edge::ALL.into_iter().fold(problem, |p, edge| with_tractions(p, &field, edge));
-    let dataset = solved(&problem.with_pressure(BorderPart::Hole(0), 1.0));
+    let problem =
+        DomainEdge::ALL.into_iter().fold(problem, |p, edge| with_tractions(p, &field, edge));
+    let dataset = solved(&problem.with_pressure(BoundaryPart::Hole(0), 1.0));
     let error = energy_error(&dataset, &field);
     let field = Field::new(&dataset, 0).expect("a field");
     let x = |p: Vec2| {
@@ -148,9 +161,9 @@ fn a_rim_that_is_held() {
     let hole = Hole::Circle { center: CENTER, radius: 1.0 };
     let problem = plate(square(4.0), hole, set(8, 2));
     let mut problem =
-        Edge::ALL.into_iter().fold(problem, |p, edge| with_tractions(p, &kirsch(), edge));
+        DomainEdge::ALL.into_iter().fold(problem, |p, edge| with_tractions(p, &kirsch(), edge));
     let values = kirsch().formulas().map(|text| Condition::Dirichlet(formula(&text)));
-    problem.boundary.push(BoundaryCondition::new(BorderPart::Hole(0), values.into()));
+    problem.boundary.push(BoundaryCondition::new(BoundaryPart::Hole(0), values.into()));
     let error = energy_error(&solved(&problem), &kirsch());
     println!("held rim: {error}");
     assert!(error < 0.04, "{error}");
@@ -162,16 +175,17 @@ fn a_rim_that_is_held() {
 fn stress_concentration() {
     let field = RoundHole::new(MATERIAL, Vec2::ZERO, 1.0).with_remote([0.0, 1.0, 0.0]);
     let hole = Hole::Circle { center: Vec2::ZERO, radius: 1.0 };
-    let symmetry = |p: ProblemData, edge: Edge| {
+    let symmetry = |p: ProblemData, edge: DomainEdge| {
         let zero = || Condition::Dirichlet(0.0.into());
         let along = edge.normal().x == 0.0;
         let held = if along { [Condition::Free, zero()] } else { [zero(), Condition::Free] };
         p.with_boundary(edge, held.into())
     };
     let quarter = plate(Rect::new(Vec2::ZERO, vec2(4.0, 4.0)), hole, set(8, 4));
-    let quarter =
-        [Edge::Right, Edge::Top].into_iter().fold(quarter, |p, e| with_tractions(p, &field, e));
-    let quarter = [Edge::Left, Edge::Bottom].into_iter().fold(quarter, symmetry);
+    let quarter = [DomainEdge::Right, DomainEdge::Top]
+        .into_iter()
+        .fold(quarter, |p, e| with_tractions(p, &field, e));
+    let quarter = [DomainEdge::Left, DomainEdge::Bottom].into_iter().fold(quarter, symmetry);
     let syy = Quantity::Stress(ppum::quantity::Axis::Y, ppum::quantity::Axis::Y);
     let outside = vec2(1.0 + 1e-9, 0.0);
     let found = stress(&solved(&quarter), &syy, outside);
@@ -192,13 +206,13 @@ fn cracks_from_a_hole() {
     for (length, known, cracks) in [(0.5, 1.83279, two), (1.0, 1.47213, one)] {
         let hole = Hole::Circle { center: Vec2::ZERO, radius: 1.0 };
         let set = Discretization {
-            order: Order::Uniform(3),
-            ..Discretization::new(Cells::Points(around_a_hole()))
+            order: PolynomialOrder::Uniform(3),
+            ..Discretization::new(BaseCells::Points(around_a_hole()))
         };
         let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
         let problem = plate(square(64.0), hole, set)
-            .with_boundary(Edge::Top, pull(1.0))
-            .with_boundary(Edge::Bottom, pull(-1.0));
+            .with_boundary(DomainEdge::Top, pull(1.0))
+            .with_boundary(DomainEdge::Bottom, pull(-1.0));
         let problem = cracks.iter().fold(problem, |p, points| p.with_crack(points));
         let dataset = solved(&problem);
         let tips = &dataset.steps[0].intensities;
@@ -233,10 +247,11 @@ fn slivers_at_rims() {
         // rims of any radius in the same cells
         let cells = Discretization { refine: false, ..set(8, 2) };
         let problem = plate(square(4.0), hole, cells);
-        let mut problem = Edge::ALL.into_iter().fold(problem, |p, e| with_tractions(p, &field, e));
+        let mut problem =
+            DomainEdge::ALL.into_iter().fold(problem, |p, e| with_tractions(p, &field, e));
         if held {
             let values = field.formulas().map(|text| Condition::Dirichlet(formula(&text)));
-            problem.boundary.push(BoundaryCondition::new(BorderPart::Hole(0), values.into()));
+            problem.boundary.push(BoundaryCondition::new(BoundaryPart::Hole(0), values.into()));
         }
         (problem, field)
     };
@@ -263,16 +278,22 @@ fn slivers_at_rims() {
 /// the width does, and short restraints hold the plate.
 #[test]
 fn short_intervals() {
-    let on =
-        |edge: Edge, s: f64, half: f64| BorderPart::Edge { edge, from: s - half, to: s + half };
+    let on = |edge: DomainEdge, s: f64, half: f64| BoundaryPart::Edge {
+        edge,
+        from: s - half,
+        to: s + half,
+    };
     let zero = || Condition::Dirichlet(0.0.into());
     let ways = |half: f64| {
         let load = Condition::Neumann((-0.5 / half).into());
         let mut problem = ProblemData::elasticity(square(1.0), MATERIAL, set(8, 1));
         problem.boundary = vec![
-            BoundaryCondition::new(on(Edge::Top, 0.13, half), vec![Condition::Free, load]),
-            BoundaryCondition::new(on(Edge::Bottom, -0.6, 1e-3), vec![zero(), zero()]),
-            BoundaryCondition::new(on(Edge::Bottom, 0.7, 1e-3), vec![Condition::Free, zero()]),
+            BoundaryCondition::new(on(DomainEdge::Top, 0.13, half), vec![Condition::Free, load]),
+            BoundaryCondition::new(on(DomainEdge::Bottom, -0.6, 1e-3), vec![zero(), zero()]),
+            BoundaryCondition::new(
+                on(DomainEdge::Bottom, 0.7, 1e-3),
+                vec![Condition::Free, zero()],
+            ),
         ];
         let dataset = solved(&problem);
         let field = Field::new(&dataset, 0).expect("a field");

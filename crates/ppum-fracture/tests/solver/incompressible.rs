@@ -5,7 +5,7 @@ use ppum::dataset::{Dataset, Material, StressState, WarningKind};
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
-use ppum_problem::{Cells, Order, ProblemData};
+use ppum_problem::{BaseCells, PolynomialOrder, ProblemData};
 use ppum_testkit::random::Random;
 
 use crate::studies::exact_fields::{SQUARE, discretization, expressions, held};
@@ -30,12 +30,12 @@ fn the_order_follows_the_material_where_none_is_given() {
     let order = |material: &str, order: &str| {
         cracked(material, &format!("level = 3\n{order}")).discretization.order
     };
-    assert_eq!(order(&strain("0.3"), ""), Order::Uniform(2));
-    assert_eq!(order(&strain("0.47"), ""), Order::Uniform(2));
-    assert_eq!(order(&strain("0.48"), ""), Order::Uniform(4));
-    assert_eq!(order(&strain("\"if(x > 0.9, 0.499, 0.3)\""), ""), Order::Uniform(4));
-    assert_eq!(order(&strain("0.499"), "order = 1"), Order::Uniform(1));
-    assert_eq!(order("poisson = 0.5\nstate = \"plane-stress\"", ""), Order::Uniform(2));
+    assert_eq!(order(&strain("0.3"), ""), PolynomialOrder::Uniform(2));
+    assert_eq!(order(&strain("0.47"), ""), PolynomialOrder::Uniform(2));
+    assert_eq!(order(&strain("0.48"), ""), PolynomialOrder::Uniform(4));
+    assert_eq!(order(&strain("\"if(x > 0.9, 0.499, 0.3)\""), ""), PolynomialOrder::Uniform(4));
+    assert_eq!(order(&strain("0.499"), "order = 1"), PolynomialOrder::Uniform(1));
+    assert_eq!(order("poisson = 0.5\nstate = \"plane-stress\"", ""), PolynomialOrder::Uniform(2));
 }
 
 /// K_I of both tips is 1.67156 for any ν (hpfem of order 10, ν = 0.499 and 0.4999: 1.671560 and the
@@ -94,7 +94,7 @@ fn manufactured(poisson: f64, level: u32, order: usize) -> (Material, Dataset) {
     let material = Material { young: 1.0, poisson, state: StressState::PlaneStrain };
     let (lambda, mu) = (material.lambda(), material.mu());
     let [u, v] = ["-1.5*sin(2*x + 0.3)*sin(1.5*y)", "-2*cos(2*x + 0.3)*cos(1.5*y)"];
-    let set = discretization(Cells::Level(level), order);
+    let set = discretization(BaseCells::Level(level), order);
     let exact = [format!("{u} + x^2/{lambda:?}"), v.to_owned()];
     let mut problem = held(ProblemData::elasticity(SQUARE, material, set), exact);
     let (force, push) = (6.25 * mu, 2.0 * (lambda + 2.0 * mu) / lambda);

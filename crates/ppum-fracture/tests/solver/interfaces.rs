@@ -3,7 +3,9 @@
 use ppum::dataset::Step;
 use ppum::progress::unwatched;
 use ppum::vec2::vec2;
-use ppum_problem::{Cells, Enrichment, LocalEnrichment, Order, ProblemData, Region, Site};
+use ppum_problem::{
+    BaseCells, Enrichment, EnrichmentRegion, LocalEnrichment, PolynomialOrder, ProblemData, Site,
+};
 use ppum_solve::space::discretise;
 
 use super::formulas::{energy_error, given, study};
@@ -23,8 +25,8 @@ fn held(equation: &str, material: &str, unknown: &str, exact: &str) -> ProblemDa
 /// The same with polynomials of a degree on equal cells of a level.
 fn with(problem: &ProblemData, order: usize, level: u32) -> ProblemData {
     let mut problem = problem.clone();
-    problem.discretization.order = Order::Uniform(order);
-    problem.discretization.cells = Cells::Level(level);
+    problem.discretization.order = PolynomialOrder::Uniform(order);
+    problem.discretization.cells = BaseCells::Level(level);
     problem.discretization.refine = false;
     problem
 }
@@ -282,7 +284,7 @@ fn own_kinks_and_switches() {
     let along = Site::Along([vec2(0.1234, 1.0), vec2(0.1234, -1.0)]);
     own.enrichments.push(LocalEnrichment::new(&["2*abs(y)"], along));
     assert!(kinks(&space(&own)).is_empty());
-    own.enrichments[0].region = Region::Where("y".parse().expect("an expression"));
+    own.enrichments[0].region = EnrichmentRegion::Where("y".parse().expect("an expression"));
     assert_eq!(kinks(&space(&own))[0], "kink at 0.1234 - x = 0");
     let mut off = auto.clone();
     off.discretization.interfaces = false;

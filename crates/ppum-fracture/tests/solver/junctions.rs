@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::solve::{Plan, spectrum};
-use ppum_problem::{Cells, Condition, Discretization, Edge, Order, ProblemData};
+use ppum_problem::{
+    BaseCells, Condition, Discretization, DomainEdge, PolynomialOrder, ProblemData,
+};
 
 use crate::studies::exact_fields::MATERIAL;
 use crate::studies::support::{checked, record, solved, strain_energy};
@@ -20,15 +22,15 @@ type Case = (&'static str, Vec<Line>, Vec<[f64; 2]>);
 fn plate(half: f64, lines: &[Line], all_round: bool, level: u32, order: usize) -> ProblemData {
     let domain = Rect::around(Vec2::ZERO, vec2(half, half));
     let pull = |x: f64, y: f64| vec![Condition::Neumann(x.into()), Condition::Neumann(y.into())];
-    let mut set = Discretization::new(Cells::Level(level));
-    set.order = Order::Uniform(order);
+    let mut set = Discretization::new(BaseCells::Level(level));
+    set.order = PolynomialOrder::Uniform(order);
     let mut problem = ProblemData::elasticity(domain, MATERIAL, set)
-        .with_boundary(Edge::Bottom, pull(0.0, -1.0))
-        .with_boundary(Edge::Top, pull(0.0, 1.0));
+        .with_boundary(DomainEdge::Bottom, pull(0.0, -1.0))
+        .with_boundary(DomainEdge::Top, pull(0.0, 1.0));
     if all_round {
         problem = problem
-            .with_boundary(Edge::Left, pull(-1.0, 0.0))
-            .with_boundary(Edge::Right, pull(1.0, 0.0));
+            .with_boundary(DomainEdge::Left, pull(-1.0, 0.0))
+            .with_boundary(DomainEdge::Right, pull(1.0, 0.0));
     }
     lines.iter().fold(problem, |problem, line| problem.with_crack(line))
 }
@@ -301,7 +303,7 @@ fn beside(place: usize, exponent: i32) -> Vec<Line> {
 /// The condition of a plate with a star that is held at its left edge.
 fn condition(lines: &[Line], order: usize) -> f64 {
     let hold = vec![Condition::Dirichlet(0.0.into()), Condition::Dirichlet(0.0.into())];
-    let held = plate(4.0, lines, false, 3, order).with_boundary(Edge::Left, hold);
+    let held = plate(4.0, lines, false, 3, order).with_boundary(DomainEdge::Left, hold);
     spectrum(&checked(&held), unwatched()).expect("a spectrum").condition()
 }
 

@@ -7,7 +7,7 @@ use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, vec2};
 use ppum_fracture::intensity::{clearance, on_circle};
-use ppum_problem::{BorderPart, Cells, Condition, Discretization, Edge, ProblemData};
+use ppum_problem::{BaseCells, BoundaryPart, Condition, Discretization, DomainEdge, ProblemData};
 
 const PLATE: Rect = Rect::new(vec2(-2.0, -2.0), vec2(2.0, 2.0));
 
@@ -16,10 +16,10 @@ fn pulled(domain: Rect, points: &[[f64; 2]], [x, y]: [f64; 2], set: Discretizati
     let load = |x: f64, y: f64| vec![Condition::Neumann(x.into()), Condition::Neumann(y.into())];
     ProblemData::elasticity(domain, MATERIAL, set)
         .with_crack(points)
-        .with_boundary(Edge::Left, load(-x, 0.0))
-        .with_boundary(Edge::Right, load(x, 0.0))
-        .with_boundary(Edge::Bottom, load(0.0, -y))
-        .with_boundary(Edge::Top, load(0.0, y))
+        .with_boundary(DomainEdge::Left, load(-x, 0.0))
+        .with_boundary(DomainEdge::Right, load(x, 0.0))
+        .with_boundary(DomainEdge::Bottom, load(0.0, -y))
+        .with_boundary(DomainEdge::Top, load(0.0, y))
 }
 
 fn factors(dataset: &Dataset) -> Vec<[f64; 2]> {
@@ -42,7 +42,7 @@ fn vertices_on_a_straight_crack() {
     let solution = |parts: &[f64]| {
         let points: Vec<[f64; 2]> =
             parts.iter().map(|s| (from + (to - from) * *s).into()).collect();
-        solved(&pulled(PLATE, &points, [0.3, 1.0], discretization(Cells::Level(4), 2)))
+        solved(&pulled(PLATE, &points, [0.3, 1.0], discretization(BaseCells::Level(4), 2)))
     };
     let straight = solution(&[0.0, 1.0]);
     let divided = solution(&[0.0, 0.1, 0.15, 0.5, 0.83, 0.97, 1.0]);
@@ -68,7 +68,7 @@ fn assert_discs(level: u32, bound: f64, ends: &[End]) {
         if end == End::Start {
             points.reverse();
         }
-        let mut set = discretization(Cells::Level(level), 3);
+        let mut set = discretization(BaseCells::Level(level), 3);
         set.refine = true;
         let dataset = solved(&pulled(SQUARE, &points, [0.0, 1.0], set));
         let small = circle(&dataset, end, 0.35);
@@ -98,7 +98,7 @@ fn discs_with_kinks_on_fine_covers() {
 #[test]
 fn the_radius_that_is_allowed() {
     let (points, _) = KINKED;
-    let set = discretization(Cells::Level(4), 1);
+    let set = discretization(BaseCells::Level(4), 1);
     let dataset = solved(&pulled(SQUARE, &points, [0.0, 1.0], set));
     let tip = TipId { crack: 0, end: End::Last };
     let clear = clearance(&dataset, 0, tip).expect("a tip");
@@ -116,10 +116,10 @@ fn the_radius_that_is_allowed() {
 #[test]
 fn pressure_on_faces_behind_kinks() {
     let points = [[-0.5, 0.1], [-0.2, -0.05], [0.1, 0.0], [0.45, 0.25]];
-    let set = || discretization(Cells::Level(4), 2);
+    let set = || discretization(BaseCells::Level(4), 2);
     let pulled_out = factors(&solved(&pulled(PLATE, &points, [1.0, 1.0], set())));
     let pressed = pulled(PLATE, &points, [0.0, 0.0], set())
-        .with_pressure(BorderPart::Crack { crack: 0, face: None }, 1.0);
+        .with_pressure(BoundaryPart::Crack { crack: 0, face: None }, 1.0);
     let dataset = solved(&pressed);
     let without = circle(&dataset, End::Last, 0.5);
     let pressed = factors(&dataset);
@@ -149,7 +149,7 @@ fn an_arc_of_many_segments() {
             (0..=n).map(|k| [angle(k).sin(), angle(k).cos() - HALF.cos()]).collect();
         // (1/24)² of the plate's width adds a few parts in 10⁴
         let plate = Rect::new(vec2(-24.0, -24.0), vec2(24.0, 24.0));
-        let mut set = discretization(Cells::Level(5), 2);
+        let mut set = discretization(BaseCells::Level(5), 2);
         set.refine = true;
         let dataset = solved(&pulled(plate, &points, [1.0, 1.0], set));
         let [start, last] = factors(&dataset)[..] else { panic!("two tips") };
@@ -180,7 +180,7 @@ fn kinks_of_small_turns_are_resolved() {
     let plate = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
     for (end, expected) in TURNS {
         let crack = [[-0.5, 0.0], [0.0, 0.0], end];
-        let set = discretization(Cells::Level(4), 4);
+        let set = discretization(BaseCells::Level(4), 4);
         let solution = solved(&pulled(plate, &crack, [0.0, 1.0], set));
         for (tip, k) in solution.steps[0].intensities.iter().zip(expected) {
             let off = (tip.k1 - k[0]).hypot(tip.k2 - k[1]);

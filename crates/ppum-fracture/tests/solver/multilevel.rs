@@ -14,7 +14,7 @@ use ppum_fracture::solve::{SolveError, solve};
 use ppum_problem::{ProblemData, SolverKind};
 use ppum_solve::norms::energy;
 use ppum_solve::report::SolverReport;
-use ppum_solve::space::Space;
+use ppum_solve::space::TrialSpace;
 use ppum_testkit::random::Random;
 
 const HEAD: &str = "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n";
@@ -80,7 +80,7 @@ fn energy_apart(a: &Dataset, b: &Dataset) -> f64 {
     pairs.zip(others).for_each(|(a, b)| *a -= b);
     let [of_difference, of_first] = [&difference, a].map(|dataset| {
         let Dataset { domain, equation, tables, steps, .. } = dataset;
-        let space = Space::new(&steps[0], domain, equation, tables).expect("a space");
+        let space = TrialSpace::new(&steps[0], domain, equation, tables).expect("a space");
         energy(&Field::new(dataset, 0).expect("a field"), &space)
     });
     (of_difference / of_first).sqrt()

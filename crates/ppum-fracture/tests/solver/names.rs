@@ -5,7 +5,7 @@ use crate::studies::support::{checked, parsed, record, solved};
 use ppum::progress::unwatched;
 use ppum_fracture::diagnostics::recompute;
 use ppum_problem::ProblemData;
-use ppum_solve::report::forget_times;
+use ppum_solve::report::strip_timings;
 use ppum_testkit::random::Random;
 
 /// An oblique crack with a user-defined function near a tip, and what else there is.
@@ -25,7 +25,7 @@ fn results(mut problem: ProblemData, name: &str) -> [String; 2] {
     let mut dataset = solved(&problem);
     let again = recompute(&dataset, 0, Some(&checked(&problem)), unwatched()).expect("factors");
     let step = &mut dataset.steps[0];
-    forget_times(step);
+    strip_timings(step);
     step.functions.iter_mut().for_each(|function| function.name.clear());
     [format!("{again:?}"), format!("{step:?}")]
 }

@@ -9,7 +9,7 @@ use crate::studies::exact_fields::{
 };
 use crate::studies::support::{errors, solved, squares};
 use ppum::vec2::{Vec2, vec2};
-use ppum_problem::{Cells, Condition, Edge, Expression, ProblemData};
+use ppum_problem::{BaseCells, Condition, DomainEdge, Expression, ProblemData};
 
 /// A linear displacement is reproduced: the patch test on a uniform cover, where quadrature
 /// is exact.
@@ -17,7 +17,7 @@ use ppum_problem::{Cells, Condition, Edge, Expression, ProblemData};
 fn patch_test() {
     for order in [1, 2] {
         let exact = ["0.1+0.3*x-0.2*y".to_owned(), "0.4*x+0.7*y-1".to_owned()];
-        let set = discretization(Cells::Level(2), order);
+        let set = discretization(BaseCells::Level(2), order);
         let solution = solved(&held(ProblemData::elasticity(SQUARE, MATERIAL, set), exact));
         let exact = |p: Vec2| [0.1 + 0.3 * p.x - 0.2 * p.y, 0.4 * p.x + 0.7 * p.y - 1.0];
         let gradient = [vec2(0.3, -0.2), vec2(0.4, 0.7)];
@@ -32,10 +32,10 @@ fn rollers() {
     let free = || Condition::Neumann(Expression::number(0.0));
     let zero = || Condition::Dirichlet(Expression::number(0.0));
     let pull = || Condition::Neumann(Expression::number(1.0));
-    let problem = ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(2), 1))
-        .with_boundary(Edge::Left, vec![zero(), free()])
-        .with_boundary(Edge::Bottom, vec![free(), zero()])
-        .with_boundary(Edge::Top, vec![free(), pull()]);
+    let problem = ProblemData::elasticity(SQUARE, MATERIAL, discretization(BaseCells::Level(2), 1))
+        .with_boundary(DomainEdge::Left, vec![zero(), free()])
+        .with_boundary(DomainEdge::Bottom, vec![free(), zero()])
+        .with_boundary(DomainEdge::Top, vec![free(), pull()]);
     let solution = solved(&problem);
     // plane strain: ε_yy = (1 − ν²)/E, ε_xx = −ν(1 + ν)/E
     let (exx, eyy) = (-0.3 * 1.3, 1.0 - 0.09);
@@ -65,7 +65,7 @@ fn smooth_field_converges_at_the_optimal_rate() {
 #[test]
 fn every_patch_enriched_is_exact() {
     for order in [1, 2] {
-        let e = OBLIQUE.pure(Cells::Level(2), order, 10.0);
+        let e = OBLIQUE.pure(BaseCells::Level(2), order, 10.0);
         println!("order {order}: {e:?}");
         assert!(e.energy < 1e-7, "order {order}: {e:?}");
     }

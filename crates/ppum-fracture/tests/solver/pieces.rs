@@ -9,7 +9,7 @@ use ppum::jet::Jet;
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_fracture::solve::{SolveError, solve};
-use ppum_problem::{Cells, Condition, Edge, ProblemData};
+use ppum_problem::{BaseCells, Condition, DomainEdge, ProblemData};
 
 /// Strains of a tension of 1 in x: E = 1, ν = 0.3, plane strain.
 const STRAINS: [f64; 2] = [0.91, -0.39];
@@ -19,14 +19,14 @@ fn given(values: [f64; 2]) -> Vec<Condition> {
 }
 
 fn plate(level: u32, order: usize) -> ProblemData {
-    ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(level), order))
+    ProblemData::elasticity(SQUARE, MATERIAL, discretization(BaseCells::Level(level), order))
 }
 
 /// Pulled in x at both ends.
 fn pulled(problem: ProblemData) -> ProblemData {
     problem
-        .with_boundary(Edge::Left, given([-1.0, 0.0]))
-        .with_boundary(Edge::Right, given([1.0, 0.0]))
+        .with_boundary(DomainEdge::Left, given([-1.0, 0.0]))
+        .with_boundary(DomainEdge::Right, given([1.0, 0.0]))
 }
 
 /// Tension about a centre that does not move.
@@ -63,8 +63,8 @@ fn a_plate_under_loads_alone_stays_where_it_is() {
 fn symmetric_loads_give_symmetric_displacements() {
     let problem = plate(4, 2)
         .with_crack(&[[-0.4, -0.2], [0.4, 0.2]])
-        .with_boundary(Edge::Bottom, given([0.0, -1.0]))
-        .with_boundary(Edge::Top, given([0.0, 1.0]));
+        .with_boundary(DomainEdge::Bottom, given([0.0, -1.0]))
+        .with_boundary(DomainEdge::Top, given([0.0, 1.0]));
     let solution = solved(&problem);
     let field = Field::new(&solution, 0).expect("a field");
     let at = |p: Vec2, side| {
@@ -98,7 +98,7 @@ fn one_piece_held() {
     let zero = || Condition::Dirichlet(0.0.into());
     let free = || Condition::Free;
     let problem = pulled(plate(2, 2).with_crack(&[[-1.0, 0.137], [1.0, 0.137]]))
-        .with_boundary(Edge::Bottom, vec![free(), zero()]);
+        .with_boundary(DomainEdge::Bottom, vec![free(), zero()]);
     let solution = solved(&problem);
     // on its roller the lower piece can still slide: its mean place in x is kept
     let center = |p: Vec2| if p.y > 0.137 { vec2(0.0, 0.5685) } else { vec2(0.0, -1.0) };
@@ -112,8 +112,8 @@ fn one_piece_held() {
 fn unbalanced_piece_is_named() {
     let problem = plate(2, 1)
         .with_crack(&[[-1.0, 0.0], [0.2, 0.3], [1.0, 0.0]])
-        .with_boundary(Edge::Bottom, vec![Condition::Dirichlet(0.0.into()); 2])
-        .with_boundary(Edge::Top, given([0.5, 1.0]));
+        .with_boundary(DomainEdge::Bottom, vec![Condition::Dirichlet(0.0.into()); 2])
+        .with_boundary(DomainEdge::Top, given([0.5, 1.0]));
     let error = refused(&problem);
     let piece = error.piece.expect("a piece of several");
     assert!(piece.y > 0.0 && SQUARE.contains(piece), "{piece:?}");
@@ -134,14 +134,14 @@ fn unbalanced_piece_is_named() {
 #[test]
 fn only_free_motions_count() {
     let shear = plate(2, 1)
-        .with_boundary(Edge::Bottom, given([-1.0, 0.0]))
-        .with_boundary(Edge::Top, given([1.0, 0.0]));
+        .with_boundary(DomainEdge::Bottom, given([-1.0, 0.0]))
+        .with_boundary(DomainEdge::Top, given([1.0, 0.0]));
     let error = refused(&shear);
     assert!(error.piece.is_none() && error.force.length() < 1e-12, "{error:?}");
     assert!((error.moment.expect("elasticity") + 4.0).abs() < 1e-12, "{error:?}");
     let roller = plate(2, 1)
-        .with_boundary(Edge::Bottom, vec![Condition::Free, Condition::Dirichlet(0.0.into())])
-        .with_boundary(Edge::Top, given([0.25, -1.0]));
+        .with_boundary(DomainEdge::Bottom, vec![Condition::Free, Condition::Dirichlet(0.0.into())])
+        .with_boundary(DomainEdge::Top, given([0.25, -1.0]));
     let error = refused(&roller);
     assert!((error.force - vec2(0.5, 0.0)).length() < 1e-9, "{error:?}");
     assert!(error.moment.expect("elasticity").abs() < 1e-9, "{error:?}");
@@ -150,14 +150,15 @@ fn only_free_motions_count() {
 /// Poisson: a source that nothing takes up, and one that flows out.
 #[test]
 fn flows_balance_too() {
-    let mut problem = ProblemData::poisson(SQUARE, 2.0, discretization(Cells::Level(2), 2));
+    let mut problem = ProblemData::poisson(SQUARE, 2.0, discretization(BaseCells::Level(2), 2));
     problem.source = vec![1.0.into()];
     let error = refused(&problem);
     assert!((error.force.x - 4.0).abs() < 1e-12 && error.moment.is_none(), "{error:?}");
     assert!(error.to_string().contains("a flow of 4 remains"), "{error}");
     let out = || vec![Condition::Neumann((-1.0).into())];
-    let solution =
-        solved(&problem.with_boundary(Edge::Left, out()).with_boundary(Edge::Right, out()));
+    let solution = solved(
+        &problem.with_boundary(DomainEdge::Left, out()).with_boundary(DomainEdge::Right, out()),
+    );
     // −2 u″ = 1, 2 u′(±1) = ∓1: u = −x²/4 and a constant, with mean 0 that is 1/12
     let field = Field::new(&solution, 0).expect("a field");
     let mut u = [Jet::constant(0.0)];

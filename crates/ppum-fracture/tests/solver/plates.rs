@@ -6,7 +6,7 @@ use crate::studies::plates::{
 };
 use crate::studies::release::kinked_crack;
 use crate::studies::support::unknowns;
-use ppum_solve::report::forget_times;
+use ppum_solve::report::strip_timings;
 
 /// Every known factor within a relative tolerance.
 fn check(plate: &Plate, level: u32, tolerance: f64) {
@@ -97,7 +97,7 @@ fn the_number_of_threads_does_not_matter() {
         let [_, slanted] = slanted_cracks().try_into().expect("two plates");
         let slanted: Plate = slanted;
         let mut plate = pool.install(|| slanted.solve(0)).dataset;
-        forget_times(&mut plate.steps[0]);
+        strip_timings(&mut plate.steps[0]);
         plate
     };
     assert_eq!(solve_with(1), solve_with(2));

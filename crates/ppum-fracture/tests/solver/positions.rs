@@ -8,7 +8,7 @@ use std::f64::consts::FRAC_PI_4;
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum_fracture::solve::spectrum;
-use ppum_problem::{Cells, ProblemData};
+use ppum_problem::{BaseCells, ProblemData};
 use ppum_testkit::exact::{CrackInPlane, ExactField};
 use ppum_testkit::random::Random;
 
@@ -74,8 +74,11 @@ impl Position {
     }
 
     fn problem(&self) -> ProblemData {
-        let plate =
-            ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Grid([CELLS; 2]), 2));
+        let plate = ProblemData::elasticity(
+            SQUARE,
+            MATERIAL,
+            discretization(BaseCells::Grid([CELLS; 2]), 2),
+        );
         let start = self.tip - self.along() * (2.0 * HALF_LENGTH);
         held(plate.with_crack(&[start.into(), self.tip.into()]), self.field().formulas())
     }

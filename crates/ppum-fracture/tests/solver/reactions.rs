@@ -7,7 +7,7 @@ use ppum::dataset::Reaction;
 use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, vec2};
 use ppum_problem::{
-    BorderPart, BoundaryCondition, Cells, Condition, Edge, Expression, ProblemData,
+    BaseCells, BoundaryCondition, BoundaryPart, Condition, DomainEdge, Expression, ProblemData,
 };
 
 fn free() -> Condition {
@@ -38,10 +38,10 @@ fn total(reactions: &[Reaction]) -> Vec<f64> {
 #[test]
 fn rollers_bear_what_pulls() {
     let pull = || Condition::Neumann(1.0.into());
-    let plate = ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(2), 1))
-        .with_boundary(Edge::Left, vec![given("0"), free()])
-        .with_boundary(Edge::Bottom, vec![free(), given("0")]);
-    let uniform = plate.clone().with_boundary(Edge::Top, vec![free(), pull()]);
+    let plate = ProblemData::elasticity(SQUARE, MATERIAL, discretization(BaseCells::Level(2), 1))
+        .with_boundary(DomainEdge::Left, vec![given("0"), free()])
+        .with_boundary(DomainEdge::Bottom, vec![free(), given("0")]);
+    let uniform = plate.clone().with_boundary(DomainEdge::Top, vec![free(), pull()]);
     let reactions = &solved(&uniform).steps[0].reactions;
     let [left, bottom] = &reactions[..] else { panic!("{reactions:?}") };
     assert_eq!((&*left.on, &*bottom.on), ("left", "bottom"));
@@ -51,7 +51,7 @@ fn rollers_bear_what_pulls() {
     assert_close(&[left.moment, bottom.moment], &[0.0, 0.0], 1.0);
 
     let mut right = plate;
-    let on = BorderPart::Edge { edge: Edge::Top, from: 0.0, to: 1.0 };
+    let on = BoundaryPart::Edge { edge: DomainEdge::Top, from: 0.0, to: 1.0 };
     right.boundary.push(BoundaryCondition::new(on, vec![free(), pull()]));
     assert_close(&total(&solved(&right).steps[0].reactions), &[0.0, -1.0, -0.5], 1.0);
 }
@@ -60,10 +60,10 @@ fn rollers_bear_what_pulls() {
 /// are not zero, a piece of an edge.
 #[test]
 fn given_values_stretch() {
-    let mut bar = ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(1), 1))
-        .with_boundary(Edge::Left, vec![given("x"), free()])
-        .with_boundary(Edge::Right, vec![given("x"), free()]);
-    let on = BorderPart::Edge { edge: Edge::Bottom, from: -0.5, to: 0.5 };
+    let mut bar = ProblemData::elasticity(SQUARE, MATERIAL, discretization(BaseCells::Level(1), 1))
+        .with_boundary(DomainEdge::Left, vec![given("x"), free()])
+        .with_boundary(DomainEdge::Right, vec![given("x"), free()]);
+    let on = BoundaryPart::Edge { edge: DomainEdge::Bottom, from: -0.5, to: 0.5 };
     let nu = 0.3;
     // the free strain across, so that the piece bears nothing
     let across = format!("{}*y", -nu / (1.0 - nu));
@@ -93,10 +93,10 @@ fn the_clamp_bears_the_shear() {
 fn flows_balance_the_source() {
     let hole = Hole::Circle { center: vec2(0.1, 0.07), radius: 0.4 };
     let domain = Domain { bounds: Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0)), holes: vec![hole] };
-    let mut problem = ProblemData::poisson(domain, 1.5, discretization(Cells::Level(3), 2))
-        .with_boundary(Edge::Left, vec![Condition::Neumann(0.7.into())])
-        .with_boundary(Edge::Right, vec![given("1 + y")]);
-    problem.boundary.push(BoundaryCondition::new(BorderPart::Hole(0), vec![given("3")]));
+    let mut problem = ProblemData::poisson(domain, 1.5, discretization(BaseCells::Level(3), 2))
+        .with_boundary(DomainEdge::Left, vec![Condition::Neumann(0.7.into())])
+        .with_boundary(DomainEdge::Right, vec![given("1 + y")]);
+    problem.boundary.push(BoundaryCondition::new(BoundaryPart::Hole(0), vec![given("3")]));
     problem.source = vec![2.0.into()];
     let reactions = &solved(&problem).steps[0].reactions;
     assert_eq!(reactions.iter().map(|r| &*r.on).collect::<Vec<_>>(), ["right", "hole 0"]);

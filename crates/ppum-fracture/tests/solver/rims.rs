@@ -8,8 +8,8 @@ use ppum::field::Field;
 use ppum::quantity::{Axis, Quantity};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::{
-    Cells, Condition, Discretization, Edge, Expression, LocalRefinement, Order, ProblemData,
-    RefinementRegion,
+    BaseCells, Condition, Discretization, DomainEdge, Expression, LocalRefinement, PolynomialOrder,
+    ProblemData, RefinementRegion,
 };
 use ppum_testkit::exact::{ElasticField as _, RoundHole};
 use ppum_testkit::random::Random;
@@ -24,7 +24,7 @@ fn square(half: f64) -> Rect {
     Rect::new(vec2(-half, -half), vec2(half, half))
 }
 
-fn tractions(field: &RoundHole, edge: Edge) -> Vec<Condition> {
+fn tractions(field: &RoundHole, edge: DomainEdge) -> Vec<Condition> {
     let n = edge.normal();
     let [xx, yy, xy] = field.stress_formulas();
     let outward = n.x + n.y;
@@ -42,7 +42,9 @@ fn kirsch(half: f64, center: Vec2, radius: f64, set: Discretization) -> ProblemD
     let field = RoundHole::new(MATERIAL, center, radius).with_remote([0.0, 1.0, 0.0]);
     let holes = vec![Hole::Circle { center, radius }];
     let plate = ProblemData::elasticity(Domain { bounds: square(half), holes }, MATERIAL, set);
-    Edge::ALL.into_iter().fold(plate, |p, edge| p.with_boundary(edge, tractions(&field, edge)))
+    DomainEdge::ALL
+        .into_iter()
+        .fold(plate, |p, edge| p.with_boundary(edge, tractions(&field, edge)))
 }
 
 fn stress(field: &Field<'_>, p: Vec2) -> [f64; 3] {
@@ -78,7 +80,7 @@ fn stress_concentration_of_random_holes() {
         let radius = radius.unwrap_or_else(|| 0.7 * 0.025f64.powf(random.between(0.0, 1.0)));
         let reach = (1.0 - 1.4 * radius).max(0.0);
         let center = vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0)) * reach * 0.9;
-        let problem = kirsch(1.0, center, radius, Discretization::new(Cells::Level(level)));
+        let problem = kirsch(1.0, center, radius, Discretization::new(BaseCells::Level(level)));
         let dataset = solved(&problem);
         let (error, largest) = on_the_rim(&dataset, center, radius);
         let cells = dataset.steps[0].partition.len();
@@ -92,8 +94,10 @@ fn stress_concentration_of_random_holes() {
 #[test]
 fn higher_orders_take_larger_cells() {
     let cells = [2, 4].map(|order| {
-        let set =
-            Discretization { order: Order::Uniform(order), ..Discretization::new(Cells::Level(2)) };
+        let set = Discretization {
+            order: PolynomialOrder::Uniform(order),
+            ..Discretization::new(BaseCells::Level(2))
+        };
         let (center, radius) = (vec2(0.13, -0.07), 0.15);
         let dataset = solved(&kirsch(1.0, center, radius, set));
         let (error, _) = on_the_rim(&dataset, center, radius);
@@ -110,7 +114,7 @@ fn higher_orders_take_larger_cells() {
 fn errors_at_the_rim_are_estimated() {
     let (center, radius) = (vec2(0.03, 0.041), 0.25);
     let of = |size: f64| {
-        let mut set = Discretization::new(Cells::Grid([5, 5]));
+        let mut set = Discretization::new(BaseCells::Grid([5, 5]));
         set.refine = false;
         let mut problem = kirsch(1.0, center, radius, set);
         problem.refinements = vec![LocalRefinement::new(RefinementRegion::Hole(0), size)];
@@ -145,9 +149,9 @@ fn pulled(holes: Numbers<'_>, level: u32) -> ProblemData {
     };
     let domain = Domain { bounds: square(1.0), holes: holes.iter().map(hole).collect() };
     let load = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-    ProblemData::elasticity(domain, MATERIAL, Discretization::new(Cells::Level(level)))
-        .with_boundary(Edge::Bottom, load(-1.0))
-        .with_boundary(Edge::Top, load(1.0))
+    ProblemData::elasticity(domain, MATERIAL, Discretization::new(BaseCells::Level(level)))
+        .with_boundary(DomainEdge::Bottom, load(-1.0))
+        .with_boundary(DomainEdge::Top, load(1.0))
 }
 
 /// Asserts values of σ_yy by finite elements of order 10 (NGSolve 6.2.2608, geometric meshes),

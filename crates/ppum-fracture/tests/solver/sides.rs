@@ -3,7 +3,7 @@
 use crate::studies::support::{parsed, record, solved};
 use ppum::dataset::TipIntensity;
 use ppum::vec2::{Vec2, vec2};
-use ppum_problem::{Edge, Problem, ProblemData, Symmetry};
+use ppum_problem::{DomainEdge, Problem, ProblemData, Symmetry};
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
 use std::path::Path;
@@ -209,11 +209,12 @@ fn sides_are_mirrors() {
         [("symmetry", Symmetry::Symmetric), ("antisymmetry", Symmetry::Antisymmetric)]
     {
         let mirrors = ring.quarter(key, "1").mirrors();
-        assert_eq!(mirrors, [(Edge::Left, kind), (Edge::Bottom, kind)]);
+        assert_eq!(mirrors, [(DomainEdge::Left, kind), (DomainEdge::Bottom, kind)]);
     }
     ring.degrees = 180.0;
-    let edges: Vec<Edge> = ring.quarter("symmetry", "1").mirrors().iter().map(|m| m.0).collect();
-    assert_eq!(edges, [Edge::Right, Edge::Top]);
+    let edges: Vec<DomainEdge> =
+        ring.quarter("symmetry", "1").mirrors().iter().map(|m| m.0).collect();
+    assert_eq!(edges, [DomainEdge::Right, DomainEdge::Top]);
     ring.degrees = 20.0;
     assert!(ring.quarter("symmetry", "1").mirrors().is_empty());
 }

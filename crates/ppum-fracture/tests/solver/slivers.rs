@@ -10,8 +10,8 @@ use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum::weight::WeightFunction;
 use ppum_fracture::diagnostics::{FEW_DIGITS, recompute, rounding};
-use ppum_problem::{Cells, Condition, Edge, ProblemData};
-use ppum_testkit::extended::{Extended, point};
+use ppum_problem::{BaseCells, Condition, DomainEdge, ProblemData};
+use ppum_testkit::extended::{ExtendedField, point};
 use ppum_testkit::random::Random;
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization};
@@ -30,13 +30,13 @@ fn centre() -> Vec2 {
 
 /// A plate under tension with a crack.
 fn cracked(weight: &str, order: usize, crack: &[[f64; 2]]) -> ProblemData {
-    let mut set = discretization(Cells::Grid([CELLS; 2]), order);
+    let mut set = discretization(BaseCells::Grid([CELLS; 2]), order);
     set.weight = WeightFunction::from_library(weight).expect("of the library");
     let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
     ProblemData::elasticity(SQUARE, MATERIAL, set)
         .with_crack(crack)
-        .with_boundary(Edge::Bottom, pull(-1.0))
-        .with_boundary(Edge::Top, pull(1.0))
+        .with_boundary(DomainEdge::Bottom, pull(-1.0))
+        .with_boundary(DomainEdge::Top, pull(1.0))
 }
 
 /// One whose crack leaves `part` of the patch beyond it, in its upper right corner.
@@ -51,7 +51,7 @@ fn plate(weight: &str, order: usize, part: f64, angle: f64) -> ProblemData {
 /// Largest relative difference of ∇u as evaluated and in extended precision, around the patch.
 fn measured(dataset: &Dataset, random: &mut Random) -> f64 {
     let field = Field::new(dataset, 0).expect("a field");
-    let extended = Extended::new(dataset, 0);
+    let extended = ExtendedField::new(dataset, 0);
     let mut error = || {
         let at = [(); 2].map(|()| random.between(-1.2, 1.2) * HALF);
         let p = centre() + Vec2::from(at);

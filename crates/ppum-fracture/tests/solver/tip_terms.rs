@@ -7,7 +7,7 @@ use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::intensity::on_circle;
-use ppum_problem::{BorderPart, Cells, Condition, Edge, Expression, ProblemData};
+use ppum_problem::{BaseCells, BoundaryPart, Condition, DomainEdge, Expression, ProblemData};
 use ppum_testkit::exact::{CrackInPlane, ExactField as _};
 use ppum_testkit::random::Random;
 
@@ -30,7 +30,7 @@ fn check(tip: &TipIntensity) -> f64 {
 fn given_terms_are_found() {
     for (k1, k2, t) in [(1.0, 0.5, 0.3), (0.0, 1.0, -2.0)] {
         let field = OBLIQUE.field().with_intensities(k1, k2).with_t_stress(t);
-        let mut set = discretization(Cells::Level(2), 2);
+        let mut set = discretization(BaseCells::Level(2), 2);
         set.enrichment_radius = Some(10.0);
         let dataset = solved(&OBLIQUE.problem(&field, set));
         let tip = TipId { crack: 0, end: End::Last };
@@ -49,7 +49,7 @@ fn in_plane(remote: [f64; 3], angle: f64) -> (ProblemData, CrackInPlane) {
     let (center, along) = (vec2(0.03, 0.02), vec2(angle.cos(), angle.sin()));
     let field = CrackInPlane::biaxial(MATERIAL, center, along, 0.4, 1.0).with_remote(remote);
     let ends = [center - along * 0.4, center + along * 0.4];
-    let plate = ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 3))
+    let plate = ProblemData::elasticity(SQUARE, MATERIAL, discretization(BaseCells::Level(4), 3))
         .with_crack(&ends.map(Into::into));
     (plate, field)
 }
@@ -81,7 +81,7 @@ fn t_and_j_under_pressure() {
         let (bindings, value) = text.rsplit_once("; ").expect("bindings");
         format!("{bindings}; ({value}) - {strain}*{x}")
     };
-    let plate = plate.with_pressure(BorderPart::Crack { crack: 0, face: None }, 1.0);
+    let plate = plate.with_pressure(BoundaryPart::Crack { crack: 0, face: None }, 1.0);
     let dataset = solved(&held(plate, [less(ux, "x"), less(uy, "y")]));
     for tip in stored(&dataset) {
         println!("T off by {:.1e}, J/G − 1 {:.1e}", t_stress(tip) + 1.0, check(tip));
@@ -98,9 +98,9 @@ fn j_under_loads_that_jump() {
         let at = random.between(-0.1, 0.3);
         let pressure = Expression::parse(&format!("if(x > {at}, 1, 0.3)")).expect("a formula");
         let mut plate =
-            ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 3))
+            ProblemData::elasticity(SQUARE, MATERIAL, discretization(BaseCells::Level(4), 3))
                 .with_crack(&[[-0.4, -0.05], [0.1, 0.0], [0.4, -0.1]])
-                .with_pressure(BorderPart::Crack { crack: 0, face: None }, 1.0);
+                .with_pressure(BoundaryPart::Crack { crack: 0, face: None }, 1.0);
         plate.boundary[0].pressure = Some(pressure);
         let dataset = solved(&plate);
         for tip in stored(&dataset) {
@@ -113,12 +113,12 @@ fn j_under_loads_that_jump() {
 /// A load that pulls both faces the same way has no T: the stress along the crack grows like log r.
 #[test]
 fn loads_with_a_resultant_at_the_tip_have_no_t() {
-    let faces = BorderPart::Crack { crack: 0, face: None };
+    let faces = BoundaryPart::Crack { crack: 0, face: None };
     let load = |x: f64, y: f64| vec![Condition::Neumann(x.into()), Condition::Neumann(y.into())];
-    let plate = ProblemData::elasticity(SQUARE, MATERIAL, discretization(Cells::Level(4), 2))
+    let plate = ProblemData::elasticity(SQUARE, MATERIAL, discretization(BaseCells::Level(4), 2))
         .with_crack(&[[-0.4, 0.0], [0.4, 0.0]])
-        .with_boundary(Edge::Bottom, vec![Condition::Dirichlet(0.0.into()); 2])
-        .with_boundary(Edge::Top, load(0.0, 1.0));
+        .with_boundary(DomainEdge::Bottom, vec![Condition::Dirichlet(0.0.into()); 2])
+        .with_boundary(DomainEdge::Top, load(0.0, 1.0));
     assert!(stored(&solved(&plate)).iter().all(|tip| tip.t_stress.is_some()));
     let mut dragged = plate;
     dragged
@@ -135,12 +135,12 @@ fn loads_with_a_resultant_at_the_tip_have_no_t() {
 fn plate(domain: Rect, points: &[Vec2], [xx, yy, xy]: [f64; 3], grid: [u32; 2]) -> Dataset {
     let load = |x: f64, y: f64| vec![Condition::Neumann(x.into()), Condition::Neumann(y.into())];
     let points: Vec<[f64; 2]> = points.iter().map(|&p| p.into()).collect();
-    let plate = ProblemData::elasticity(domain, MATERIAL, discretization(Cells::Grid(grid), 2))
+    let plate = ProblemData::elasticity(domain, MATERIAL, discretization(BaseCells::Grid(grid), 2))
         .with_crack(&points)
-        .with_boundary(Edge::Left, load(-xx, -xy))
-        .with_boundary(Edge::Right, load(xx, xy))
-        .with_boundary(Edge::Bottom, load(-xy, -yy))
-        .with_boundary(Edge::Top, load(xy, yy));
+        .with_boundary(DomainEdge::Left, load(-xx, -xy))
+        .with_boundary(DomainEdge::Right, load(xx, xy))
+        .with_boundary(DomainEdge::Bottom, load(-xy, -yy))
+        .with_boundary(DomainEdge::Top, load(xy, yy));
     solved(&plate)
 }
 

@@ -76,7 +76,7 @@ fn lost_digits() {
     let residual = |ratio: &str| {
         let plate = text(STRAIGHT, &tension(), "");
         let stiff = format!("young = \"if(y > 0.6, {ratio}, 1)\"");
-        let dataset = solve_text(&plate.replace("young = 1.0", &stiff));
+        let dataset = solve_text(&plate.replace("young = 1\n", &format!("{stiff}\n")));
         warnings(&dataset).iter().find(|w| w.kind == WarningKind::Residual).cloned()
     };
     assert_eq!(residual("1e2"), None);

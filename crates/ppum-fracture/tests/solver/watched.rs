@@ -10,7 +10,7 @@ use ppum_fracture::solve::{
     EigenError, LinearError, Plan, SolveError, UnbalancedError, solve, spectrum,
 };
 use ppum_problem::{OrderError, ProblemData, ProblemError};
-use ppum_solve::report::{SolverReport, forget_times};
+use ppum_solve::report::{SolverReport, strip_timings};
 use ppum_solve::space::{InspectError, RefineError, SpaceError, discretise};
 
 /// A plate with all that takes time: a formula to be probed, restraints, an interface, two tips.
@@ -74,7 +74,7 @@ impl Stopper {
 }
 
 impl Watcher for Stopper {
-    fn hear(&self, progress: Progress) -> Verdict {
+    fn on_progress(&self, progress: Progress) -> Verdict {
         let mut heard = self.heard.lock().expect("no panic");
         heard.push(progress);
         let of_phase = |phase| heard.iter().filter(|p| p.phase == phase).count();
@@ -84,7 +84,7 @@ impl Watcher for Stopper {
 
 /// All but the seconds.
 fn without_seconds(mut dataset: Dataset) -> Dataset {
-    forget_times(&mut dataset.steps[0]);
+    strip_timings(&mut dataset.steps[0]);
     dataset
 }
 

@@ -4,7 +4,9 @@ use ppum::cover::OVERLAP;
 use ppum::library::WEIGHTS;
 use ppum::vec2::vec2;
 use ppum::weight::WeightFunction;
-use ppum_problem::{Cells, Condition, Discretization, Edge, Order, ProblemData};
+use ppum_problem::{
+    BaseCells, Condition, Discretization, DomainEdge, PolynomialOrder, ProblemData,
+};
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization, held};
 use crate::studies::support::{errors, solved};
@@ -12,7 +14,7 @@ use crate::studies::support::{errors, solved};
 /// Error of the displacement (0.3 (x² − c y²) + x − y/2, 0.7 x + y), which with c = (λ + 2μ)/μ
 /// needs no body force and is in the space: only quadrature is in the way.
 fn patch_test(weight: WeightFunction, level: u32) -> f64 {
-    let mut set = discretization(Cells::Level(level), 2);
+    let mut set = discretization(BaseCells::Level(level), 2);
     set.weight = weight;
     let c = (MATERIAL.lambda() + 2.0 * MATERIAL.mu()) / MATERIAL.mu();
     let exact = [format!("0.3*x*x - {:?}*y*y + x - 0.5*y", 0.3 * c), "0.7*x + y".to_owned()];
@@ -41,13 +43,13 @@ fn every_weight_of_the_library_passes_the_patch_test() {
 #[test]
 fn k_is_right_at_the_bounds_of_the_overlap() {
     for alpha in [*OVERLAP.start(), *OVERLAP.end()] {
-        let mut set = Discretization::new(Cells::Level(2));
-        (set.order, set.overlap) = (Order::Uniform(4), alpha);
+        let mut set = Discretization::new(BaseCells::Level(2));
+        (set.order, set.overlap) = (PolynomialOrder::Uniform(4), alpha);
         let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
         let problem = ProblemData::elasticity(SQUARE, MATERIAL, set)
             .with_crack(&[[-0.5, 0.0], [0.5, 0.0]])
-            .with_boundary(Edge::Bottom, pull(-1.0))
-            .with_boundary(Edge::Top, pull(1.0));
+            .with_boundary(DomainEdge::Bottom, pull(-1.0))
+            .with_boundary(DomainEdge::Top, pull(1.0));
         for tip in &solved(&problem).steps[0].intensities {
             let error = (tip.k1 / 1.671_560_3 - 1.0).hypot(tip.k2);
             println!("α = {alpha}: K off by {error:.1e}");

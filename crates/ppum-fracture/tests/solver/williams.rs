@@ -5,14 +5,16 @@ use crate::studies::plates::pulled;
 use crate::studies::support::{Both, both, errors, solved};
 use ppum::dataset::{Equation, Material, StressState, TipIntensity};
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_problem::{Cells, Discretization, Enrichment, Expression, Order, ProblemData};
-use ppum_solve::report::forget_times;
+use ppum_problem::{
+    BaseCells, Discretization, Enrichment, Expression, PolynomialOrder, ProblemData,
+};
+use ppum_solve::report::strip_timings;
 use ppum_testkit::exact::{ExactField as _, Williams};
 use ppum_testkit::random::Random;
 
 /// Every patch has the terms of one tip beside linear polynomials.
 fn everywhere(level: u32, terms: usize) -> Discretization {
-    let mut set = discretization(Cells::Level(level), 1);
+    let mut set = discretization(BaseCells::Level(level), 1);
     (set.enrichment_radius, set.tip_terms) = (Some(10.0), Some(terms));
     set
 }
@@ -68,13 +70,13 @@ fn many_terms_are_in_the_space() {
 fn a_varying_material_has_the_first_term() {
     let (crack, material) = random_tip(&mut Random(5));
     let exact = field(&crack, material).with_intensities(1.0, 0.3);
-    let mut problem = crack.problem_of(material, &exact, discretization(Cells::Level(2), 2));
+    let mut problem = crack.problem_of(material, &exact, discretization(BaseCells::Level(2), 2));
     let Equation::Elasticity(body) = &mut problem.equation else { panic!("elasticity") };
     body.young = Expression::parse("1 + x/9").expect("a formula");
     let step = |enrichment: Enrichment| {
         problem.discretization.enrichment = enrichment;
         let mut step = solved(&problem).steps.remove(0);
-        forget_times(&mut step);
+        strip_timings(&mut step);
         step
     };
     let [series, first] = [Enrichment::Williams, Enrichment::Zone].map(step);
@@ -89,7 +91,8 @@ fn plate([nx, ny]: [u32; 2], order: usize) -> (f64, usize) {
     let domain = Rect::new(vec2(-1.0, -2.0), vec2(1.0, 2.0));
     let mut problem = pulled(domain, [nx, ny], &[&[[-0.5, 0.0], [0.5, 0.0]]]);
     let set = &mut problem.discretization;
-    (set.order, set.refine, set.enrichment_radius) = (Order::Uniform(order), false, Some(0.4));
+    (set.order, set.refine, set.enrichment_radius) =
+        (PolynomialOrder::Uniform(order), false, Some(0.4));
     let dataset = solved(&problem);
     let step = &dataset.steps[0];
     let error = |tip: &TipIntensity| (tip.k1 / K_OF_PLATE - 1.0).abs();
@@ -122,7 +125,7 @@ fn assert_rate(order: usize, level: u32, least: f64) {
     let own = field(&crack, material).with_intensities(1.0, 0.5);
     let exact = (3..=8).fold(own, |field, n| field.with_term(n, 0.4, -0.3));
     let error = |level: u32| {
-        let mut set = discretization(Cells::Level(level), order);
+        let mut set = discretization(BaseCells::Level(level), order);
         set.enrichment_radius = Some(0.6);
         crack.errors(&exact, set).energy
     };

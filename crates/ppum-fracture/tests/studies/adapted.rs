@@ -6,7 +6,7 @@ use super::support::{Both, errors, parsed, record};
 use ppum::dataset::{Dataset, Step};
 use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Vec2, vec2};
-use ppum_problem::{AdaptKind, Adaptivity, Cells, Keep, Order, ProblemData};
+use ppum_problem::{AdaptKind, Adaptivity, BaseCells, PolynomialOrder, ProblemData, StepsKept};
 use std::f64::consts::PI;
 
 /// Strain energies by finite elements of order 10 and 12 on meshes graded towards the singular
@@ -19,14 +19,14 @@ pub(crate) const SQUARE_HOLE: f64 = 2.512_525_532;
 /// Settings that keep all steps.
 pub(crate) fn set(kind: AdaptKind, steps: usize, max_unknowns: usize) -> Adaptivity {
     let mut set = Adaptivity::new(kind);
-    (set.steps, set.max_unknowns, set.keep) = (steps, max_unknowns, Keep::All);
+    (set.steps, set.max_unknowns, set.keep) = (steps, max_unknowns, StepsKept::All);
     set
 }
 
 /// A problem on coarse cells that adapt.
 pub(crate) fn on(mut problem: ProblemData, order: usize, set: Adaptivity) -> ProblemData {
-    problem.discretization.cells = Cells::Level(2);
-    problem.discretization.order = Order::Uniform(order);
+    problem.discretization.cells = BaseCells::Level(2);
+    problem.discretization.order = PolynomialOrder::Uniform(order);
     problem.with_adaptivity(set)
 }
 

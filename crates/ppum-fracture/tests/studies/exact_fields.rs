@@ -3,7 +3,9 @@
 use super::support::{self, Errors, errors, solved};
 use ppum::dataset::{Dataset, Material, StressState};
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_problem::{Cells, Discretization, Edge, Enrichment, Expression, Order, ProblemData};
+use ppum_problem::{
+    BaseCells, Discretization, DomainEdge, Enrichment, Expression, PolynomialOrder, ProblemData,
+};
 use ppum_testkit::exact::{ExactField, Slit, Smooth, Williams};
 
 /// E = 1, ν = 0.3, plane strain.
@@ -14,9 +16,9 @@ pub(crate) const MATERIAL: Material =
 pub(crate) const SQUARE: Rect = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
 
 /// Nothing refined.
-pub(crate) fn discretization(cells: Cells, order: usize) -> Discretization {
+pub(crate) fn discretization(cells: BaseCells, order: usize) -> Discretization {
     let mut set = Discretization::new(cells);
-    set.order = Order::Uniform(order);
+    set.order = PolynomialOrder::Uniform(order);
     set.refine = false;
     set
 }
@@ -29,13 +31,13 @@ pub(crate) fn expressions<const N: usize>(texts: [String; N]) -> Vec<Expression>
 /// The problem with an exact solution, given on all four edges.
 pub(crate) fn held<const N: usize>(mut problem: ProblemData, exact: [String; N]) -> ProblemData {
     problem.exact = expressions(exact);
-    Edge::ALL.into_iter().fold(problem, ProblemData::with_exact_boundary)
+    DomainEdge::ALL.into_iter().fold(problem, ProblemData::with_exact_boundary)
 }
 
 /// The manufactured field of the numerical study, with its body force.
 pub(crate) fn smooth(level: u32, order: usize) -> Errors {
     let field = Smooth { material: MATERIAL };
-    let set = discretization(Cells::Level(level), order);
+    let set = discretization(BaseCells::Level(level), order);
     let mut problem = held(ProblemData::elasticity(SQUARE, MATERIAL, set), field.formulas());
     problem.source = expressions(field.body_force_formulas());
     errors(&solved(&problem), &|p| support::both(field.evaluate(p)))
@@ -87,7 +89,7 @@ impl TipProblem {
     }
 
     /// Relative errors for the pure tip field K_I = 1, K_II = 0.5.
-    pub(crate) fn pure(&self, cells: Cells, order: usize, radius: f64) -> Errors {
+    pub(crate) fn pure(&self, cells: BaseCells, order: usize, radius: f64) -> Errors {
         let mut set = discretization(cells, order);
         set.enrichment_radius = Some(radius);
         self.errors(&self.field().with_intensities(1.0, 0.5), set)
@@ -107,7 +109,7 @@ impl Strip {
     pub(crate) fn errors(level: u32, order: usize) -> Errors {
         let domain = Rect::new(vec2(-2.0, -0.25), vec2(2.0, 0.25));
         let crack = TipProblem { domain, tip: vec2(0.0, 0.041), angle: 0.1 };
-        crack.pure(Cells::Grid([8 << level, 1 << level]), order, Self::RADIUS)
+        crack.pure(BaseCells::Grid([8 << level, 1 << level]), order, Self::RADIUS)
     }
 }
 
@@ -135,7 +137,7 @@ pub(crate) struct StudyRow {
 impl StudyRow {
     /// Our relative error in the energy norm.
     pub(crate) fn error(&self, level: u32) -> f64 {
-        let mut set = discretization(Cells::Level(level), self.order);
+        let mut set = discretization(BaseCells::Level(level), self.order);
         set.enrichment = self.enrichment;
         set.enrichment_radius = (self.enrichment == Enrichment::Zone).then_some(0.4);
         set.tip_degree = self.tip_degree;
@@ -195,7 +197,7 @@ impl TipPlate {
     pub(crate) fn solve(&self, level: u32) -> Dataset {
         let material = Material { state: self.state, ..MATERIAL };
         let crack = TipProblem { domain: SQUARE, tip: Vec2::ZERO, angle: 0.0 };
-        let mut set = discretization(Cells::Level(level), 2);
+        let mut set = discretization(BaseCells::Level(level), 2);
         set.enrichment_radius = Some(10.0);
         let [k1, k2] = if self.mode == 0 { [1.0, 0.0] } else { [0.0, 1.0] };
         let field = Williams::new(material, Vec2::ZERO, vec2(1.0, 0.0)).with_intensities(k1, k2);
@@ -256,7 +258,7 @@ pub(crate) fn tip_points(plate: &TipPlate) -> Vec<TipValue> {
 
 /// u = √r sin(θ/2) on the slit square.
 pub(crate) fn slit_plate(level: u32, order: usize) -> ProblemData {
-    let mut set = discretization(Cells::Level(level), order);
+    let mut set = discretization(BaseCells::Level(level), order);
     set.enrichment_radius = Some(0.4);
     let plate = ProblemData::poisson(SQUARE, 1.0, set).with_crack(&[[-1.0, 0.0], [0.0, 0.0]]);
     held(plate, Slit.formulas())

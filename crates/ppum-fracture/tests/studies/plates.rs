@@ -4,7 +4,9 @@
 use super::support::{solved, strain_energy, unknowns};
 use ppum::dataset::{Dataset, Material, StressState};
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_problem::{Cells, Condition, Discretization, Edge, Expression, Order, ProblemData};
+use ppum_problem::{
+    BaseCells, Condition, Discretization, DomainEdge, Expression, PolynomialOrder, ProblemData,
+};
 use ppum_testkit::exact::CollinearCracks;
 use std::f64::consts::PI;
 
@@ -34,15 +36,15 @@ enum Covers {
 }
 
 impl Covers {
-    fn cells(self, level: u32) -> Cells {
+    fn cells(self, level: u32) -> BaseCells {
         match self {
-            Self::Grid(cells) => Cells::Grid(cells.map(|n| n << level)),
+            Self::Grid(cells) => BaseCells::Grid(cells.map(|n| n << level)),
             Self::Rings(half_width) => {
                 let start = (4.0, 0.5f64.powi(level as i32));
                 let rings = std::iter::successors(Some(start), |(half, size)| {
                     (*half < half_width).then_some((2.0 * half, 2.0 * size))
                 });
-                Cells::Points(rings.flat_map(|(half, size)| ring(half, size)).collect())
+                BaseCells::Points(rings.flat_map(|(half, size)| ring(half, size)).collect())
             }
         }
     }
@@ -106,12 +108,13 @@ pub(crate) fn traction(x: Expression, y: Expression) -> Vec<Condition> {
 /// A plate under unit tension on bottom and top.
 pub(crate) fn pulled(domain: Rect, cells: [u32; 2], cracks: &[&[[f64; 2]]]) -> ProblemData {
     let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
-    let plate = ProblemData::elasticity(domain, material, Discretization::new(Cells::Grid(cells)));
+    let plate =
+        ProblemData::elasticity(domain, material, Discretization::new(BaseCells::Grid(cells)));
     cracks
         .iter()
         .fold(plate, |plate, crack| plate.with_crack(crack))
-        .with_boundary(Edge::Bottom, traction(0.0.into(), (-1.0).into()))
-        .with_boundary(Edge::Top, traction(0.0.into(), 1.0.into()))
+        .with_boundary(DomainEdge::Bottom, traction(0.0.into(), (-1.0).into()))
+        .with_boundary(DomainEdge::Top, traction(0.0.into(), 1.0.into()))
 }
 
 /// Strain energy of [`oblique_crack`]: finite elements of order 12 on a mesh graded towards the
@@ -124,8 +127,8 @@ const OBLIQUE_ENERGY: f64 = 2.428_931_916;
 pub(crate) fn oblique_crack(level: u32, order: usize) -> (f64, usize) {
     let domain = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
     let mut problem = pulled(domain, [1, 1], &[&[[-0.4, -0.3], [0.4, 0.3]]]);
-    problem.discretization.cells = Cells::Level(level);
-    problem.discretization.order = Order::Uniform(order);
+    problem.discretization.cells = BaseCells::Level(level);
+    problem.discretization.order = PolynomialOrder::Uniform(order);
     let dataset = solved(&problem);
     let missing = 1.0 - strain_energy(&dataset) / OBLIQUE_ENERGY;
     (missing.abs().sqrt(), unknowns(&dataset))
@@ -223,13 +226,13 @@ pub(crate) fn end_shear_at(poisson: f64, [first, second]: [f64; 2]) -> Plate {
     let material = Material { young: 3e7, poisson, state: StressState::PlaneStrain };
     let cells = [7, 16];
     let clamp = || Condition::Dirichlet(Expression::number(0.0));
-    let set = Discretization::new(Cells::Grid(cells));
+    let set = Discretization::new(BaseCells::Grid(cells));
     Plate {
         name: format!("end shear, ν = {poisson}"),
         problem: ProblemData::elasticity(domain, material, set)
             .with_crack(&[[0.0, 8.0], [3.5, 8.0]])
-            .with_boundary(Edge::Bottom, vec![clamp(), clamp()])
-            .with_boundary(Edge::Top, traction(1.0.into(), 0.0.into())),
+            .with_boundary(DomainEdge::Bottom, vec![clamp(), clamp()])
+            .with_boundary(DomainEdge::Top, traction(1.0.into(), 0.0.into())),
         covers: Covers::Grid(cells),
         scale: 1.0,
         known: vec![known("K_I", 0, 0, first), known("K_II", 0, 1, second)],
@@ -247,10 +250,11 @@ pub(crate) fn collinear_cracks() -> Plate {
         Expression::parse(&text).expect("a formula of the testkit")
     };
     let [xx, yy, xy] = field.stress_formulas();
-    let plate = ProblemData::elasticity(domain, material, Discretization::new(Cells::Grid(cells)))
-        .with_crack(&[[-1.8, 0.0], [-0.2, 0.0]])
-        .with_crack(&[[0.2, 0.0], [1.8, 0.0]]);
-    let problem = Edge::ALL.into_iter().fold(plate, |plate, edge| {
+    let plate =
+        ProblemData::elasticity(domain, material, Discretization::new(BaseCells::Grid(cells)))
+            .with_crack(&[[-1.8, 0.0], [-0.2, 0.0]])
+            .with_crack(&[[0.2, 0.0], [1.8, 0.0]]);
+    let problem = DomainEdge::ALL.into_iter().fold(plate, |plate, edge| {
         let n = edge.normal();
         let [x, y] = if n.x == 0.0 { [&xy, &yy] } else { [&xx, &xy] };
         plate.with_boundary(edge, traction(formula(x, n.x + n.y), formula(y, n.x + n.y)))
@@ -271,7 +275,7 @@ pub(crate) fn kinked_in_plane() -> Plate {
     let (s, c) = 15f64.to_radians().sin_cos();
     let domain = Rect::new(vec2(-512.0, -512.0), vec2(512.0, 512.0));
     let mut problem = pulled(domain, [1, 1], &[&[[-1.0, 0.0], [1.0, 0.0], [1.0 + c, s]]]);
-    problem.discretization.order = Order::Uniform(3);
+    problem.discretization.order = PolynomialOrder::Uniform(3);
     Plate {
         name: "kinked crack".into(),
         problem,
@@ -292,7 +296,7 @@ pub(crate) fn stacked_cracks() -> Plate {
     let domain = Rect::new(vec2(-256.0, -256.0), vec2(256.0, 256.0));
     let mut problem =
         pulled(domain, [1, 1], &[&[[-1.0, 1.0], [1.0, 1.0]], &[[-1.0, -1.0], [1.0, -1.0]]]);
-    problem.discretization.order = Order::Uniform(3);
+    problem.discretization.order = PolynomialOrder::Uniform(3);
     Plate {
         name: "stacked cracks".into(),
         problem,

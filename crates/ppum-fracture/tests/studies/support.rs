@@ -12,7 +12,7 @@ use ppum::vec2::Vec2;
 use ppum_fracture::solve::solve;
 use ppum_problem::{Problem, ProblemData};
 use ppum_solve::norms::norms;
-use ppum_solve::space::Space;
+use ppum_solve::space::TrialSpace;
 use ppum_testkit::exact::Component;
 
 /// Relative errors.
@@ -50,8 +50,9 @@ pub(crate) fn both(components: [Component; 2]) -> Both {
 
 /// Errors of the first field of the first step.
 pub(crate) fn errors(dataset: &Dataset, exact: &(dyn Fn(Vec2) -> Both + Sync)) -> Errors {
-    let space = Space::new(&dataset.steps[0], &dataset.domain, &dataset.equation, &dataset.tables)
-        .expect("functions that compile");
+    let space =
+        TrialSpace::new(&dataset.steps[0], &dataset.domain, &dataset.equation, &dataset.tables)
+            .expect("functions that compile");
     let field = Field::new(dataset, 0).expect("a field");
     let jets = |anchor: Vec2, offset: Vec2| {
         let (values, gradients) = exact(anchor + offset);
@@ -66,8 +67,9 @@ pub(crate) fn errors(dataset: &Dataset, exact: &(dyn Fn(Vec2) -> Both + Sync)) -
 
 /// ∫ σ:∇u and ∫ |u|² of the first field.
 pub(crate) fn squares(dataset: &Dataset) -> (f64, f64) {
-    let space = Space::new(&dataset.steps[0], &dataset.domain, &dataset.equation, &dataset.tables)
-        .expect("functions that compile");
+    let space =
+        TrialSpace::new(&dataset.steps[0], &dataset.domain, &dataset.equation, &dataset.tables)
+            .expect("functions that compile");
     let field = Field::new(dataset, 0).expect("a field");
     let zero = |_: Vec2, _: Vec2| [Jet::constant(0.0); 2];
     let [own, ..] = norms(&field, &space, &zero);

@@ -74,7 +74,7 @@ impl Gpu {
         &self.queue
     }
 
-    /// The limits that the device was opened with: WebGPU's defaults, but for larger textures
+    /// The limits that the device was opened with: WebGPU's defaults, except for larger textures
     /// and buffers.
     pub(crate) fn limits(&self) -> Limits {
         self.device.limits()
@@ -160,7 +160,7 @@ impl Gpu {
     }
 }
 
-/// WebGPU's defaults, but for textures and buffers as large as the adapter makes them: pictures
+/// WebGPU's defaults, except for textures and buffers as large as the adapter makes them: images
 /// above 8192 pixels a side and data above 1 GiB are drawn where the adapter can. All else stays at
 /// the defaults, so that what is tested here is what runs elsewhere.
 fn limits(most: &Limits) -> Limits {

@@ -1,4 +1,4 @@
-//! Reading pictures back as numbers.
+//! Reading images back as numbers.
 
 use std::sync::mpsc;
 

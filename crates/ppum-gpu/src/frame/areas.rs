@@ -1,8 +1,8 @@
-//! The areas of a picture, by the terms they need beside smooth ones.
+//! The areas of an image, by the terms they need beside smooth ones.
 //!
 //! A shader that evaluates functions costs twice what one does that has smooth terms only, also on
 //! the pixels where there are no functions: processors that run many pixels in step take every
-//! branch. So the picture is cut into areas, each drawn with the shader it needs.
+//! branch. So the image is cut into areas, each drawn with the shader it needs.
 
 use ppum::vec2::Rect;
 use ppum_render::pixels::Pixels;
@@ -15,15 +15,15 @@ const TILE: u32 = 16;
 
 /// A rectangle of pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Area {
+pub(crate) struct PixelArea {
     /// Left, top, width, height.
     pub(crate) rect: [u32; 4],
     /// The terms beside the smooth one of the patches that reach into it.
     pub(crate) others: Others,
 }
 
-impl Area {
-    /// The whole picture.
+impl PixelArea {
+    /// The whole image.
     pub(crate) fn whole(view: &View, others: Others) -> Self {
         let [width, height] = view.pixels;
         Self { rect: [0, 0, width, height], others }
@@ -37,7 +37,7 @@ impl Area {
 }
 
 /// The areas of a view, which cover it once.
-pub(crate) fn areas(view: &View, boxes: &[(Rect, Others)]) -> Vec<Area> {
+pub(crate) fn areas(view: &View, boxes: &[(Rect, Others)]) -> Vec<PixelArea> {
     let [width, height] = view.pixels;
     let pixels = Pixels::new(view);
     let tiles = [width.div_ceil(TILE) as usize, height.div_ceil(TILE) as usize];
@@ -65,7 +65,7 @@ pub(crate) fn areas(view: &View, boxes: &[(Rect, Others)]) -> Vec<Area> {
             let x = column * TILE;
             let w = (run.len() as u32 * TILE).min(width - x);
             column += run.len() as u32;
-            areas.push(Area { rect: [x, y, w, h], others: run[0] });
+            areas.push(PixelArea { rect: [x, y, w, h], others: run[0] });
         }
     }
     areas
@@ -91,7 +91,7 @@ mod tests {
         ];
         let areas = areas(&view, &boxes);
         let mut seen = vec![None; 133 * 71];
-        for Area { rect: [x, y, w, h], others } in areas {
+        for PixelArea { rect: [x, y, w, h], others } in areas {
             for (j, i) in (y..y + h).flat_map(|j| (x..x + w).map(move |i| (j, i))) {
                 let pixel = &mut seen[(j * 133 + i) as usize];
                 assert!(pixel.replace(others).is_none(), "pixel {i}, {j} twice");

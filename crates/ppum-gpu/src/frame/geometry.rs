@@ -7,7 +7,7 @@
 use ppum::crack::{LocalCrack, LocalTip, SegmentId, TipId};
 use ppum::dataset::Step;
 use ppum::domain::{Domain, Hole, LocalRim, LocalSide, PolygonSide};
-use ppum::function::{Cut, FunctionKind, Part};
+use ppum::function::{Cut, CutSide, FunctionKind};
 use ppum::vec2::{Vec2, vec2};
 
 use crate::error::GpuError;
@@ -35,7 +35,7 @@ const FAR: f64 = 3e38;
 /// The pairs of a view, rounded to single precision. Whole numbers stand in it as floats. (As bit
 /// patterns they would be subnormal numbers, which devices may take for zero.)
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Geometry {
+pub(crate) struct PairGeometry {
     /// Frames of the groups, `FRAME` pairs each; first segment and number of segments of every
     /// crack; the segments; the cuts of indicators; the holes.
     pub(crate) pairs: Vec<[f32; 2]>,
@@ -47,7 +47,7 @@ pub(crate) struct Geometry {
     pub(crate) n_holes: u32,
 }
 
-impl Geometry {
+impl PairGeometry {
     /// Cracks of a step, holes of a domain and the frames of groups of functions seen from
     /// `center`. Linear in their number and that of the cuts of indicators.
     pub(crate) fn new(step: &Step, domain: &Domain, frames: &[GroupFrame], center: Vec2) -> Self {
@@ -88,7 +88,7 @@ pub(crate) fn constants() -> String {
         ("HOLE_SIDE_PAIRS", SIDE),
     ];
     let lengths = lengths.iter().map(|(name, length)| format!("const {name} = {length}u;\n"));
-    let inside = format!("const INDICATOR_INSIDE = {}.0;\n", Part::Inside.number());
+    let inside = format!("const INDICATOR_INSIDE = {}.0;\n", CutSide::Inside.number());
     lengths.chain([inside]).collect()
 }
 

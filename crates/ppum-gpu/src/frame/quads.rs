@@ -1,4 +1,4 @@
-//! Patches as quads on the picture, for splatting.
+//! Patches as quads on the image, for splatting.
 
 use ppum::field::Field;
 use ppum::vec2::{Rect, Vec2};
@@ -8,7 +8,7 @@ use ppum_render::view::View;
 use crate::layout::record;
 
 record! {
-    /// A quad, clipped to the picture. It covers whole pixels; the weight is zero on those the
+    /// A quad, clipped to the image. It covers whole pixels; the weight is zero on those the
     /// patch does not reach.
     QuadRecord {
         /// First column and row.
@@ -19,7 +19,7 @@ record! {
         /// and row to row.
         xi: vec2f,
         step: vec2f,
-        /// The same in the frame of the polynomials.
+        /// The point in the frame of the polynomials.
         frame_xi: vec2f,
         frame_step: vec2f,
         /// The address of the patch's body.

@@ -16,7 +16,7 @@ pub(crate) const SYMLOG: u32 = 2;
 
 /// A transfer function: how values become colours, the range known.
 #[derive(Clone, Debug)]
-pub struct Shading {
+pub struct TransferFunction {
     /// Position of a value among the colours.
     pub normalization: Normalization,
     /// The colours, those below and above the range included.
@@ -25,7 +25,7 @@ pub struct Shading {
     pub undefined: Rgba,
 }
 
-impl Shading {
+impl TransferFunction {
     /// The palette's texels.
     pub(crate) fn texels(&self) -> Vec<u8> {
         let Colormap { below, above, .. } = &self.colormap;

@@ -5,10 +5,10 @@ use ppum::field::Field;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::view::View;
 
-use super::geometry::Geometry;
+use super::geometry::PairGeometry;
 use crate::layout::{halves, record};
 use crate::scene::UploadedRegion;
-use crate::scene::bodies::Components;
+use crate::scene::bodies::ComponentLanes;
 use crate::scene::lattice::NO_PATCH;
 
 record! {
@@ -31,7 +31,7 @@ record! {
         first_low: vec2f,
         step_high: vec2f,
         step_low: vec2f,
-        /// Columns and rows of the picture.
+        /// Columns and rows of the image.
         pixels: vec2u,
         /// Columns and rows of the grid of bins.
         grid_size: vec2u,
@@ -75,11 +75,11 @@ impl ViewData {
     pub(crate) fn new(
         field: &Field<'_>,
         view: &View,
-        geometry: Geometry,
+        geometry: PairGeometry,
         place: &UploadedRegion,
         half: Option<Vec2>,
     ) -> Self {
-        let Geometry { mut pairs, cracks, holes, n_holes } = geometry;
+        let PairGeometry { mut pairs, cracks, holes, n_holes } = geometry;
         let reference = pairs.len() as u32;
         pairs.extend(reference_of(field, view.center));
         let [xs, ys] = view.inside(&field.domain.bounds);
@@ -123,7 +123,7 @@ impl ViewData {
 /// The constants that splatted patches subtract from theirs, high and low, lane by lane: those of a
 /// patch near the view's centre.
 fn reference_of(field: &Field<'_>, center: Vec2) -> Vec<[f32; 2]> {
-    let components = Components::new(field.components());
+    let components = ComponentLanes::new(field.components());
     let bounds = field.domain.bounds;
     let mut covering = Vec::new();
     field.tree.query_point(center.max(bounds.min).min(bounds.max), &mut covering);

@@ -10,7 +10,7 @@ use ppum::quantity::Quantity;
 
 use crate::device::Gpu;
 use crate::error::{GpuError, RenderError};
-use crate::frame::shading::Shading;
+use crate::frame::shading::TransferFunction;
 use crate::scene::bodies::Others;
 use crate::scene::{Scene, SceneLayout};
 use crate::shader::compose::{ShaderText, ShaderVariant};
@@ -28,11 +28,11 @@ use pipelines::Pipelines;
 /// The type of an image is that of its program's output; reading another type does not compile:
 ///
 /// ```compile_fail
-/// use ppum_gpu::{Colors, Drawn};
+/// use ppum_gpu::{Colors, QueuedOutput};
 /// use ppum_render::raster::Raster;
 ///
-/// fn values(drawn: &Drawn<Colors>) -> Raster<f32> {
-///     drawn.read().unwrap() // an image
+/// fn values(queued: &QueuedOutput<Colors>) -> Raster<f32> {
+///     queued.read().unwrap() // an image
 /// }
 /// ```
 #[derive(Debug)]
@@ -111,7 +111,7 @@ impl<'f, O: Output> Program<'f, O> {
 
 impl Program<'_, Colors> {
     /// Draws with another transfer function from now on. Nothing is compiled.
-    pub fn shade(&mut self, shading: Shading) {
+    pub fn shade(&mut self, shading: TransferFunction) {
         self.output.shading = shading;
     }
 }

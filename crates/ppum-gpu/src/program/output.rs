@@ -1,4 +1,4 @@
-//! Outputs of programs: what is written at a pixel, and the picture that is read.
+//! Outputs of programs: what is written at a pixel, and the image that is read.
 
 use std::fmt::Debug;
 
@@ -9,7 +9,7 @@ use ppum_render::raster::Raster;
 use wgpu::TextureFormat;
 
 use crate::error::{GpuError, RenderError};
-use crate::frame::shading::Shading;
+use crate::frame::shading::TransferFunction;
 use crate::shader::passes::{Finish, SUMS};
 use crate::shader::quantity::order_of;
 use crate::shader::texts;
@@ -27,8 +27,8 @@ pub struct Values(pub Quantity);
 pub struct Colors {
     /// The quantity.
     pub quantity: Quantity,
-    /// The transfer function. It can be [replaced](crate::Program::shade) without compiling anew.
-    pub shading: Shading,
+    /// The transfer function. It can be [replaced](crate::Program::shade) without compiling again.
+    pub shading: TransferFunction,
 }
 
 /// Value, gradient and Hessian of a component of the field, by its index; read as six rasters, v,
@@ -38,7 +38,7 @@ pub struct Derivatives(pub u8);
 
 /// The inner side of [`Output`].
 pub trait Writes: Clone + Debug {
-    /// The picture that is read.
+    /// The image that is read.
     type Picture;
 
     /// The last pass.
@@ -61,7 +61,7 @@ pub trait Writes: Clone + Debug {
     }
 
     /// The colours, if the output has some.
-    fn shading(&self) -> Option<&Shading> {
+    fn shading(&self) -> Option<&TransferFunction> {
         None
     }
 
@@ -70,7 +70,7 @@ pub trait Writes: Clone + Debug {
         0
     }
 
-    /// The picture of the bytes of its textures, row by row without gaps.
+    /// The image of the bytes of its textures, row by row without gaps.
     fn picture(size: [u32; 2], textures: Vec<Vec<u8>>) -> Self::Picture;
 }
 
@@ -101,7 +101,7 @@ impl Writes for Colors {
         self.quantity.clone()
     }
 
-    fn shading(&self) -> Option<&Shading> {
+    fn shading(&self) -> Option<&TransferFunction> {
         Some(&self.shading)
     }
 

@@ -57,11 +57,11 @@ pub(crate) struct PipelineBuilder<'a> {
 }
 
 /// The properties in which pipelines differ.
-struct Pass<'a> {
+struct PipelineKey<'a> {
     text: &'a str,
     vertex: &'a str,
     fragment: &'a str,
-    /// Instances of quads are drawn, else one triangle that covers the picture.
+    /// Instances of quads are drawn, else one triangle that covers the image.
     has_quads: bool,
     targets: Vec<Option<ColorTargetState>>,
     /// The layout of group 1, if there is one.
@@ -77,7 +77,7 @@ impl PipelineBuilder<'_> {
         textures: &BindGroupLayout,
     ) -> Result<RenderPipeline, GpuError> {
         let target = |&format: &TextureFormat| Some(format.into());
-        self.pipeline(&Pass {
+        self.pipeline(&PipelineKey {
             text,
             vertex: "cover",
             fragment: finish.entry,
@@ -104,10 +104,10 @@ impl PipelineBuilder<'_> {
         let target = ColorTargetState { format: SUMS, blend, write_mask: ColorWrites::ALL };
         let targets = vec![Some(target); targets as usize];
         let vertex = "splat_quad";
-        self.pipeline(&Pass { text, vertex, fragment, has_quads: true, targets, textures })
+        self.pipeline(&PipelineKey { text, vertex, fragment, has_quads: true, targets, textures })
     }
 
-    fn pipeline(self, pass: &Pass<'_>) -> Result<RenderPipeline, GpuError> {
+    fn pipeline(self, pass: &PipelineKey<'_>) -> Result<RenderPipeline, GpuError> {
         let module = self.gpu.shader("compile the shader", pass.text)?;
         let device = self.gpu.device();
         let groups = [Some(self.data), pass.textures];

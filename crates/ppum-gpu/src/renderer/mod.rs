@@ -1,6 +1,6 @@
 //! Drawing scenes, and surviving the loss of the device.
 
-pub(crate) mod drawn;
+pub(crate) mod pending;
 mod targets;
 
 #[cfg(not(target_arch = "wasm32"))]
@@ -22,10 +22,10 @@ use crate::device::Gpu;
 #[cfg(not(target_arch = "wasm32"))]
 use crate::device::read;
 use crate::error::{GpuError, RenderError};
-use crate::frame::areas::{Area, areas};
-use crate::frame::geometry::{Geometry, check_size};
+use crate::frame::areas::{PixelArea, areas};
+use crate::frame::geometry::{PairGeometry, check_size};
 use crate::frame::quads::quads;
-use crate::frame::shading::Shading;
+use crate::frame::shading::TransferFunction;
 use crate::frame::view_data::ViewData;
 use crate::program::Program;
 use crate::program::output::Output;
@@ -36,13 +36,13 @@ use crate::scene::bodies::Others;
 use crate::scene::card::Card;
 use crate::scene::{OnCard, Scene};
 use crate::shader::passes::Method;
-use drawn::Drawn;
+use pending::QueuedOutput;
 use targets::Targets;
 
 /// Draws fields on a graphics device.
 ///
 /// A [`Scene`] is a field on the card, a [`Program`] a quantity of it compiled, which draws any
-/// view. When the device is lost, the next call opens another one, uploads and compiles anew, and
+/// view. When the device is lost, the next call opens another one, uploads and compiles again, and
 /// goes on. So it does with scenes and programs of another renderer.
 #[derive(Debug)]
 #[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a page opens devices by itself"))]
@@ -90,8 +90,8 @@ impl Renderer {
     }
 
     /// Compiles an output for a scene. A program compiled before keeps drawing if this one fails.
-    /// Areas of a picture that need less than the whole program get their own when they are
-    /// seen first.
+    /// Areas of an image that need less than the whole program get their own when they are seen
+    /// first.
     ///
     /// # Errors
     /// A formula that is too large for a shader; quantities that single precision cannot show, or
@@ -111,9 +111,9 @@ impl Renderer {
         Ok(program)
     }
 
-    /// Sees to it that no picture has to wait for a shader: compiles a program for all kinds of
+    /// Sees to it that no image has to wait for a shader: compiles a program for all kinds of
     /// areas, and draws some of a view with each, as drivers may leave the rest to the first
-    /// picture. Waits until all is done.
+    /// image. Waits until all is done.
     ///
     /// # Errors
     /// As [`Renderer::draw`].
@@ -137,7 +137,7 @@ impl Renderer {
         &mut self,
         program: &mut Program<'_, O>,
         view: &View,
-    ) -> Result<Drawn<O>, GpuError> {
+    ) -> Result<QueuedOutput<O>, GpuError> {
         self.check_size(view)?;
         let areas_of = |_: &Program<'_, O>, on_card: &OnCard| areas(view, &on_card.enriched);
         self.again(|renderer| renderer.draw_areas(program, view, areas_of))
@@ -219,18 +219,18 @@ impl Renderer {
         &mut self,
         program: &mut Program<'_, O>,
         view: &View,
-        areas_of: impl Fn(&Program<'_, O>, &OnCard) -> Vec<Area>,
-    ) -> Result<Drawn<O>, GpuError> {
+        areas_of: impl Fn(&Program<'_, O>, &OnCard) -> Vec<PixelArea>,
+    ) -> Result<QueuedOutput<O>, GpuError> {
         let scene = program.scene().clone();
         let mut on_card = scene.on_card();
         on_card.bring(&self.card, &scene, view)?;
         let layout = on_card.layout;
         let areas = match program.method() {
             Method::Gather => areas_of(program, &on_card),
-            Method::Splat => vec![Area::whole(view, layout.shape.others)],
+            Method::Splat => vec![PixelArea::whole(view, layout.shape.others)],
         };
         let frame = view_data(&scene, &on_card, program, view)?;
-        let palette = program.output().shading().map(Shading::texels);
+        let palette = program.output().shading().map(TransferFunction::texels);
         let gpu = &self.card.gpu;
         let areas: Vec<_> = areas.iter().map(|area| (*area, program.kind(area.others))).collect();
         let pipelines = program.pipelines(gpu, layout, areas.iter().map(|(_, kind)| *kind))?;
@@ -246,14 +246,14 @@ impl Renderer {
             }
             let drawn = targets.finish(gpu, &mut encoder, pipelines, (&data, &areas), &O::FINISH);
             gpu.queue().submit([encoder.finish()]);
-            Ok(Drawn::new(gpu, drawn, view.pixels))
+            Ok(QueuedOutput::new(gpu, drawn, view.pixels))
         })?
     }
 }
 
 /// A pixel for each kind of area that a scene may have.
 #[cfg(not(target_arch = "wasm32"))]
-fn pixels_of_all<O: Output>(program: &Program<'_, O>, on_card: &OnCard) -> Vec<Area> {
+fn pixels_of_all<O: Output>(program: &Program<'_, O>, on_card: &OnCard) -> Vec<PixelArea> {
     let all = on_card.layout.shape.others;
     let mixed = [false, all.constants].into_iter().flat_map(|constants| {
         let with = move |polynomials| Others { constants, polynomials, group: None };
@@ -261,7 +261,7 @@ fn pixels_of_all<O: Output>(program: &Program<'_, O>, on_card: &OnCard) -> Vec<A
     });
     let alone = on_card.enriched.iter().map(|(_, others)| *others);
     let kinds: BTreeMap<_, _> = mixed.chain(alone).map(|o| (program.kind(o), o)).collect();
-    kinds.into_values().map(Area::pixel).collect()
+    kinds.into_values().map(PixelArea::pixel).collect()
 }
 
 /// Stages of [`Renderer::render`].
@@ -277,7 +277,7 @@ fn view_data<O: Output>(
 ) -> Result<ViewData, GpuError> {
     let field = scene.field();
     let frames = scene.groups().frames(&field.step.functions);
-    let geometry = Geometry::new(field.step, field.domain, &frames, view.center);
+    let geometry = PairGeometry::new(field.step, field.domain, &frames, view.center);
     let region = on_card.region()?;
     let mut data = ViewData::new(field, view, geometry, region, on_card.half());
     check_size(data.pairs.len())?;

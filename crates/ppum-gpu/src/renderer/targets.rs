@@ -9,7 +9,7 @@ use wgpu::{
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use crate::frame::areas::Area;
+use crate::frame::areas::PixelArea;
 use crate::frame::shading::PALETTE_TEXELS;
 use crate::frame::view_data::ViewData;
 use crate::layout::bytes;
@@ -132,7 +132,7 @@ impl Targets {
         gpu: &Gpu,
         encoder: &mut CommandEncoder,
         pipelines: &Pipelines,
-        (data, areas): (&BindGroup, &[(Area, ShaderVariant)]),
+        (data, areas): (&BindGroup, &[(PixelArea, ShaderVariant)]),
         last_pass: &Finish,
     ) -> Vec<Texture> {
         let palette = self.palette.as_ref().map(|(_, view)| view);
@@ -150,7 +150,7 @@ impl Targets {
         });
         pass.set_bind_group(0, data, &[]);
         pass.set_bind_group(1, &textures, &[]);
-        for (Area { rect: [x, y, width, height], others }, kind) in areas {
+        for (PixelArea { rect: [x, y, width, height], others }, kind) in areas {
             if let Some(pipeline) = pipelines.finish.get(kind) {
                 let group = others.group.unwrap_or_default();
                 pass.set_pipeline(pipeline);

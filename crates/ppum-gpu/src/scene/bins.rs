@@ -33,11 +33,11 @@ pub(crate) struct Bins {
     pub(crate) pitch: Vec2,
     /// Columns and rows of the grid.
     pub(crate) size: [u32; 2],
-    /// Nodes; those of the grid first, row by row. What is between them and the first children is
-    /// of no account.
+    /// Nodes; those of the grid first, row by row. The nodes between them and the first children do
+    /// not matter.
     pub(crate) nodes: Vec<u32>,
     /// Leaves that meet patches, page by page.
-    pub(crate) leaves: Vec<Leaf>,
+    pub(crate) leaves: Vec<BinLeaf>,
     /// Patches of the leaves.
     pub(crate) list: Vec<u32>,
     /// Pages of the leaves; the first is of all leaves that meet none.
@@ -46,7 +46,7 @@ pub(crate) struct Bins {
 
 /// A bin that is not halved.
 #[derive(Clone, Debug)]
-pub(crate) struct Leaf {
+pub(crate) struct BinLeaf {
     /// Its lower left corner.
     pub(crate) corner: Vec2,
     /// Its patches in the list.
@@ -55,7 +55,7 @@ pub(crate) struct Leaf {
 
 /// A patch as bins see it.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Covered {
+pub(crate) struct BinPatch {
     /// Its support.
     pub(crate) support: Rect,
     /// Size of its cell.
@@ -64,7 +64,7 @@ pub(crate) struct Covered {
 
 impl Bins {
     /// Bins over `bounds`, which holds all positions that will be looked up, give or take `margin`.
-    pub(crate) fn new(bounds: Rect, patches: &[Covered], margin: f64) -> Self {
+    pub(crate) fn new(bounds: Rect, patches: &[BinPatch], margin: f64) -> Self {
         let mut bins = Self { pages: 1, ..Self::grid(bounds, patches) };
         let lists = bins.lists(patches, margin);
         bins.nodes = vec![0; lists.len().next_multiple_of(4)];
@@ -76,11 +76,11 @@ impl Bins {
     }
 
     /// The grid without nodes.
-    fn grid(bounds: Rect, patches: &[Covered]) -> Self {
+    fn grid(bounds: Rect, patches: &[BinPatch]) -> Self {
         let widest = patches.iter().max_by(|a, b| a.cell.x.total_cmp(&b.cell.x));
         let size = bounds.size();
         // Inside a cell one bin does, placed by the region itself: it may be tiny beside the cell.
-        let is_cut = |patch: &&Covered| patch.cell.x < size.x || patch.cell.y < size.y;
+        let is_cut = |patch: &&BinPatch| patch.cell.x < size.x || patch.cell.y < size.y;
         let (mut pitch, center) = match widest.filter(is_cut) {
             Some(patch) => (patch.cell, patch.support.center()),
             None => (size, bounds.min),
@@ -113,7 +113,7 @@ impl Bins {
     }
 
     /// The patches that meet each bin of the grid.
-    fn lists(&self, patches: &[Covered], margin: f64) -> Vec<Vec<u32>> {
+    fn lists(&self, patches: &[BinPatch], margin: f64) -> Vec<Vec<u32>> {
         let mut lists = vec![Vec::new(); self.size[0] as usize * self.size[1] as usize];
         let range = |low: f64, high: f64, count: u32| {
             // Casts saturate: what is left of the grid begins with its first bin.
@@ -138,7 +138,7 @@ impl Bins {
         node: usize,
         bin: Rect,
         list: &[u32],
-        patches: &[Covered],
+        patches: &[BinPatch],
         margin: f64,
         depth: u32,
     ) {
@@ -159,7 +159,7 @@ impl Bins {
             self.nodes[node] = self.pages;
             self.pages += list.len().div_ceil(FEW) as u32;
             let patches = self.list.len()..self.list.len() + list.len();
-            self.leaves.push(Leaf { corner: bin.min, patches });
+            self.leaves.push(BinLeaf { corner: bin.min, patches });
             self.list.extend_from_slice(list);
         }
     }
@@ -167,7 +167,7 @@ impl Bins {
 
 /// True if halving a bin may help: it meets many patches and is not small beside their cells, nor
 /// beside the accuracy of positions.
-fn may_split(bin: Rect, list: &[u32], patches: &[Covered], margin: f64, depth: u32) -> bool {
+fn may_split(bin: Rect, list: &[u32], patches: &[BinPatch], margin: f64, depth: u32) -> bool {
     if list.len() <= FEW || depth >= MAX_DEPTH {
         return false;
     }
@@ -187,7 +187,7 @@ fn quarters(bin: Rect) -> [Rect; 4] {
 }
 
 /// The patches of a list that meet a bin.
-fn meeting(bin: Rect, list: &[u32], patches: &[Covered], margin: f64) -> Vec<u32> {
+fn meeting(bin: Rect, list: &[u32], patches: &[BinPatch], margin: f64) -> Vec<u32> {
     let margin = vec2(margin, margin);
     let wide = Rect::new(bin.min - margin, bin.max + margin);
     let meets = |&&index: &&u32| patches[index as usize].support.overlaps(&wide);
@@ -205,8 +205,8 @@ mod tests {
 
     const UNIT: Rect = Rect::new(Vec2::ZERO, vec2(1.0, 1.0));
 
-    fn covered(partition: &BoxPartition) -> Vec<Covered> {
-        let one = |i| Covered { support: partition.support(i), cell: partition.spacing(i) };
+    fn covered(partition: &BoxPartition) -> Vec<BinPatch> {
+        let one = |i| BinPatch { support: partition.support(i), cell: partition.spacing(i) };
         (0..partition.len()).map(one).collect()
     }
 
@@ -249,7 +249,7 @@ mod tests {
             for _ in 0..2000 {
                 let p = random.point(&recipe.domain);
                 let list = leaf_patches(&bins, p);
-                let holds = |c: &Covered| c.support.contains(p);
+                let holds = |c: &BinPatch| c.support.contains(p);
                 let all = (0u32..).zip(&patches).filter(|(_, c)| holds(c)).map(|(i, _)| i);
                 for index in all {
                     assert!(list.contains(&index), "patch {index} at {p:?}");
@@ -292,7 +292,7 @@ mod tests {
         let none = Bins::new(UNIT, &[], 1e-9);
         assert!(leaf_patches(&none, vec2(0.5, 0.5)).is_empty());
         let large = Rect::around(Vec2::ZERO, vec2(1e9, 1e9));
-        let one = [Covered { support: large, cell: vec2(1.5e9, 1.5e9) }];
+        let one = [BinPatch { support: large, cell: vec2(1.5e9, 1.5e9) }];
         let bins = Bins::new(UNIT, &one, 1e-9);
         for p in [Vec2::ZERO, vec2(0.5, 0.25), vec2(1.0, 1.0)] {
             assert_eq!(leaf_patches(&bins, p), [0]);

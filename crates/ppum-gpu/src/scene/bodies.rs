@@ -9,10 +9,11 @@
 //! Degrees are 8 bits for each function of a group, [`ABSENT`] if it has no polynomial here. A
 //! polynomial holds its coefficients in Horner's order, for b = d … 0, for a = d − b … 0 that of
 //! ξ^a η^b, of all components side by side: `lanes` words, as many times as there are groups of
-//! components. What is in brackets takes as much room. Patches and other terms begin with a texel.
+//! components. The part in brackets takes the same space. Patches and other terms begin with a
+//! texel.
 //!
 //! The constant of the smooth term stands apart, in two halves: neighbours' constants are
-//! subtracted from each other before anything else, so that a plate that has moved far loses no
+//! subtracted from each other before anything else, so that a body that has moved far loses no
 //! digit of its strains.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -23,7 +24,7 @@ use ppum::field::Field;
 use ppum::vec2::Rect;
 use rayon::prelude::*;
 
-use super::groups::{Groups, SMOOTH_GROUP};
+use super::groups::{FunctionGroups, SMOOTH_GROUP};
 use crate::layout::halves;
 
 /// The group of a term is below it, its texels above.
@@ -34,7 +35,7 @@ pub(crate) const ABSENT: u32 = 0xff;
 
 /// Components side by side: `lanes` of them, 2 or 4, in `groups` groups.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct Components {
+pub(crate) struct ComponentLanes {
     /// Components of the field.
     pub(crate) count: usize,
     /// Components that are computed together.
@@ -43,7 +44,7 @@ pub(crate) struct Components {
     pub(crate) groups: usize,
 }
 
-impl Components {
+impl ComponentLanes {
     pub(crate) fn new(count: usize) -> Self {
         let lanes = if count <= 2 { 2 } else { 4 };
         Self { count, lanes, groups: count.div_ceil(lanes).max(1) }
@@ -109,7 +110,7 @@ const AT_A_TIME: usize = 8192;
 
 impl Bodies {
     /// The bodies of a field's patches.
-    pub(crate) fn new(field: &Field<'_>, groups: &Groups) -> Self {
+    pub(crate) fn new(field: &Field<'_>, groups: &FunctionGroups) -> Self {
         let count = field.step.partition.len();
         let parts = (0..count.div_ceil(AT_A_TIME)).into_par_iter().map(|part| {
             let first = part * AT_A_TIME;
@@ -120,7 +121,7 @@ impl Bodies {
 
     /// The bodies of all parts, one behind the other.
     fn joined(parts: Vec<BodyBatch>) -> Self {
-        let (mut bodies, mut summary, mut texels) = (Self::default(), Summary::default(), 0);
+        let (mut bodies, mut summary, mut texels) = (Self::default(), PatchSummary::default(), 0);
         for BodyBatch { words, patches, summary: of_part } in parts {
             bodies.patches.extend(patches.iter().map(|address| texels + address));
             texels += words.len() as u32 / 4;
@@ -137,14 +138,15 @@ impl Bodies {
 struct BodyBatch {
     words: Vec<u32>,
     patches: Vec<u32>,
-    summary: Summary,
+    summary: PatchSummary,
 }
 
 impl BodyBatch {
-    fn new(field: &Field<'_>, groups: &Groups, patches: Range<usize>) -> Self {
-        let components = Components::new(field.components());
-        let mut writer = Writer { data: field.data, groups, components, words: Vec::new() };
-        let (mut addresses, mut summary) = (Vec::with_capacity(patches.len()), Summary::default());
+    fn new(field: &Field<'_>, groups: &FunctionGroups, patches: Range<usize>) -> Self {
+        let components = ComponentLanes::new(field.components());
+        let mut writer = BodyWriter { data: field.data, groups, components, words: Vec::new() };
+        let (mut addresses, mut summary) =
+            (Vec::with_capacity(patches.len()), PatchSummary::default());
         for patch in patches {
             let terms = writer.terms(patch);
             summary.add(&terms, field, patch);
@@ -157,14 +159,14 @@ impl BodyBatch {
 
 /// Collects what patches have in common.
 #[derive(Debug, Default)]
-struct Summary {
+struct PatchSummary {
     degrees: BTreeSet<Option<u8>>,
     /// By group and kind.
     enriched: BTreeMap<(u32, Others), Rect>,
 }
 
-impl Summary {
-    fn add(&mut self, terms: &Terms, field: &Field<'_>, patch: usize) {
+impl PatchSummary {
+    fn add(&mut self, terms: &PatchTerms, field: &Field<'_>, patch: usize) {
         let data = field.data;
         self.degrees.insert(terms.smooth.map(|block| data.block_degree[block]));
         for term in &terms.others {
@@ -196,7 +198,7 @@ impl Summary {
 }
 
 /// The terms of a patch.
-struct Terms {
+struct PatchTerms {
     /// The block of the smooth term.
     smooth: Option<usize>,
     others: Vec<GroupTerm>,
@@ -214,16 +216,16 @@ impl GroupTerm {
     }
 }
 
-struct Writer<'f> {
+struct BodyWriter<'f> {
     data: &'f FieldData,
-    groups: &'f Groups,
-    components: Components,
+    groups: &'f FunctionGroups,
+    components: ComponentLanes,
     words: Vec<u32>,
 }
 
-impl<'f> Writer<'f> {
+impl<'f> BodyWriter<'f> {
     /// The terms of a patch. A function that comes twice makes two terms.
-    fn terms(&self, patch: usize) -> Terms {
+    fn terms(&self, patch: usize) -> PatchTerms {
         let (mut smooth, mut others) = (None, Vec::<GroupTerm>::new());
         for block in self.data.blocks(patch) {
             let [group, entry] = self.groups.slot(self.data.block_function[block]);
@@ -243,11 +245,11 @@ impl<'f> Writer<'f> {
                 }
             }
         }
-        Terms { smooth, others }
+        PatchTerms { smooth, others }
     }
 
     /// Writes a patch; gives its address.
-    fn patch(&mut self, terms: &Terms) -> u32 {
+    fn patch(&mut self, terms: &PatchTerms) -> u32 {
         let start = self.begin();
         let degree = terms.smooth.map_or(ABSENT, |block| self.data.block_degree[block].into());
         self.pair(terms.others.len() as u32, 0);
@@ -309,7 +311,7 @@ impl<'f> Writer<'f> {
 
     /// The coefficients of a block, for each component of a group; none of those there are not.
     fn lanes(&self, block: usize, group: usize) -> [&'f [f64]; 4] {
-        let Components { count, lanes, .. } = self.components;
+        let ComponentLanes { count, lanes, .. } = self.components;
         let data: &'f FieldData = self.data;
         [0, 1, 2, 3].map(|lane| match group * lanes + lane {
             component if lane < lanes && component < count => {

@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use ppum::crack::TipId;
-use ppum::decompose::Part;
+use ppum::decompose::FieldPart;
 use ppum::function::{Frame, Function, FunctionKind, GROUP, WESTERGAARD};
 use ppum::vec2::Vec2;
 
@@ -39,7 +39,7 @@ pub(crate) const SMOOTH_GROUP: u32 = 0;
 
 /// The groups of a step's functions.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Groups {
+pub(crate) struct FunctionGroups {
     /// Group and entry of each function.
     slots: Vec<[u32; 2]>,
     /// The functions of each group, ascending.
@@ -47,7 +47,7 @@ pub(crate) struct Groups {
     classes: Vec<Class>,
 }
 
-/// The part of a solution that a group belongs to, for pictures of one part.
+/// The part of a solution that a group belongs to, for images of one part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Class {
     /// f = 1.
@@ -60,7 +60,7 @@ pub(crate) enum Class {
     Other,
 }
 
-impl Groups {
+impl FunctionGroups {
     /// Groups the functions of a step as they are at upload.
     ///
     /// Groups of one class, and of the same formulas, follow each other, so that a shader finds the
@@ -152,11 +152,11 @@ fn joins(first: &Function, function: &Function, members: usize) -> bool {
 }
 
 fn class(function: &Function) -> Class {
-    match Part::of(&function.kind) {
-        Part::Smooth => Class::Smooth,
-        Part::Jump => Class::Jump,
-        Part::Tip => Class::Tip,
-        Part::Other | Part::Patch(_) => Class::Other,
+    match FieldPart::of(&function.kind) {
+        FieldPart::Smooth => Class::Smooth,
+        FieldPart::Jump => Class::Jump,
+        FieldPart::Tip => Class::Tip,
+        FieldPart::Other | FieldPart::Patch(_) => Class::Other,
     }
 }
 
@@ -191,7 +191,7 @@ pub(crate) fn texts(functions: &[Function], members: &[u32]) -> String {
 mod tests {
     use super::*;
     use ppum::crack::{End, SegmentId, TipId};
-    use ppum::function::{Cut, Part};
+    use ppum::function::{Cut, CutSide};
     use ppum::vec2::Vec2;
     use ppum_testkit::synthetic::Recipe;
 
@@ -210,7 +210,7 @@ mod tests {
         functions.extend((0..5).map(|_| formula("x", Frame::World)));
         functions.push(Function { name: "one".into(), kind: FunctionKind::One });
         functions.push(Function { name: "side".into(), kind: FunctionKind::Side { crack: 0 } });
-        let groups = Groups::new(&functions);
+        let groups = FunctionGroups::new(&functions);
         let members: Vec<_> = (0..groups.count()).map(|group| groups.members(group)).collect();
         let expected: [&[u32]; 7] =
             [&[12], &[13], &[0, 1], &[2, 3, 4, 5], &[6], &[7, 8, 9, 10], &[11]];
@@ -228,7 +228,7 @@ mod tests {
     fn like_groups_follow_each_other() {
         let mut functions = Vec::new();
         let (segment, [left, right]) =
-            (SegmentId { crack: 0, segment: 0 }, [Part::Inside, Part::Outside]);
+            (SegmentId { crack: 0, segment: 0 }, [CutSide::Inside, CutSide::Outside]);
         for crack in 0..9 {
             functions.push(Function { name: "side".into(), kind: FunctionKind::Side { crack } });
             let cuts = vec![Cut { segment, left, right }];
@@ -239,7 +239,7 @@ mod tests {
                 functions.push(formula("r", frame));
             }
         }
-        let groups = Groups::new(&functions);
+        let groups = FunctionGroups::new(&functions);
         assert_eq!(groups.count(), 9 + 9 + 18 + 18);
         assert_eq!(groups.classes()[..18], [Class::Jump; 18]);
         let keys: Vec<_> =
@@ -250,7 +250,7 @@ mod tests {
     #[test]
     fn replaced_functions_stay_in_their_groups() {
         let mut step = Recipe::default().dataset().steps.remove(0);
-        let groups = Groups::new(&step.functions);
+        let groups = FunctionGroups::new(&step.functions);
         let before = groups.frames(&step.functions);
         let side = before.iter().position(|frame| matches!(frame, GroupFrame::Side(0)));
         let side = side.expect("a crack");
@@ -272,7 +272,7 @@ mod tests {
     #[test]
     fn frames_that_differ_do_not_share_a_group() {
         let fixed = |angle| formula("x", Frame::Fixed { origin: Vec2::ZERO, angle });
-        let groups = Groups::new(&[fixed(0.0), fixed(0.5), formula("x", Frame::World)]);
+        let groups = FunctionGroups::new(&[fixed(0.0), fixed(0.5), formula("x", Frame::World)]);
         assert_eq!(groups.count(), 3);
     }
 }

@@ -16,7 +16,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// The lattice of a uniform cover.
 #[derive(Clone, Debug)]
-pub(crate) struct Lattice {
+pub(crate) struct CoverLattice {
     /// The centre of column 0 and row 0.
     origin: Vec2,
     /// From centre to centre.
@@ -29,7 +29,7 @@ pub(crate) struct Lattice {
     patches: Vec<u32>,
 }
 
-impl Lattice {
+impl CoverLattice {
     /// The lattice of a partition; none if patches differ in size, cells do not lie in columns and
     /// rows, or polynomials have frames of their own.
     pub(crate) fn from_partition(partition: &BoxPartition) -> Option<Self> {
@@ -102,7 +102,7 @@ impl Lattice {
     }
 }
 
-/// Equal but for rounding.
+/// Equal except for rounding.
 fn near(a: f64, b: f64) -> bool {
     (a - b).abs() <= ROUNDING * b.abs()
 }
@@ -123,16 +123,16 @@ mod tests {
     #[test]
     fn uniform_covers_are_lattices_and_others_are_not() {
         let mut cover = Cover::grid(DOMAIN, [7, 6]).expect("a grid");
-        assert_eq!(Lattice::from_partition(&partition(&cover)).map(|l| l.size), Some([7, 6]));
+        assert_eq!(CoverLattice::from_partition(&partition(&cover)).map(|l| l.size), Some([7, 6]));
         cover.refine_leaves(&[3]).expect("a cover");
-        assert!(Lattice::from_partition(&partition(&cover)).is_none());
+        assert!(CoverLattice::from_partition(&partition(&cover)).is_none());
     }
 
     /// The four patches of a bin are all that cover a point of it.
     #[test]
     fn bins_hold_all_that_cover() {
         let partition = partition(&Cover::uniform(DOMAIN, 3).expect("a cover"));
-        let lattice = Lattice::from_partition(&partition).expect("a lattice");
+        let lattice = CoverLattice::from_partition(&partition).expect("a lattice");
         let bodies: Vec<u32> = (0..partition.len() as u32).map(|k| 10 * k).collect();
         let anchor = vec2(0.4, 0.7);
         let small = Rect::around(vec2(0.05, -0.11), vec2(0.2, 0.01));

@@ -23,12 +23,12 @@ use wgpu::TextureView;
 
 use crate::device::Gpu;
 use crate::error::GpuError;
-use bodies::{Bodies, BodyFacts, Components, GROUP_BITS, Others};
+use bodies::{Bodies, BodyFacts, ComponentLanes, GROUP_BITS, Others};
 use card::Card;
-use groups::Groups;
-use lattice::Lattice;
-use pages::Levels;
-use region::{Region, RegionWords, has_own_frames};
+use groups::FunctionGroups;
+use lattice::CoverLattice;
+use pages::HalfExtents;
+use region::{RegionWords, UploadRegion, has_own_frames};
 
 /// Components of a field: a term of four functions times polynomials of degree 8 then stays below
 /// 4096 texels.
@@ -39,7 +39,7 @@ const MOST_COMPONENTS: usize = 64;
 #[derive(Clone, Debug)]
 pub struct Scene<'f> {
     field: &'f Field<'f>,
-    groups: Arc<Groups>,
+    groups: Arc<FunctionGroups>,
     on_card: Arc<Mutex<OnCard>>,
 }
 
@@ -53,8 +53,8 @@ pub(crate) struct OnCard {
     pub(crate) data: TextureView,
     /// The address of each patch's body.
     pub(crate) bodies: Vec<u32>,
-    pub(crate) lattice: Option<Lattice>,
-    levels: Option<Levels>,
+    pub(crate) lattice: Option<CoverLattice>,
+    levels: Option<HalfExtents>,
     /// Boxes around the patches with more than smooth terms.
     pub(crate) enriched: Vec<(Rect, Others)>,
     region: Option<UploadedRegion>,
@@ -63,7 +63,7 @@ pub(crate) struct OnCard {
 /// The properties of a scene that shaders are compiled for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct SceneLayout {
-    pub(crate) components: Components,
+    pub(crate) components: ComponentLanes,
     pub(crate) shape: BodyFacts,
     /// Patches lie on a lattice.
     pub(crate) is_lattice: bool,
@@ -79,7 +79,7 @@ pub(crate) struct SceneLayout {
 /// A region on the card.
 #[derive(Debug)]
 pub(crate) struct UploadedRegion {
-    pub(crate) region: Region,
+    pub(crate) region: UploadRegion,
     pub(crate) texture: TextureView,
     /// First texel of the nodes.
     pub(crate) nodes: u32,
@@ -91,12 +91,12 @@ impl<'f> Scene<'f> {
         if field.step.partition.mesh().is_some() {
             return Err(GpuError::Mesh);
         }
-        let groups = Groups::new(&field.step.functions);
+        let groups = FunctionGroups::new(&field.step.functions);
         let on_card = Arc::new(Mutex::new(OnCard::new(card, field, &groups)?));
         Ok(Self { field, groups: Arc::new(groups), on_card })
     }
 
-    /// The same scene with the functions and the weight of another field, one with
+    /// Returns the scene with the functions and the weight of another field, one with
     /// [replaced](ppum::replace) functions: nothing is uploaded again, and the coefficients are
     /// those on the card. Linear in the number of patches.
     ///
@@ -117,7 +117,7 @@ impl<'f> Scene<'f> {
     }
 
     /// The groups of functions that the data on the card refer to.
-    pub(crate) fn groups(&self) -> &Groups {
+    pub(crate) fn groups(&self) -> &FunctionGroups {
         &self.groups
     }
 
@@ -128,7 +128,7 @@ impl<'f> Scene<'f> {
 }
 
 impl OnCard {
-    fn new(card: &Card, field: &Field<'_>, groups: &Groups) -> Result<Self, GpuError> {
+    fn new(card: &Card, field: &Field<'_>, groups: &FunctionGroups) -> Result<Self, GpuError> {
         check_sizes(field, groups)?;
         let Bodies { parts, patches, shape, enriched } = Bodies::new(field, groups);
         let data = card.upload("the coefficients", &parts)?;
@@ -154,7 +154,7 @@ impl OnCard {
             return Ok(());
         }
         let lattice = self.lattice.as_ref();
-        let region = Region::new(field, view, lattice);
+        let region = UploadRegion::new(field, view, lattice);
         let RegionWords { words, nodes } =
             region.words(field, (lattice, self.levels.as_ref()), &self.bodies);
         let texture = card.upload("the patches in sight", &[words])?;
@@ -179,13 +179,13 @@ impl SceneLayout {
     pub(crate) fn of_field(
         field: &Field<'_>,
         shape: BodyFacts,
-    ) -> (Self, Option<Lattice>, Option<Levels>) {
+    ) -> (Self, Option<CoverLattice>, Option<HalfExtents>) {
         let (own_frames, partition) = (has_own_frames(field), field.step.partition.boxes());
-        let lattice = if own_frames { None } else { Lattice::from_partition(partition) };
+        let lattice = if own_frames { None } else { CoverLattice::from_partition(partition) };
         let searched = !own_frames && lattice.is_none();
-        let levels = if searched { Levels::from_partition(partition) } else { None };
+        let levels = if searched { HalfExtents::from_partition(partition) } else { None };
         let layout = Self {
-            components: Components::new(field.components()),
+            components: ComponentLanes::new(field.components()),
             shape,
             is_lattice: lattice.is_some(),
             own_frames,
@@ -198,7 +198,7 @@ impl SceneLayout {
 }
 
 /// Refuses what the numbers of terms cannot hold.
-fn check_sizes(field: &Field<'_>, groups: &Groups) -> Result<(), GpuError> {
+fn check_sizes(field: &Field<'_>, groups: &FunctionGroups) -> Result<(), GpuError> {
     let (functions, components) = (groups.functions(), field.components());
     if groups.count() >= 1 << GROUP_BITS || components > MOST_COMPONENTS {
         return Err(GpuError::TooMany { functions, components });

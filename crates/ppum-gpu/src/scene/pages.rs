@@ -12,7 +12,7 @@
 use ppum::dataset::BoxPartition;
 use ppum::vec2::{Vec2, vec2};
 
-use super::bins::{Bins, FEW, Leaf};
+use super::bins::{BinLeaf, Bins, FEW};
 use super::lattice::NO_PATCH;
 
 /// Part of a size by which it may miss a level: f64 makes sizes from borders of cells.
@@ -23,14 +23,14 @@ const MOST_LEVELS: f64 = 120.0;
 
 /// Half-extents that are halves of the largest ones, as those of quadtrees are.
 #[derive(Clone, Debug)]
-pub(crate) struct Levels {
+pub(crate) struct HalfExtents {
     /// The largest half-extents.
     pub(crate) half: Vec2,
     /// How many times those of each patch are halved.
     halvings: Vec<u8>,
 }
 
-impl Levels {
+impl HalfExtents {
     /// Those of a partition; none if there are other sizes.
     pub(crate) fn from_partition(partition: &BoxPartition) -> Option<Self> {
         let half = partition.half.iter().copied().reduce(Vec2::max)?;
@@ -60,7 +60,7 @@ pub(crate) struct Pages<'a> {
     pub(crate) partition: &'a BoxPartition,
     /// The point that bins are seen from.
     pub(crate) anchor: Vec2,
-    pub(crate) levels: Option<&'a Levels>,
+    pub(crate) levels: Option<&'a HalfExtents>,
     /// Polynomials have frames of their own; then there are no levels.
     pub(crate) own_frames: bool,
     /// The address of each patch's body.
@@ -73,7 +73,7 @@ impl Pages<'_> {
         let texels = page_texels(self.levels.is_some(), self.own_frames) as usize;
         let mut words = Vec::with_capacity(4 * texels * bins.pages as usize);
         self.push(Vec2::ZERO, [None; FEW], false, &mut words);
-        for Leaf { corner, patches: range } in &bins.leaves {
+        for BinLeaf { corner, patches: range } in &bins.leaves {
             let mut fours = bins.list[range.clone()].chunks(FEW).peekable();
             while let Some(four) = fours.next() {
                 let four = [0, 1, 2, 3].map(|k| four.get(k).map(|&k| patches[k as usize] as usize));
@@ -123,7 +123,7 @@ fn inverse(v: Vec2) -> Vec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::bins::{Covered, INNER};
+    use crate::scene::bins::{BinPatch, INNER};
     use ppum::cover::Cover;
     use ppum::vec2::Rect;
     use ppum::weight::WeightFunction;
@@ -134,7 +134,7 @@ mod tests {
     fn bins(partition: &BoxPartition, domain: Rect, anchor: Vec2) -> Bins {
         let seen = |rect: Rect| Rect::new(rect.min - anchor, rect.max - anchor);
         let covered =
-            |k: usize| Covered { support: seen(partition.support(k)), cell: partition.spacing(k) };
+            |k: usize| BinPatch { support: seen(partition.support(k)), cell: partition.spacing(k) };
         let patches: Vec<_> = (0..partition.len()).map(covered).collect();
         Bins::new(seen(domain), &patches, 1e-7)
     }
@@ -201,7 +201,7 @@ mod tests {
             let recipe = Recipe { tip_level: 9, own_frames, overlap, ..Recipe::random(seed) };
             let (partition, anchor) = (recipe.partition(), recipe.domain.center());
             let bodies: Vec<u32> = (0..partition.len() as u32).map(|k| 3 * k + 1).collect();
-            let levels = if own_frames { None } else { Levels::from_partition(&partition) };
+            let levels = if own_frames { None } else { HalfExtents::from_partition(&partition) };
             assert!(own_frames || levels.is_some(), "quadtrees have levels");
             let bins = bins(&partition, recipe.domain, anchor);
             let levels = levels.as_ref();
@@ -240,9 +240,9 @@ mod tests {
         let mut cover = Cover::grid(domain, [7, 6]).expect("a grid");
         cover.refine_leaves(&[3, 8]).expect("a cover");
         let mut partition = cover.partition(1.3, WeightFunction::Linear).expect("an overlap");
-        let levels = Levels::from_partition(&partition).expect("a quadtree");
+        let levels = HalfExtents::from_partition(&partition).expect("a quadtree");
         assert_eq!(levels.halvings.iter().max(), Some(&1));
         partition.half[5].x *= 1.001;
-        assert!(Levels::from_partition(&partition).is_none());
+        assert!(HalfExtents::from_partition(&partition).is_none());
     }
 }

@@ -16,9 +16,9 @@ use ppum::field::Field;
 use ppum::vec2::{Rect, Vec2};
 use ppum_render::view::View;
 
-use super::bins::{Bins, Covered};
-use super::lattice::Lattice;
-use super::pages::{Levels, Pages};
+use super::bins::{BinPatch, Bins};
+use super::lattice::CoverLattice;
+use super::pages::{HalfExtents, Pages};
 use crate::layout::halves_by;
 
 /// Width of a new region in widths of the view.
@@ -32,7 +32,7 @@ const MARGIN: f64 = 1e-6;
 
 /// Patches in a region, ready for upload.
 #[derive(Clone, Debug)]
-pub(crate) struct Region {
+pub(crate) struct UploadRegion {
     /// The part of the world that views may show.
     bounds: Rect,
     /// The point that positions are relative to.
@@ -43,9 +43,9 @@ pub(crate) struct Region {
     pub(crate) bins: Bins,
 }
 
-impl Region {
+impl UploadRegion {
     /// The region for a view: all of the domain, or the surroundings of the view.
-    pub(crate) fn new(field: &Field<'_>, view: &View, lattice: Option<&Lattice>) -> Self {
+    pub(crate) fn new(field: &Field<'_>, view: &View, lattice: Option<&CoverLattice>) -> Self {
         let domain = field.domain.bounds;
         let around = Rect::around(view.center, view.half() * AROUND);
         let deep = longer(view) * DEEPEST < domain.size().x.max(domain.size().y);
@@ -62,7 +62,7 @@ impl Region {
         let seen = |&index: &u32| {
             let support = partition.support(index as usize);
             let cell = partition.spacing(index as usize);
-            Covered { support: Rect::new(support.min - anchor, support.max - anchor), cell }
+            BinPatch { support: Rect::new(support.min - anchor, support.max - anchor), cell }
         };
         let seen: Vec<_> = patches.iter().map(seen).collect();
         let size = relative.size();
@@ -99,7 +99,7 @@ impl Region {
     pub(crate) fn words(
         &self,
         field: &Field<'_>,
-        (lattice, levels): (Option<&Lattice>, Option<&Levels>),
+        (lattice, levels): (Option<&CoverLattice>, Option<&HalfExtents>),
         bodies: &[u32],
     ) -> RegionWords {
         if let Some(lattice) = lattice {

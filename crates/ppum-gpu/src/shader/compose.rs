@@ -7,7 +7,7 @@ use ppum::field::Field;
 use ppum::formula::wgsl_prelude;
 use ppum::quantity::{Quantity, Source};
 
-use super::functions::{Surroundings, functions_wgsl};
+use super::functions::{FormulaContext, functions_wgsl};
 use super::passes::{FieldPass, Finish, Method, Slots};
 use super::quantity::quantity_wgsl;
 use super::smooth::{factors, four_constants, straight_smooth};
@@ -21,13 +21,13 @@ use crate::frame::view_data::ViewRecord;
 use crate::layout::structure;
 use crate::scene::SceneLayout;
 use crate::scene::bins;
-use crate::scene::bodies::{self, Components, Others};
+use crate::scene::bodies::{self, ComponentLanes, Others};
 use crate::scene::card::TEXELS;
-use crate::scene::groups::{Groups, SMOOTH_GROUP};
+use crate::scene::groups::{FunctionGroups, SMOOTH_GROUP};
 use crate::scene::lattice::NO_PATCH;
 use crate::scene::pages::page_texels;
 
-/// The shaders of a program, but for the layout of the scene they are for.
+/// The shaders of a program, except for the layout of the scene they are for.
 #[derive(Clone, Debug)]
 pub(crate) struct ShaderText {
     /// Derivatives: 0, 1 or 2.
@@ -57,14 +57,14 @@ pub(crate) struct ShaderVariant {
 
 /// Weight, functions and quantity of a field in WGSL, and the kernel of each group of functions.
 fn formulas(
-    groups: &Groups,
+    groups: &FunctionGroups,
     field: &Field<'_>,
     quantity: &Quantity,
     order: u32,
 ) -> Result<(String, Vec<usize>), GpuError> {
     let step = field.step;
     let surroundings =
-        Surroundings { cracks: step.cracks.len(), tables: field.tables, order: order as usize };
+        FormulaContext { cracks: step.cracks.len(), tables: field.tables, order: order as usize };
     let (functions, kernels) = functions_wgsl(&step.functions, groups, surroundings)?;
     let weight = weight_wgsl(&step.partition.boxes().weight)?;
     let quantity = quantity_wgsl(field, quantity)?;
@@ -74,7 +74,7 @@ fn formulas(
 impl ShaderText {
     /// The shaders of a quantity of a field, with derivatives up to an order.
     pub(crate) fn new(
-        groups: &Groups,
+        groups: &FunctionGroups,
         field: &Field<'_>,
         (quantity, order): (&Quantity, u32),
         method: Method,
@@ -181,7 +181,7 @@ impl ShaderText {
 
     /// The code that evaluates smooth terms and reads constants.
     fn smooth(&self, layout: SceneLayout) -> String {
-        let Components { lanes, groups, .. } = layout.components;
+        let ComponentLanes { lanes, groups, .. } = layout.components;
         let smooth = match layout.shape.degree {
             Some(degree) if groups == 1 => straight_smooth(degree.into(), lanes, self.order),
             _ => texts::SMOOTH.to_owned(),

@@ -11,7 +11,7 @@ use ppum::formula::{Formula, FormulaJets, Table};
 use ppum::function::{Function, FunctionKind, WESTERGAARD, function_scope, native};
 
 use crate::error::GpuError;
-use crate::scene::groups::{GroupFrame, Groups, texts};
+use crate::scene::groups::{FunctionGroups, GroupFrame, texts};
 
 /// Members of a jet, in the order in which formulas give them.
 const MEMBERS: [&str; 6] = ["v", "x", "y", "xx", "xy", "yy"];
@@ -21,7 +21,7 @@ const SIZE: [usize; 3] = [1, 3, 6];
 
 /// The surroundings that a step's formulas are compiled in.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Surroundings<'a> {
+pub(crate) struct FormulaContext<'a> {
     /// Number of cracks, whose sides formulas may use.
     pub(crate) cracks: usize,
     /// The tables of the dataset.
@@ -38,16 +38,17 @@ pub(crate) struct Surroundings<'a> {
 /// A formula that does not compile, or is too large for WGSL.
 pub(crate) fn functions_wgsl(
     functions: &[Function],
-    groups: &Groups,
-    surroundings: Surroundings<'_>,
+    groups: &FunctionGroups,
+    surroundings: FormulaContext<'_>,
 ) -> Result<(String, Vec<usize>), GpuError> {
     let frames = groups.frames(functions);
-    let mut runs: Vec<(Kernel, Range<usize>)> = Vec::new();
+    let mut runs: Vec<(FunctionKernel, Range<usize>)> = Vec::new();
     let mut kernels = Vec::new();
     let (mut keys, mut text) = (Vec::new(), String::new());
     for (group, frame) in frames.iter().enumerate() {
         let key = (kind(frame), texts(functions, groups.members(group)));
-        let kernel = Kernel(keys.iter().position(|known| *known == key).unwrap_or(keys.len()));
+        let kernel =
+            FunctionKernel(keys.iter().position(|known| *known == key).unwrap_or(keys.len()));
         if kernel.0 == keys.len() {
             text += &kernel.text(&key.0, functions, groups.members(group), surroundings)?;
             keys.push(key);
@@ -58,7 +59,7 @@ pub(crate) fn functions_wgsl(
             _ => runs.push((kernel, group..group + 1)),
         }
     }
-    let is_one = |kernel: &Kernel| keys[kernel.0].0 == KernelKind::One;
+    let is_one = |kernel: &FunctionKernel| keys[kernel.0].0 == KernelKind::One;
     let ones = runs.iter().filter(|(kernel, _)| is_one(kernel)).map(|(_, range)| range);
     Ok((text + &chooser(&runs) + &is_one_wgsl(ones), kernels))
 }
@@ -87,15 +88,15 @@ fn kind(frame: &GroupFrame) -> KernelKind {
 
 /// A kernel by its number: the function `functions_N`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Kernel(usize);
+struct FunctionKernel(usize);
 
-impl Kernel {
+impl FunctionKernel {
     fn text(
         self,
         kind: &KernelKind,
         functions: &[Function],
         members: &[u32],
-        surroundings: Surroundings<'_>,
+        surroundings: FormulaContext<'_>,
     ) -> Result<String, GpuError> {
         let body = match kind {
             KernelKind::One => constant("1.0"),
@@ -108,7 +109,7 @@ impl Kernel {
             }
             KernelKind::Fixed | KernelKind::Tip => {
                 let members = members.iter().map(|&member| &functions[member as usize]);
-                let formulas = Formulas::new(members, surroundings)?;
+                let formulas = GroupFormulas::new(members, surroundings)?;
                 return self.of_formulas(*kind, &formulas, surroundings.order);
             }
         };
@@ -125,7 +126,7 @@ impl Kernel {
     fn of_formulas(
         self,
         kind: KernelKind,
-        all: &Formulas,
+        all: &GroupFormulas,
         order: usize,
     ) -> Result<String, GpuError> {
         let mut body = match kind {
@@ -159,7 +160,7 @@ fn constant(value: &str) -> String {
 }
 
 /// The formulas of a group.
-struct Formulas {
+struct GroupFormulas {
     /// The first function, for messages.
     name: String,
     /// The code of each function.
@@ -177,10 +178,10 @@ enum FunctionCode {
     Formula(usize),
 }
 
-impl Formulas {
+impl GroupFormulas {
     fn new<'f>(
         members: impl Iterator<Item = &'f Function>,
-        surroundings: Surroundings<'_>,
+        surroundings: FormulaContext<'_>,
     ) -> Result<Self, GpuError> {
         let (mut name, mut sources, mut formulas) = (String::new(), Vec::new(), Vec::new());
         for function in members {
@@ -280,14 +281,16 @@ fn argument(index: usize) -> String {
 }
 
 /// The function that finds the kernel of a group.
-fn chooser(runs: &[(Kernel, Range<usize>)]) -> String {
+fn chooser(runs: &[(FunctionKernel, Range<usize>)]) -> String {
     let mut text = "\nfn functions(group: u32, offset: vec2<f32>) -> Functions {\n".to_owned();
     let (last, before) = match runs {
-        [before @ .., (Kernel(last), _)] => (format!("functions_{last}(group, offset)"), before),
+        [before @ .., (FunctionKernel(last), _)] => {
+            (format!("functions_{last}(group, offset)"), before)
+        }
         // a step without functions has no blocks either
         [] => ("Functions()".to_owned(), runs),
     };
-    for (Kernel(kernel), groups) in before {
+    for (FunctionKernel(kernel), groups) in before {
         let call = format!("return functions_{kernel}(group, offset);");
         writeln!(text, "    if group < {}u {{\n        {call}\n    }}", groups.end)
             .expect("a string takes all");

@@ -1,4 +1,4 @@
-//! The passes of a picture: what each draws, and into what.
+//! The passes of an image: what each draws, and into what.
 
 use wgpu::TextureFormat;
 

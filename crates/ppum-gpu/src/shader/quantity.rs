@@ -9,7 +9,7 @@ use ppum::expression::Expression;
 use ppum::field::Field;
 use ppum::formula::{Formula, FormulaJets, WgslError};
 use ppum::library::{PLANE_STRAIN, PLANE_STRESS};
-use ppum::quantity::{Axis, Input, Quantity, QuantityFormula, Source, Vocabulary, names};
+use ppum::quantity::{Axis, Quantity, QuantityFormula, QuantityInput, Source, Vocabulary, names};
 
 use crate::error::GpuError;
 
@@ -140,23 +140,23 @@ fn of_formula(
 }
 
 /// The WGSL of an input of a formula.
-fn argument(input: Input) -> String {
+fn argument(input: QuantityInput) -> String {
     match input {
-        Input::X => "at.position.x".to_owned(),
-        Input::Y => "at.position.y".to_owned(),
-        Input::Young => "material_young(at.position)".to_owned(),
-        Input::Poisson => "material_poisson(at.position)".to_owned(),
-        Input::Conductivity => "material_conductivity(at.position)".to_owned(),
-        Input::Mu | Input::Lambda | Input::OutOfPlane => {
+        QuantityInput::X => "at.position.x".to_owned(),
+        QuantityInput::Y => "at.position.y".to_owned(),
+        QuantityInput::Young => "material_young(at.position)".to_owned(),
+        QuantityInput::Poisson => "material_poisson(at.position)".to_owned(),
+        QuantityInput::Conductivity => "material_conductivity(at.position)".to_owned(),
+        QuantityInput::Mu | QuantityInput::Lambda | QuantityInput::OutOfPlane => {
             unreachable!("the moduli are put in as formulas of young and poisson")
         }
-        Input::Value(c) => lane(c, "v"),
-        Input::SlopeX(c) => lane(c, "x"),
-        Input::SlopeY(c) => lane(c, "y"),
+        QuantityInput::Value(c) => lane(c, "v"),
+        QuantityInput::SlopeX(c) => lane(c, "x"),
+        QuantityInput::SlopeY(c) => lane(c, "y"),
     }
 }
 
-type Failure = Box<dyn std::error::Error>;
+type QuantityFailure = Box<dyn std::error::Error>;
 
 /// A formula with the constants of the field's equation in place of their names: numbers where they
 /// are the same everywhere, and moduli as formulas of E and ν.
@@ -164,7 +164,7 @@ fn with_constants(
     formula: &Formula,
     equation: &Equation,
     vocabulary: &Vocabulary<'_>,
-) -> Result<Formula, Failure> {
+) -> Result<Formula, QuantityFailure> {
     let elastic = vocabulary.equation.elastic().is_some();
     let mut formulas = Vec::new();
     for (name, text) in constants(equation, elastic) {

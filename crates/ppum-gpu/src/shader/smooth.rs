@@ -24,7 +24,7 @@ pub(crate) fn straight_smooth(degree: usize, lanes: usize, order: u32) -> String
     }
     let slot = |k: usize| slot(k, lanes);
     text += "    let xi = coordinates.xi;\n";
-    let mut lines = Lines { text, order, count: 0 };
+    let mut lines = ShaderLines { text, order, count: 0 };
     let sums = lines.polynomial(degree, |k| (k + 1 < count).then(|| slot(k + 1)));
     let mut text = lines.text;
     text += "    var out: Smooth;\n";
@@ -108,13 +108,13 @@ fn slopes(member: &str) -> String {
 type Term = Option<String>;
 
 /// Lines of the function so far.
-struct Lines {
+struct ShaderLines {
     text: String,
     order: u32,
     count: usize,
 }
 
-impl Lines {
+impl ShaderLines {
     /// The sums over η of sums over ξ, in the order of [`MEMBERS`]; half the last. `coefficient`
     /// gives none for the constant.
     fn polynomial(&mut self, degree: usize, coefficient: impl Fn(usize) -> Term) -> [Term; 6] {

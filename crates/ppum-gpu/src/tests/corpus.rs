@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 
 use ppum::formula::wgsl_prelude;
-use ppum_testkit::corpus::{self, Backend, Case, Outcome, SHADER, jets, orders, parse};
+use ppum_testkit::corpus::{
+    self, CaseOutcome, FormulaBackend, FormulaCase, SHADER, jets, orders, parse,
+};
 use ppum_testkit::wgsl::{ELEMENTARY, tells_wrong_derivative, with_wrong_derivative};
 
 use super::compute::run;
@@ -26,9 +28,10 @@ struct Driver {
 
 impl Driver {
     /// The cases that single precision can be asked, their texts changed.
-    fn new(gpu: &Gpu, cases: &[Case], edit: impl Fn(String) -> String) -> Self {
-        let single: Vec<&Case> = cases.iter().filter(|case| case.not_single.is_none()).collect();
-        let formulas: Vec<&[&Case]> = single.chunk_by(|a, b| same_formula(a, b)).collect();
+    fn new(gpu: &Gpu, cases: &[FormulaCase], edit: impl Fn(String) -> String) -> Self {
+        let single: Vec<&FormulaCase> =
+            cases.iter().filter(|case| case.not_single.is_none()).collect();
+        let formulas: Vec<&[&FormulaCase]> = single.chunk_by(|a, b| same_formula(a, b)).collect();
         let mut results = BTreeMap::new();
         for batch in formulas.chunks(BATCH) {
             let rows: Vec<[f32; NUMBERS]> = (0u8..)
@@ -45,25 +48,25 @@ impl Driver {
     }
 }
 
-impl Backend for Driver {
+impl FormulaBackend for Driver {
     fn name(&self) -> &str {
         &self.name
     }
 
-    fn evaluate(&mut self, case: &Case) -> Outcome {
+    fn evaluate(&mut self, case: &FormulaCase) -> CaseOutcome {
         let Some(found) = self.results.get(&case.place) else {
-            return Outcome::Skipped("not among the functions".to_owned());
+            return CaseOutcome::Skipped("not among the functions".to_owned());
         };
-        Outcome::Results(orders(case, &found[..jets(case, &parse(case)).n_outputs()]))
+        CaseOutcome::Results(orders(case, &found[..jets(case, &parse(case)).n_outputs()]))
     }
 }
 
 /// True if the text of one case is that of the other.
-fn same_formula(a: &Case, b: &Case) -> bool {
+fn same_formula(a: &FormulaCase, b: &FormulaCase) -> bool {
     a.formula == b.formula && a.scope == b.scope && a.expected.len() == b.expected.len()
 }
 
-fn row(case: &Case, formula: u8) -> [f32; NUMBERS] {
+fn row(case: &FormulaCase, formula: u8) -> [f32; NUMBERS] {
     let mut row = [0.0; NUMBERS];
     assert!(case.inputs.len() < NUMBERS, "{}", case.place);
     row.iter_mut().zip(&case.inputs).for_each(|(to, &from)| *to = from as f32);
@@ -72,7 +75,7 @@ fn row(case: &Case, formula: u8) -> [f32; NUMBERS] {
 }
 
 /// The functions of some formulas, and the choice of one by the row.
-fn text(formulas: &[&[&Case]], edit: &impl Fn(String) -> String) -> String {
+fn text(formulas: &[&[&FormulaCase]], edit: &impl Fn(String) -> String) -> String {
     let (mut functions, mut choices) = (wgsl_prelude().to_owned(), String::new());
     for (k, cases) in formulas.iter().enumerate() {
         let case = cases[0];
@@ -109,7 +112,7 @@ fn wrong_derivatives_fail_on_the_driver() {
     let mut cases = corpus::cases();
     cases.retain(tells_wrong_derivative);
     cases.dedup_by(|a, b| same_formula(a, b));
-    let cases: Vec<Case> = cases.into_iter().step_by(8).collect();
+    let cases: Vec<FormulaCase> = cases.into_iter().step_by(8).collect();
     let mut driver = Driver::new(&gpu, &cases, with_wrong_derivative);
     let report = corpus::check(&mut driver, &SHADER, &cases);
     assert!(cases.len() >= 30, "{} cases", cases.len());

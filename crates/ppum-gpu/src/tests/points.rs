@@ -8,7 +8,7 @@ use ppum::cover::Cover;
 use ppum::crack::{Crack, CrackEnd, End, LocalCrack, LocalTip, SegmentId, Side, TipId, TipPoint};
 use ppum::dataset::{Step, monomials};
 use ppum::domain::{Domain, Hole};
-use ppum::function::{Cut, Function, FunctionKind, FunctionTable, Part, westergaard};
+use ppum::function::{Cut, CutSide, Function, FunctionKind, FunctionTable, westergaard};
 use ppum::jet::Jet;
 use ppum::polynomial::polynomial;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -18,7 +18,7 @@ use ppum_testkit::wgsl::Module;
 
 use super::compute::{around, point_functions, run};
 use super::gpu_or_skip;
-use crate::frame::geometry::Geometry;
+use crate::frame::geometry::PairGeometry;
 use crate::scene::groups::GroupFrame;
 
 /// Unit roundoff of single precision.
@@ -31,14 +31,14 @@ const WEIGHT: &str = "fn weight(xi: f32) -> vec3<f32> { return weight_cubic(xi);
 const CRACKS: u32 = 4;
 
 /// The expected result: a number and the size of what it is a sum of.
-type Expected = Vec<(f64, f64)>;
+type ExpectedValue = Vec<(f64, f64)>;
 
 /// Rows that differ from what is expected by more than `units` roundoffs.
 fn wrong<const N: usize>(
     rows: &[[f32; N]],
     found: &[Vec<f32>],
     units: f64,
-    expected: impl Fn(&[f32; N]) -> Expected,
+    expected: impl Fn(&[f32; N]) -> ExpectedValue,
 ) -> Vec<String> {
     assert_eq!(rows.len(), found.len());
     let mut failures = Vec::new();
@@ -64,7 +64,7 @@ fn agrees<const N: usize>(
     pairs: &[[f32; 2]],
     rows: &[[f32; N]],
     units: f64,
-    expected: impl Fn(&[f32; N]) -> Expected,
+    expected: impl Fn(&[f32; N]) -> ExpectedValue,
 ) {
     let Some(gpu) = gpu_or_skip() else { return };
     let text = format!("{}{WEIGHT}{text}", point_functions(2, CRACKS));
@@ -244,7 +244,7 @@ fn polynomials() {
             let lane = |c: &[f64]| {
                 let size: Vec<f64> = c.iter().map(|c| c.abs()).collect();
                 let size = world(&size, x.abs(), y.abs(), [ix.abs(), iy.abs()]);
-                world(c, x, y, [ix, iy]).into_iter().zip(size).collect::<Expected>()
+                world(c, x, y, [ix, iy]).into_iter().zip(size).collect::<ExpectedValue>()
             };
             [lane(&a), lane(&b)].concat()
         });
@@ -293,14 +293,14 @@ const PUT_FUNCTIONS: &str = "fn row(k: u32) {
 /// Two roots, three divisions and up to 20 other operations: 60 u of r^½, r^-½ and r^-3/2 times the
 /// largest factor of the formulas; of C and S themselves of their own size, which vanishes on
 /// a face.
-fn westergaard_expected(row: &[f32; 4]) -> Expected {
+fn westergaard_expected(row: &[f32; 4]) -> ExpectedValue {
     let p = tip_point(row);
     let r = p.x.hypot(p.y);
     let jets = westergaard::<f64, 2>(&p);
     let sizes =
         [r.sqrt(), 1.0 / r.sqrt(), 1.0 / r.sqrt(), r.powf(-1.5), r.powf(-1.5), r.powf(-1.5)];
-    let of = |jet: Jet<f64>| numbers(jet).into_iter().zip(sizes).collect::<Expected>();
-    let mut expected: Vec<Expected> = jets.into_iter().map(of).collect();
+    let of = |jet: Jet<f64>| numbers(jet).into_iter().zip(sizes).collect::<ExpectedValue>();
+    let mut expected: Vec<ExpectedValue> = jets.into_iter().map(of).collect();
     expected[..2].iter_mut().for_each(|jet| jet[0].1 = jet[0].0.abs());
     expected.concat()
 }
@@ -360,7 +360,7 @@ fn polar_coordinates() {
         let p = tip_point(row);
         let r = p.radius();
         let half = p.half_angle(r);
-        let mut expected: Expected =
+        let mut expected: ExpectedValue =
             [r].into_iter().chain(p.half_root(r)).chain(half).map(|v| (v, v.abs())).collect();
         let theta = TipPoint::theta(half);
         expected.push((theta, theta.abs()));
@@ -435,7 +435,7 @@ fn sides_of_cracks() {
         );
         for center in centers(&crack) {
             let step = step(cracks());
-            let geometry = Geometry::new(&step, &domain, &[GroupFrame::Side(index)], center);
+            let geometry = PairGeometry::new(&step, &domain, &[GroupFrame::Side(index)], center);
             let local = LocalCrack::new(&crack, center);
             let distance = local.segments().iter().map(|s| s.distance.abs()).fold(0.0, f64::max);
             let side = |p: Vec2| local.side([p.x, p.y], Side::Above);
@@ -469,11 +469,11 @@ fn trees(random: &mut Random) -> (Vec<Crack>, Vec<Function>) {
     let mut tree = || {
         let count = 1 + random.below(12);
         let mut part = |k: usize| match k + 1 + random.below(3) {
-            next if next < count => Part::Cut(next as u32),
-            _ => [Part::Inside, Part::Outside][random.below(2)],
+            next if next < count => CutSide::Cut(next as u32),
+            _ => [CutSide::Inside, CutSide::Outside][random.below(2)],
         };
         let parts: Vec<_> = (0..count).map(|k| [part(k), part(k)]).collect();
-        let mut cut = |[left, right]: [Part; 2]| {
+        let mut cut = |[left, right]: [CutSide; 2]| {
             let at = random.below(8) as u32;
             let segment = SegmentId { crack: at.min(6), segment: at / 7 };
             Cut { segment, left, right }
@@ -500,7 +500,8 @@ fn indicators_of_components() {
         let table = table.expect("a function");
         let centers = [cracks[0].points[0], cracks[5].points[0], cracks[6].points[1]];
         for center in centers.into_iter().chain([vec2(0.31, -0.17)]) {
-            let geometry = Geometry::new(&step, &domain, &[GroupFrame::Indicator(index)], center);
+            let geometry =
+                PairGeometry::new(&step, &domain, &[GroupFrame::Indicator(index)], center);
             let local = table.at(&cracks, center);
             let value = |p: Vec2| {
                 let mut jets = [Jet::constant(0.0)];
@@ -549,7 +550,7 @@ fn points_of_tips() {
             .flat_map(|end| centers(&crack).into_iter().map(move |center| (end, center)))
         {
             let frames = [GroupFrame::Tip(TipId { crack: index, end })];
-            let geometry = Geometry::new(&step(cracks()), &domain, &frames, center);
+            let geometry = PairGeometry::new(&step(cracks()), &domain, &frames, center);
             let tip = LocalTip::new(&crack, end, center);
             let far = tip.from_tip.length();
             let point = |p: Vec2| tip.point([p.x, p.y], Side::Above);
@@ -583,7 +584,7 @@ fn fixed_frames_and_turned_functions() {
     let center = vec2(0.3, -0.7);
     let frames = [GroupFrame::Fixed { origin, angle }];
     let domain = Domain::from(Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0)));
-    let geometry = Geometry::new(&step(Vec::new()), &domain, &frames, center);
+    let geometry = PairGeometry::new(&step(Vec::new()), &domain, &frames, center);
     let mut rows = random_rows::<2>(300, 8);
     rows.iter_mut().flatten().for_each(|v| *v *= 0.5);
     let axis = vec2(f64::cos(angle), f64::sin(angle));
@@ -604,7 +605,7 @@ fn fixed_frames_and_turned_functions() {
         let r = px.hypot(py);
         // the rounding of the place, of size 1, is magnified by 1 / r
         let sizes = [0.5, 1.5, 1.5, 2.5, 2.5, 2.5].map(|power: f64| r.powf(-power));
-        let mut expected: Expected = numbers(turned).into_iter().zip(sizes).collect();
+        let mut expected: ExpectedValue = numbers(turned).into_iter().zip(sizes).collect();
         expected.extend([(px, 1.0), (py, 1.0)]);
         expected
     });
@@ -629,7 +630,7 @@ fn insides_of_holes() {
         [[0.875, 0.75], [-0.75, 0.0], [-0.5, -0.25], [0.375, 0.5], [0.1, 0.6], [-1.5, 0.3]]
     {
         let center = Vec2::from(center);
-        let geometry = Geometry::new(&step(cracks()), &domain, &[GroupFrame::One], center);
+        let geometry = PairGeometry::new(&step(cracks()), &domain, &[GroupFrame::One], center);
         let local: Vec<_> = domain.holes.iter().map(|hole| hole.at(center)).collect();
         let contains = |p: Vec2| local.iter().any(|hole| hole.contains(p));
         let mut rows: Vec<[f32; 4]> = offsets(9)

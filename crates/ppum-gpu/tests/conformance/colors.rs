@@ -1,9 +1,9 @@
 //! Colours on the card against those of the CPU.
 
 use ppum::field::Field;
-use ppum_gpu::{Colors, Method, Shading, Values};
-use ppum_render::picture::{Picture, Style};
-use ppum_render::range::Range;
+use ppum_gpu::{Colors, Method, TransferFunction, Values};
+use ppum_render::picture::{ColoredRaster, Style};
+use ppum_render::range::RangeChoice;
 use ppum_render::raster::Raster;
 use ppum_render::scale::Scale;
 use ppum_testkit::fields::Window;
@@ -38,14 +38,14 @@ fn colours_are_those_of_the_cpu() {
         let range = middle(&raster);
         let mut style = good(Style::named(map));
         (style.scale, style.range, style.undefined) =
-            (scale, Range::Fixed(range.0, range.1), [9, 8, 7, 6]);
-        let expected = good(Picture::bare(&raster, &view(&window), &style));
+            (scale, RangeChoice::Fixed(range.0, range.1), [9, 8, 7, 6]);
+        let expected = good(ColoredRaster::bare(&raster, &view(&window), &style));
         assert!(
             expected.has_below && expected.has_above,
             "{text}: the range should leave values out"
         );
         assert!(raster.values.iter().any(|v| v.is_nan()), "{text}: the domain should end");
-        let shading = Shading {
+        let shading = TransferFunction {
             normalization: expected.normalization,
             colormap: style.colormap.clone(),
             undefined: style.undefined,

@@ -7,7 +7,7 @@ use ppum_gpu::{Method, Renderer, Scene, Values};
 use ppum_render::reference::reference;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
-use ppum_testkit::fields::{self, Case, Differences, Truth};
+use ppum_testkit::fields::{self, Differences, DrawingCase, Truth};
 
 use crate::{OUTLIERS, SINGLE, close, good, quantity, renderer_or_skip, values, view};
 
@@ -48,7 +48,7 @@ struct Worst {
 
 /// Draws the cases by all evaluators and compares with the truth. Compiling is what takes time:
 /// only the first quantity of a case is splatted.
-fn agree(group: &str, cases: &[Case], check: impl Fn(&str, Evaluator, &Differences)) {
+fn agree(group: &str, cases: &[DrawingCase], check: impl Fn(&str, Evaluator, &Differences)) {
     let mut renderer = renderer_or_skip();
     let mut worst = Worst::default();
     for case in cases {
@@ -172,7 +172,7 @@ fn zooms_to_junctions() {
     deep("zooms to junctions", fields::junction_zooms());
 }
 
-fn deep(group: &str, case: Case) {
+fn deep(group: &str, case: DrawingCase) {
     agree(group, &[case], |what, evaluator, found| {
         within(what, evaluator, found);
         let stress = what.contains("von-mises");

@@ -23,7 +23,7 @@ use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::vec2;
 use ppum_gpu::{AdapterChoice, GpuError, Method, Program, Renderer, Values};
-use ppum_render::raster::{Raster, Sample};
+use ppum_render::raster::{Raster, RasterValue};
 use ppum_render::view::View;
 use ppum_testkit::fields::{Differences, Truth, Window};
 use ppum_testkit::skipped::skipped;
@@ -69,7 +69,7 @@ fn good<T, E: Display>(result: Result<T, E>) -> T {
 }
 
 /// The values of a raster in double precision.
-fn values<T: Sample>(raster: &Raster<T>) -> Vec<f64> {
+fn values<T: RasterValue>(raster: &Raster<T>) -> Vec<f64> {
     raster.values.iter().map(|&value| value.into()).collect()
 }
 

@@ -1,7 +1,7 @@
 //! Parts of a field are fields: drawn alone they are what the CPU draws, and together they are
 //! the whole.
 
-use ppum::decompose::{KINDS, Part};
+use ppum::decompose::{FieldPart, KINDS};
 use ppum::field::Field;
 use ppum::function::{Frame, FunctionKind};
 use ppum_gpu::Method;
@@ -17,14 +17,14 @@ fn parts_are_drawn_alone() {
     let step = &whole.steps[0];
     let mut sum =
         vec![0.0; bits(&render(&mut renderer, &field(&whole), "uy", Method::Gather)).len()];
-    for part in KINDS.into_iter().chain([Part::Patch(17)]) {
+    for part in KINDS.into_iter().chain([FieldPart::Patch(17)]) {
         let mut dataset = whole.clone();
         dataset.steps[0].fields = vec![good(step.fields[0].part(part, &step.functions))];
         let field = field(&dataset);
         for method in METHODS {
             let raster = render(&mut renderer, &field, "uy", method);
             check(&part.to_string(), &field, "uy", method, &raster);
-            if method == Method::Gather && !matches!(part, Part::Patch(_)) {
+            if method == Method::Gather && !matches!(part, FieldPart::Patch(_)) {
                 sum.iter_mut()
                     .zip(&raster.values)
                     .for_each(|(sum, &value)| *sum += f64::from(value));
@@ -45,7 +45,7 @@ fn jumps_of_cracks_that_meet_are_drawn_alone() {
     let Some(mut renderer) = renderer_or_skip() else { return };
     let mut dataset = Recipe::meeting().dataset();
     let step = &mut dataset.steps[0];
-    step.fields = vec![good(step.fields[0].part(Part::Jump, &step.functions))];
+    step.fields = vec![good(step.fields[0].part(FieldPart::Jump, &step.functions))];
     let field = field(&dataset);
     for method in METHODS {
         let raster = render(&mut renderer, &field, "uy", method);

@@ -4,14 +4,14 @@
 use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum_render::isoline::{Isoline, isolines};
-use ppum_render::raster::{Raster, Sample};
+use ppum_render::raster::{Raster, RasterValue};
 use ppum_render::scatter;
 use ppum_testkit::synthetic::{Coefficients, Recipe};
 
 use crate::{METHODS, good, quantity, render, renderer_or_skip, view, window};
 
 /// Lines of a quantity by a raster of it.
-fn lines<T: Sample>(
+fn lines<T: RasterValue>(
     field: &Field<'_>,
     text: &str,
     levels: &[f64],

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use ppum::dataset::Dataset;
-use ppum::decompose::Part;
+use ppum::decompose::FieldPart;
 use ppum::field::Field;
 use ppum::formula::Table;
 use ppum::function::{Frame, FunctionKind};
@@ -107,7 +107,7 @@ fn a_function_is_not_asked_where_it_is_not_used() {
     let Some(mut renderer) = renderer_or_skip() else { return };
     let mut dataset = dataset();
     let step = &mut dataset.steps[0];
-    let jumps = good(step.fields[0].part(Part::Jump, &step.functions));
+    let jumps = good(step.fields[0].part(FieldPart::Jump, &step.functions));
     step.fields[0] = jumps;
     // negative everywhere: no logarithm
     good(step.replace_function("one", "log(-1 - x^2)", &[]));

@@ -3,7 +3,7 @@
 use ppum::crack::CrackEnd;
 use ppum::dataset::Dataset;
 use ppum::field::Field;
-use ppum_gpu::{Drawn, Method, Program, Values};
+use ppum_gpu::{Method, Program, QueuedOutput, Values};
 use ppum_testkit::synthetic::{Recipe, crack, kinked};
 
 use crate::{bits, check, good, quantity, renderer_or_skip, view, window};
@@ -39,7 +39,7 @@ fn steps_are_drawn_by_turns() {
         programs.push(good(renderer.compile(&scene, stress, method)));
     }
     let turns = [0, 1, 2, 1, 0, 2, 2, 0];
-    let mut begun: Vec<(usize, Drawn<Values>)> = Vec::new();
+    let mut begun: Vec<(usize, QueuedOutput<Values>)> = Vec::new();
     for step in turns {
         let drawn = renderer.draw(&mut programs[step], &view(&window()));
         begun.push((step, good(drawn)));

@@ -4,17 +4,17 @@ use std::collections::BTreeSet;
 
 use ppum::field::Field;
 use ppum_gpu::testing::texts;
-use ppum_gpu::{Colors, Derivatives, Method, Shading, Values};
+use ppum_gpu::{Colors, Derivatives, Method, TransferFunction, Values};
 use ppum_render::picture::Style;
-use ppum_render::range::Range;
+use ppum_render::range::RangeChoice;
 use ppum_render::raster::Raster;
-use ppum_testkit::fields::{self, Case};
+use ppum_testkit::fields::{self, DrawingCase};
 use ppum_testkit::wgsl::Module;
 
 use crate::{METHODS, good, quantity};
 
 /// Validates the texts of a case that were not validated before.
-fn validate(case: &Case, known: &mut BTreeSet<String>) {
+fn validate(case: &DrawingCase, known: &mut BTreeSet<String>) {
     let field = good(Field::new(&case.dataset, 0));
     for (k, text) in case.quantities.iter().enumerate() {
         let quantity = quantity(text, &field);
@@ -38,11 +38,11 @@ fn validate(case: &Case, known: &mut BTreeSet<String>) {
 }
 
 /// Some colours.
-fn shading() -> Shading {
+fn shading() -> TransferFunction {
     let Style { colormap, scale, undefined, .. } = Style::default();
     let nothing = Raster::<f32>::new([0, 0], Vec::new());
-    let normalization = good(Range::Fixed(0.0, 1.0).normalization(scale, false, &nothing));
-    Shading { normalization, colormap, undefined }
+    let normalization = good(RangeChoice::Fixed(0.0, 1.0).normalization(scale, false, &nothing));
+    TransferFunction { normalization, colormap, undefined }
 }
 
 /// False for quantities of the partition alone, which need no field to be splatted.

@@ -13,8 +13,8 @@ use crate::error::ImportError;
 /// Most rows or columns of an inserted block.
 const MOST_COPIES: i64 = 1000;
 
-/// What an entity draws.
-pub(super) enum Shape {
+/// The curve that an entity draws.
+pub(super) enum EntityShape {
     Curve(PlaneCurve),
     Spline(BSpline),
     Insert(Insert),
@@ -50,15 +50,15 @@ impl Insert {
 /// A vertex of a polyline, with the bulge of the segment after it.
 type BulgedVertex = (Vec2, f64);
 
-/// What an entity draws. A polyline takes its vertices from the entities that follow.
+/// The curve that an entity draws. A polyline takes its vertices from the entities that follow.
 pub(super) fn shapes(
     entity: &Entity<'_>,
     entities: &mut Entities<'_>,
-) -> Result<Vec<Shape>, ImportError> {
+) -> Result<Vec<EntityShape>, ImportError> {
     let vertices =
         if entity.kind == "POLYLINE" { polyline(entity, entities)? } else { Some(Vec::new()) };
     let Some(side) = side(entity)? else {
-        return Ok(vec![Shape::Unread(format!("{} out of the plane", entity.kind))]);
+        return Ok(vec![EntityShape::Unread(format!("{} out of the plane", entity.kind))]);
     };
     let mut shapes = match (entity.kind, vertices) {
         ("LINE", _) => vec![line(entity)?],
@@ -68,10 +68,10 @@ pub(super) fn shapes(
         ("LWPOLYLINE", _) => bulged(&light_vertices(entity)?, entity.flag(70, 1)?),
         ("POLYLINE", Some(vertices)) => bulged(&vertices, entity.flag(70, 1)?),
         ("SPLINE", _) => vec![spline(entity)?],
-        ("INSERT", _) => vec![Shape::Insert(insert(entity, side)?)],
+        ("INSERT", _) => vec![EntityShape::Insert(insert(entity, side)?)],
         // points and what ends a polyline draw nothing
         ("POINT" | "VERTEX" | "SEQEND" | "ATTRIB" | "VIEWPORT", _) => Vec::new(),
-        (kind, _) => vec![Shape::Unread(kind.to_owned())],
+        (kind, _) => vec![EntityShape::Unread(kind.to_owned())],
     };
     if side < 0.0 && !matches!(entity.kind, "LINE" | "ELLIPSE" | "SPLINE" | "INSERT") {
         shapes.iter_mut().for_each(mirror);
@@ -86,27 +86,27 @@ fn side(entity: &Entity<'_>) -> Result<Option<f64>, ImportError> {
 }
 
 /// Own coordinates of a plane seen from behind.
-fn mirror(shape: &mut Shape) {
-    if let Shape::Curve(curve) = shape {
+fn mirror(shape: &mut EntityShape) {
+    if let EntityShape::Curve(curve) = shape {
         *curve = curve.mapped(&PlaneMap::scaling(-1.0, 1.0));
     }
 }
 
-fn line(entity: &Entity<'_>) -> Result<Shape, ImportError> {
-    Ok(Shape::Curve(PlaneCurve::Polyline(vec![entity.point(10)?, entity.point(11)?])))
+fn line(entity: &Entity<'_>) -> Result<EntityShape, ImportError> {
+    Ok(EntityShape::Curve(PlaneCurve::Polyline(vec![entity.point(10)?, entity.point(11)?])))
 }
 
 /// An arc of a circle, counter-clockwise between angles in degrees; nothing without a radius.
-fn arc(entity: &Entity<'_>, [from, to]: [f64; 2]) -> Result<Vec<Shape>, ImportError> {
+fn arc(entity: &Entity<'_>, [from, to]: [f64; 2]) -> Result<Vec<EntityShape>, ImportError> {
     let radius = entity.number(40, 0.0)?;
     let turn = (to - from).rem_euclid(360.0);
     let range = [from, from + if turn > 0.0 { turn } else { 360.0 }].map(f64::to_radians);
     let range = if turn > 0.0 { range } else { [range[0], range[0] + TAU] };
     let arc = EllipseArc::circle(entity.point(10)?, radius, range);
-    Ok(if radius > 0.0 { vec![Shape::Curve(PlaneCurve::Arc(arc))] } else { Vec::new() })
+    Ok(if radius > 0.0 { vec![EntityShape::Curve(PlaneCurve::Arc(arc))] } else { Vec::new() })
 }
 
-fn ellipse(entity: &Entity<'_>, side: f64) -> Result<Shape, ImportError> {
+fn ellipse(entity: &Entity<'_>, side: f64) -> Result<EntityShape, ImportError> {
     let major = entity.point(11)?;
     let minor = major.left() * (side * entity.number(40, 1.0)?);
     let [from, to] = [entity.number(41, 0.0)?, entity.number(42, TAU)?];
@@ -119,7 +119,7 @@ fn ellipse(entity: &Entity<'_>, side: f64) -> Result<Shape, ImportError> {
             "the ellipse has an axis of length 0; repair or remove it",
         ));
     }
-    Ok(Shape::Curve(PlaneCurve::Arc(EllipseArc {
+    Ok(EntityShape::Curve(PlaneCurve::Arc(EllipseArc {
         center: entity.point(10)?,
         radii: [major, minor],
         range,
@@ -167,36 +167,36 @@ fn polyline(
 }
 
 /// The straight runs and arcs of a polyline.
-fn bulged(vertices: &[BulgedVertex], is_closed: bool) -> Vec<Shape> {
+fn bulged(vertices: &[BulgedVertex], is_closed: bool) -> Vec<EntityShape> {
     let next = vertices.iter().skip(1).chain(vertices.first().filter(|_| is_closed));
-    let mut shapes: Vec<Shape> = Vec::new();
+    let mut shapes: Vec<EntityShape> = Vec::new();
     for ((a, bulge), (b, _)) in vertices.iter().zip(next).filter(|(a, b)| a.0 != b.0) {
         // an arc of a height of 1e-12 of its chord is a line
         if bulge.abs() > 1e-12 {
-            shapes.push(Shape::Curve(PlaneCurve::Arc(EllipseArc::bulged(*a, *b, *bulge))));
-        } else if let Some(Shape::Curve(PlaneCurve::Polyline(run))) = shapes.last_mut() {
+            shapes.push(EntityShape::Curve(PlaneCurve::Arc(EllipseArc::bulged(*a, *b, *bulge))));
+        } else if let Some(EntityShape::Curve(PlaneCurve::Polyline(run))) = shapes.last_mut() {
             run.push(*b);
         } else {
-            shapes.push(Shape::Curve(PlaneCurve::Polyline(vec![*a, *b])));
+            shapes.push(EntityShape::Curve(PlaneCurve::Polyline(vec![*a, *b])));
         }
     }
     shapes
 }
 
 /// A spline by control points, or else through its fit points.
-fn spline(entity: &Entity<'_>) -> Result<Shape, ImportError> {
+fn spline(entity: &Entity<'_>) -> Result<EntityShape, ImportError> {
     let (points, mut through) = (entity.points(10)?, entity.points(11)?);
     let degree = usize::try_from(entity.whole(71)?.unwrap_or(3)).unwrap_or(0);
     if let Some(spline) = BSpline::new(degree, entity.numbers(40)?, points, entity.numbers(41)?) {
-        return Ok(Shape::Spline(spline));
+        return Ok(EntityShape::Spline(spline));
     }
     through.dedup();
     Ok(match through.len() {
-        0 | 1 => {
-            Shape::Unread("SPLINE whose knots, points and degree do not fit together".to_owned())
-        }
-        2 => Shape::Curve(PlaneCurve::Polyline(through)),
-        _ => Shape::Through(PlaneCurve::Spline(through)),
+        0 | 1 => EntityShape::Unread(
+            "SPLINE whose knots, points and degree do not fit together".to_owned(),
+        ),
+        2 => EntityShape::Curve(PlaneCurve::Polyline(through)),
+        _ => EntityShape::Through(PlaneCurve::Spline(through)),
     })
 }
 

@@ -13,7 +13,7 @@ use crate::affine::PlaneMap;
 use crate::error::ImportError;
 use crate::sketch::{NamedCurve, Sketch};
 use crate::source::SourceLine;
-use entity::{Insert, Shape};
+use entity::{EntityShape, Insert};
 use pairs::{Entities, Entity, Pairs};
 
 /// Deepest nesting of blocks in blocks.
@@ -23,24 +23,24 @@ const DEEPEST: usize = 16;
 const MOST_INSERTED: usize = 1 << 20;
 
 /// An entity as it is drawn.
-struct Drawn {
-    shape: Shape,
+struct EntityDrawing {
+    shape: EntityShape,
     layer: String,
     source: SourceLine,
 }
 
 /// A block: entities around a base point.
 #[derive(Default)]
-struct Block {
+struct DxfBlock {
     base: Vec2,
-    entities: Vec<Drawn>,
+    entities: Vec<EntityDrawing>,
 }
 
 /// The file, section by section.
 #[derive(Default)]
-struct Document {
-    model: Block,
-    blocks: BTreeMap<String, Block>,
+struct DxfDocument {
+    model: DxfBlock,
+    blocks: BTreeMap<String, DxfBlock>,
     sketch: Sketch,
     inserted: usize,
 }
@@ -59,7 +59,7 @@ pub(crate) fn read(text: &str) -> Result<Sketch, ImportError> {
         let message = "is a binary DXF file, which is not read; save it as text (ASCII DXF)";
         return Err(ImportError::syntax(SourceLine::new(1), message));
     }
-    let mut document = Document { sketch: Sketch::layered(), ..Document::default() };
+    let mut document = DxfDocument { sketch: Sketch::layered(), ..DxfDocument::default() };
     document.read(Entities::new(Pairs::new(text)))?;
     let model = std::mem::take(&mut document.model);
     let blocks = std::mem::take(&mut document.blocks);
@@ -67,7 +67,7 @@ pub(crate) fn read(text: &str) -> Result<Sketch, ImportError> {
     Ok(document.sketch)
 }
 
-impl Document {
+impl DxfDocument {
     fn read(&mut self, mut entities: Entities<'_>) -> Result<(), ImportError> {
         let (mut section, mut block) = (String::new(), None);
         while let Some(entity) = entities.next().transpose()? {
@@ -82,7 +82,7 @@ impl Document {
                     let name = entity.text(2).unwrap_or_default().to_owned();
                     self.blocks.insert(
                         name.clone(),
-                        Block { base: entity.point(10)?, entities: Vec::new() },
+                        DxfBlock { base: entity.point(10)?, entities: Vec::new() },
                     );
                     block = Some(name);
                 }
@@ -114,41 +114,44 @@ impl Document {
         }
     }
 
-    /// What an entity of model space draws.
-    fn drawn(entity: &Entity<'_>, entities: &mut Entities<'_>) -> Result<Vec<Drawn>, ImportError> {
+    /// Returns the curves that an entity of model space draws.
+    fn drawn(
+        entity: &Entity<'_>,
+        entities: &mut Entities<'_>,
+    ) -> Result<Vec<EntityDrawing>, ImportError> {
         let shapes = entity::shapes(entity, entities)?;
         if entity.whole(67)? == Some(1) || entity.whole(60)? == Some(1) {
             return Ok(Vec::new());
         }
         let layer = entity.text(8).unwrap_or("0").to_owned();
         let source = entity.source();
-        let drawn = |shape| Drawn { shape, layer: layer.clone(), source };
+        let drawn = |shape| EntityDrawing { shape, layer: layer.clone(), source };
         Ok(shapes.into_iter().map(drawn).collect())
     }
 
     /// Adds the curves of a block.
     fn draw(
         &mut self,
-        block: &Block,
-        blocks: &BTreeMap<String, Block>,
+        block: &DxfBlock,
+        blocks: &BTreeMap<String, DxfBlock>,
         place: Placement<'_>,
     ) -> Result<(), ImportError> {
-        for Drawn { shape, layer, source } in &block.entities {
+        for EntityDrawing { shape, layer, source } in &block.entities {
             let layer = if layer == "0" { place.layer } else { layer };
             let name = Some(layer.to_owned());
             self.count()?;
             match shape {
-                Shape::Unread(kind) => self.sketch.leave(kind.as_str(), *source),
-                Shape::Curve(curve) | Shape::Through(curve) => {
-                    if matches!(shape, Shape::Through(_)) {
+                EntityShape::Unread(kind) => self.sketch.leave(kind.as_str(), *source),
+                EntityShape::Curve(curve) | EntityShape::Through(curve) => {
+                    if matches!(shape, EntityShape::Through(_)) {
                         self.sketch.remark("the SPLINE has fit points alone; other programs may draw it otherwise between them", *source);
                     }
                     self.sketch.add(NamedCurve::new(curve.mapped(&place.map), name, *source))?;
                 }
-                Shape::Spline(spline) => {
+                EntityShape::Spline(spline) => {
                     self.sketch.add_spline(spline.clone().mapped(&place.map), name, *source)?;
                 }
-                Shape::Insert(insert) => {
+                EntityShape::Insert(insert) => {
                     self.insert(insert, *source, blocks, Placement { layer, ..place })?;
                 }
             }
@@ -169,7 +172,7 @@ impl Document {
         &mut self,
         insert: &Insert,
         source: SourceLine,
-        blocks: &BTreeMap<String, Block>,
+        blocks: &BTreeMap<String, DxfBlock>,
         place: Placement<'_>,
     ) -> Result<(), ImportError> {
         let Some(block) = blocks.get(&insert.block).filter(|_| place.depth < DEEPEST) else {

@@ -1,9 +1,9 @@
 //! SVG: shapes and paths of a tree of groups, each with its transform. The y axis is turned up.
 
-mod drawn;
 mod number;
 mod path;
 mod shape;
+mod shapes;
 mod viewport;
 
 use std::collections::HashMap;
@@ -15,7 +15,7 @@ use crate::affine::PlaneMap;
 use crate::error::ImportError;
 use crate::sketch::{NamedCurve, Sketch};
 use crate::source::SourceLine;
-use drawn::SvgCurve;
+use shapes::SvgCurve;
 use viewport::Viewport;
 
 /// Most nodes of a file, and most elements that are drawn, those of each `<use>` counted.
@@ -32,9 +32,9 @@ const NOT_DRAWN: [&str; 8] =
 const SILENT: [&str; 9] =
     ["svg", "symbol", "g", "a", "switch", "title", "desc", "namedview", "script"];
 
-/// What an element inherits.
+/// The style that an element inherits.
 #[derive(Clone)]
-struct Inherited<'a, 'input> {
+struct InheritedStyle<'a, 'input> {
     map: PlaneMap,
     name: Option<String>,
     is_visible: bool,
@@ -90,7 +90,7 @@ impl<'a, 'input> SvgReader<'a, 'input> {
 
     /// All elements, in the order of the file; those of a `<use>` in its place.
     fn read(&mut self, root: Node<'a, 'input>, view: Vec2) -> Result<(), ImportError> {
-        let page = Inherited {
+        let page = InheritedStyle {
             map: PlaneMap::IDENTITY,
             name: None,
             is_visible: true,
@@ -130,8 +130,8 @@ impl<'a, 'input> SvgReader<'a, 'input> {
     fn used(
         &mut self,
         node: Node<'a, 'input>,
-        own: &Inherited<'a, 'input>,
-    ) -> Result<Option<(Node<'a, 'input>, Inherited<'a, 'input>)>, String> {
+        own: &InheritedStyle<'a, 'input>,
+    ) -> Result<Option<(Node<'a, 'input>, InheritedStyle<'a, 'input>)>, String> {
         let href = node.attributes().find(|attribute| attribute.name() == "href");
         let id = href.map(|href| href.value().trim().trim_start_matches('#'));
         let Some(target) = id.and_then(|id| self.by_id.get(id)) else {
@@ -144,7 +144,8 @@ impl<'a, 'input> SvgReader<'a, 'input> {
         }
         let [x, y] = shape::lengths(node, own.view, ["x", "y"])?;
         let map = own.map.after(&PlaneMap::shifting(vec2(x, y)));
-        let inherited = Inherited { map, uses: own.uses + 1, used_by: Some(node), ..own.clone() };
+        let inherited =
+            InheritedStyle { map, uses: own.uses + 1, used_by: Some(node), ..own.clone() };
         Ok(Some((*target, inherited)))
     }
 
@@ -162,7 +163,7 @@ impl<'a, 'input> SvgReader<'a, 'input> {
     fn element(
         &mut self,
         node: Node<'_, '_>,
-        own: &Inherited<'_, '_>,
+        own: &InheritedStyle<'_, '_>,
         source: SourceLine,
     ) -> Result<(), ImportError> {
         let tag = node.tag_name().name();
@@ -205,8 +206,9 @@ impl<'a, 'input> SvgReader<'a, 'input> {
     }
 }
 
-impl Inherited<'_, '_> {
-    /// What the children of an element inherit, and what holds for itself.
+impl InheritedStyle<'_, '_> {
+    /// Returns the style that the children of an element inherit, and the values that hold for
+    /// itself.
     fn inner(&self, node: Node<'_, '_>) -> Result<Self, String> {
         let own = number::transform(node.attribute("transform").unwrap_or_default())
             .ok_or("`transform` is not as SVG says; repair the file")?;

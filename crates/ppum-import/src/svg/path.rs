@@ -4,15 +4,15 @@ use std::f64::consts::TAU;
 
 use ppum::vec2::{Vec2, vec2};
 
-use super::drawn::SvgCurve;
 use super::number::take;
+use super::shapes::SvgCurve;
 use crate::affine::PlaneMap;
 use crate::bspline::BSpline;
 use crate::curve::{EllipseArc, PlaneCurve};
 
 /// The pen of a path.
 #[derive(Default)]
-struct Pen {
+struct PathCursor {
     at: Vec2,
     /// Where the current part of the path began.
     start: Vec2,
@@ -24,7 +24,7 @@ struct Pen {
 
 /// The curves of the attribute `d`; segments that follow each other are one polyline.
 pub(super) fn curves(d: &str) -> Result<Vec<SvgCurve>, String> {
-    let (mut rest, mut pen, mut command) = (d, Pen::default(), ' ');
+    let (mut rest, mut pen, mut command) = (d, PathCursor::default(), ' ');
     loop {
         rest = rest.trim_start_matches(|c: char| c.is_whitespace() || c == ',');
         let Some(first) = rest.chars().next() else { break };
@@ -52,7 +52,7 @@ pub(super) fn curves(d: &str) -> Result<Vec<SvgCurve>, String> {
     Ok(pen.curves)
 }
 
-impl Pen {
+impl PathCursor {
     /// Draws one segment; nothing if the text has no numbers for it.
     fn draw(&mut self, command: char, rest: &mut &str) -> Option<()> {
         let origin = if command.is_ascii_lowercase() { self.at } else { Vec2::ZERO };

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, TAU};
 use ppum::vec2::{Vec2, vec2};
 use roxmltree::Node;
 
-use super::drawn::SvgCurve;
+use super::shapes::SvgCurve;
 use super::{number, path};
 use crate::curve::{EllipseArc, PlaneCurve};
 

@@ -1,4 +1,4 @@
-//! What a page offers of a dataset.
+//! The choices that a page offers of a dataset.
 
 use ppum::crack::tips;
 use ppum::field::Field;
@@ -10,13 +10,13 @@ use ppum_scene::scene::{OF_PATCHES, default_quantity, shown};
 
 use super::Evaluator;
 use crate::error::PageError;
-use crate::messages::{Choice, Description};
+use crate::messages::{Description, PageChoice};
 
 /// The name in lists that stands for the partition functions of all patches.
 const ANY_PATCH: &str = "phi:N";
 
 impl Evaluator<'_> {
-    /// What is in the dataset, and in one of its steps.
+    /// Describes the dataset, and one of its steps.
     ///
     /// # Errors
     /// No such step.
@@ -40,19 +40,19 @@ impl Evaluator<'_> {
     }
 }
 
-fn quantities(field: &Field<'_>) -> Vec<Choice> {
+fn quantities(field: &Field<'_>) -> Vec<PageChoice> {
     let names = available(field).into_iter().filter(|name| name != ANY_PATCH);
     names
         .filter_map(|text| {
             let [label, unit] = shown(&text, field).ok()?.words(field);
             let label = if unit.is_empty() { label } else { format!("{label} [{unit}]") };
-            Some(Choice { text, label })
+            Some(PageChoice { text, label })
         })
         .collect()
 }
 
-fn cells_of(field: &Field<'_>) -> Vec<Choice> {
-    let choice = |name: String| Choice {
+fn cells_of(field: &Field<'_>) -> Vec<PageChoice> {
+    let choice = |name: String| PageChoice {
         label: cells::label(&name).to_owned(),
         text: format!("{OF_PATCHES}{name}"),
     };

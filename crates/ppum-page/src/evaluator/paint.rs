@@ -6,34 +6,34 @@ use ppum_figure::figure::{axis_label, bare};
 use ppum_figure::ticks;
 use ppum_render::colormap::Colormap;
 use ppum_render::image::{Image, Rgba};
-use ppum_render::picture::Picture;
-use ppum_render::range::ValueSpan;
+use ppum_render::picture::ColoredRaster;
+use ppum_render::range::ColorRange;
 use ppum_render::raster::Raster;
 use ppum_render::samples::Samples;
 use ppum_render::view::View;
 use ppum_scene::command;
-use ppum_scene::drawing::{DrawingInput, Drawn, PROCESSOR, RasterValues};
+use ppum_scene::drawing::{DrawingInput, PROCESSOR, PixelValues, RasterValues};
 use ppum_scene::engine::Engine;
-use ppum_scene::layers::Ground;
+use ppum_scene::layers::LayerInput;
+use ppum_scene::location::number;
 use ppum_scene::mirror::MirrorLines;
-use ppum_scene::place::Place;
-use ppum_scene::range::Telling;
+use ppum_scene::place::ViewRegion;
+use ppum_scene::range::RangeLocations;
 use ppum_scene::request::Request;
-use ppum_scene::shared::Coloring;
-use ppum_scene::shot::{FieldSource, Input};
-use ppum_scene::spot::number;
+use ppum_scene::shared::ColorMapping;
+use ppum_scene::shot::{FieldSource, ImageInput};
 
-use super::{Evaluator, KnownRange, Subject, prepared};
+use super::{Evaluator, KnownRange, PageSubject, prepared};
 use crate::error::PageError;
-use crate::messages::{Frame, Legend, Tick};
+use crate::messages::{PageFrame, PageLegend, PageTick};
 
 /// An image with its colour bar.
 #[derive(Clone, Debug)]
-pub struct Painted {
+pub struct PageImage {
     /// The pixels.
     pub image: Image,
     /// The colour bar.
-    pub legend: Legend,
+    pub legend: PageLegend,
     /// The values, which other colours may be given.
     pub values: Vec<f64>,
 }
@@ -46,13 +46,13 @@ const COLORS: usize = 64;
 const DIGITS: usize = 4;
 
 impl Evaluator<'_> {
-    /// The image of values: that of `ppum render`. Of a quantity there is one value for each pixel,
-    /// row by row; values of cells are found here, whatever is given.
+    /// The image of values: that of `ppum render`. A quantity has one value for each pixel, row by
+    /// row; values of cells are found here, whatever is given.
     ///
     /// # Errors
-    /// What the dataset does not have; values that are not one for each pixel; a range that does
-    /// not fit the scale.
-    pub fn paint(&mut self, frame: &Frame, values: Vec<f64>) -> Result<Painted, PageError> {
+    /// A quantity that the dataset does not have; values that are not one for each pixel; a range
+    /// that does not fit the scale.
+    pub fn paint(&mut self, frame: &PageFrame, values: Vec<f64>) -> Result<PageImage, PageError> {
         let view = frame.view.checked().map_err(PageError::shot)?;
         let subject = &*prepared(&mut self.subject, self.dataset, &frame.scene)?;
         let engine = Engine::processor(unwatched());
@@ -67,35 +67,36 @@ impl Evaluator<'_> {
             None => input.coloring(&scene.colors, &drawn, &engine),
             Some(KnownRange { span, .. }) => {
                 let style = source.style(input.shown, &scene.colors, &drawn);
-                Ok(Coloring { style: style.map_err(PageError::shot)?, span, ends: None })
+                Ok(ColorMapping { style: style.map_err(PageError::shot)?, span, ends: None })
             }
         };
         let coloring = coloring.map_err(PageError::shot)?;
         let picture = coloring.picture(&drawn).map_err(PageError::shot)?;
-        let ground = Ground { has_bar: true, ..input.ground(&picture, &drawn.values) };
+        let ground = LayerInput { has_bar: true, ..input.ground(&picture, &drawn.values) };
         let layers = input.layers(scene, ground, unwatched());
         let layers = layers.map_err(|error| PageError::shot(Box::new(error)))?;
         layers.notices.into_iter().for_each(|notice| engine.tell(notice));
         let notices = engine.into_notices().iter().map(ToString::to_string).collect();
-        let legend = Legend { notices, command: command(frame, &view), ..legend(&input, &picture) };
+        let legend =
+            PageLegend { notices, command: command(frame, &view), ..legend(&input, &picture) };
         self.last = Some(KnownRange::new(subject, frame, coloring.span));
         let image = bare(&picture, layers.items).image();
         let values = match drawn.values {
             RasterValues::Double(raster) => raster.values,
             RasterValues::Single(_) => Vec::new(),
         };
-        Ok(Painted { image, legend, values })
+        Ok(PageImage { image, legend, values })
     }
 }
 
 impl KnownRange {
-    fn new(subject: &Subject<'_>, frame: &Frame, span: ValueSpan) -> Self {
+    fn new(subject: &PageSubject<'_>, frame: &PageFrame, span: ColorRange) -> Self {
         let (step, text) = (subject.step, subject.text.clone());
         Self { step, text, colors: frame.scene.colors.clone(), span }
     }
 
     /// True if an image keeps this range, which was found for the same quantity and colours.
-    fn is_kept(&self, subject: &Subject<'_>, frame: &Frame) -> bool {
+    fn is_kept(&self, subject: &PageSubject<'_>, frame: &PageFrame) -> bool {
         frame.keeps_range
             && (self.step, &self.text) == (subject.step, &subject.text)
             && self.colors == frame.scene.colors
@@ -103,7 +104,11 @@ impl KnownRange {
 }
 
 /// The values of an image: those that are given where they are known by rows.
-fn drawn(input: &Input<'_>, values: Vec<f64>, engine: &Engine<'_>) -> Result<Drawn, PageError> {
+fn drawn(
+    input: &ImageInput<'_>,
+    values: Vec<f64>,
+    engine: &Engine<'_>,
+) -> Result<PixelValues, PageError> {
     let (view, field) = (*input.seen.view(), input.source.field);
     let is_by_rows = input.seen.factor().is_none() && input.seen.lines == MirrorLines::default();
     let drawn = match input.shown.quantity().filter(|_| is_by_rows) {
@@ -116,7 +121,7 @@ fn drawn(input: &Input<'_>, values: Vec<f64>, engine: &Engine<'_>) -> Result<Dra
             let mut values = Some(values);
             let given = &mut |_: DrawingInput<'_>, _| {
                 let raster = Raster::new(view.pixels, values.take().unwrap_or_default());
-                Ok(Drawn::new(raster, field, &view, PROCESSOR))
+                Ok(PixelValues::new(raster, field, &view, PROCESSOR))
             };
             input.values_by(Samples::CENTER, given, unwatched())
         }
@@ -127,14 +132,14 @@ fn drawn(input: &Input<'_>, values: Vec<f64>, engine: &Engine<'_>) -> Result<Dra
 }
 
 /// The command that draws an image.
-fn command(Frame { scene, file, .. }: &Frame, view: &View) -> String {
+fn command(PageFrame { scene, file, .. }: &PageFrame, view: &View) -> String {
     let mut request = Request::from(scene.drawn());
-    (request.place, request.look.size) = (Place::of(view), Some(view.pixels));
+    (request.place, request.look.size) = (ViewRegion::of(view), Some(view.pixels));
     command::line(&command::render(&request, file, "image.png"))
 }
 
 /// The colour bar, without notices and command.
-fn legend(input: &Input<'_>, picture: &Picture) -> Legend {
+fn legend(input: &ImageInput<'_>, picture: &ColoredRaster) -> PageLegend {
     let FieldSource { dataset, field, .. } = input.source;
     let (norm, map) = (&picture.normalization, &picture.colormap);
     let ticks = match picture.one_value {
@@ -144,26 +149,26 @@ fn legend(input: &Input<'_>, picture: &Picture) -> Legend {
     let [name, unit] = input.source.words(input.shown);
     let beyond = |has: bool, color: Rgba| has.then(|| hex(color));
     let extreme = |value: Option<f64>| value.map(|value| number(value, DIGITS));
-    Legend {
+    PageLegend {
         label: axis_label(&name, &ticks, &unit),
         range: [norm.min(), norm.max()],
         colors: colors(map),
         beyond: [beyond(picture.has_below, map.below), beyond(picture.has_above, map.above)],
         extremes: picture.span.beyond().map(extreme),
-        sentence: Telling::new(dataset, field).colors(picture),
+        sentence: RangeLocations::new(dataset, field).colors(picture),
         command: String::new(),
         notices: Vec::new(),
         ticks: match map.classes() {
-            [] => ticks.major.into_iter().map(|t| Tick { at: t.at, label: t.label }).collect(),
+            [] => ticks.major.into_iter().map(|t| PageTick { at: t.at, label: t.label }).collect(),
             classes => class_ticks(classes),
         },
     }
 }
 
 /// A label in the middle of the colour of each class.
-fn class_ticks(classes: &[f64]) -> Vec<Tick> {
+fn class_ticks(classes: &[f64]) -> Vec<PageTick> {
     let at = |k: usize| (k as f64 + 0.5) / classes.len() as f64;
-    classes.iter().enumerate().map(|(k, v)| Tick { at: at(k), label: trimmed(*v) }).collect()
+    classes.iter().enumerate().map(|(k, v)| PageTick { at: at(k), label: trimmed(*v) }).collect()
 }
 
 /// The colours of the bar, of classes and bands one each.

@@ -1,4 +1,4 @@
-//! Rules for conditions on the border.
+//! Rules for conditions on the boundary.
 
 use std::collections::BTreeMap;
 
@@ -7,39 +7,46 @@ use ppum::domain::Domain;
 use ppum::segment::Segment;
 use ppum::vec2::Rect;
 
-use super::super::boundary::{BorderPart, BoundaryCondition, Edge, Piece, SideRun};
-use super::super::key::{Key, MistakeAt, no_such};
+use super::super::boundary::{
+    BoundaryCondition, BoundaryPart, BoundaryPiece, BoundaryRange, DomainEdge,
+};
+use super::super::key::{InvalidValue, Key, no_such};
 use super::super::model::ProblemData;
 use crate::geometry::{clipped, solid_part, wider};
 use ppum::border::touch;
 
-/// All rules broken by the conditions on the border.
-pub(super) fn check_boundary(problem: &ProblemData) -> Vec<MistakeAt> {
+/// All rules broken by the conditions on the boundary.
+pub(super) fn check_boundary(problem: &ProblemData) -> Vec<InvalidValue> {
     let parts = problem.boundary.iter().enumerate();
     let mut found: Vec<_> = parts.filter_map(|(k, part)| check_part(k, part, problem)).collect();
     found.extend(check_contradictions(problem));
     found
 }
 
-/// A component of which a condition says something, on a stretch of a part of the border.
-struct Claim {
+/// A component of which a condition says something, on a stretch of a part of the boundary.
+struct ConditionStretch {
     /// Kind and number of the part, face, component.
     place: (u8, usize, u8, usize),
     stretch: [f64; 2],
     condition: usize,
 }
 
-fn claims(index: usize, condition: &BoundaryCondition, pieces: &[Piece]) -> Vec<Claim> {
+fn claims(
+    index: usize,
+    condition: &BoundaryCondition,
+    pieces: &[BoundaryPiece],
+) -> Vec<ConditionStretch> {
     let [both, above, below] = [vec![0, 1], vec![0], vec![1]];
-    let run = |&SideRun { hole, from, to }: &SideRun| (1, hole, [from as f64, to as f64]);
+    let run =
+        |&BoundaryRange { hole, from, to }: &BoundaryRange| (1, hole, [from as f64, to as f64]);
     let (faces, parts) = match condition.on {
-        BorderPart::Edge { edge, from, to } => (above, vec![(0, edge as usize, [from, to])]),
-        BorderPart::Hole(hole) => (above, vec![(1, hole, [0.0, f64::INFINITY])]),
-        BorderPart::Sides(sides) => (above, vec![run(&sides)]),
-        BorderPart::Piece(piece) => {
+        BoundaryPart::Edge { edge, from, to } => (above, vec![(0, edge as usize, [from, to])]),
+        BoundaryPart::Hole(hole) => (above, vec![(1, hole, [0.0, f64::INFINITY])]),
+        BoundaryPart::Sides(sides) => (above, vec![run(&sides)]),
+        BoundaryPart::Piece(piece) => {
             (above, pieces.get(piece).iter().flat_map(|piece| &piece.runs).map(run).collect())
         }
-        BorderPart::Crack { crack, face } => {
+        BoundaryPart::Crack { crack, face } => {
             let faces = face.map_or(both, |side| if side == Side::Above { above } else { below });
             (faces, vec![(2, crack, [0.0, 1.0])])
         }
@@ -47,7 +54,7 @@ fn claims(index: usize, condition: &BoundaryCondition, pieces: &[Piece]) -> Vec<
     let components = (0..condition.components.len()).filter(|&k| condition.says(k));
     let places = components.flat_map(|k| faces.iter().map(move |&face| (face, k)));
     let claim = |(face, component): (u8, usize)| {
-        parts.iter().map(move |&(kind, number, stretch)| Claim {
+        parts.iter().map(move |&(kind, number, stretch)| ConditionStretch {
             place: (kind, number, face, component),
             stretch,
             condition: index,
@@ -56,9 +63,9 @@ fn claims(index: usize, condition: &BoundaryCondition, pieces: &[Piece]) -> Vec<
     places.flat_map(claim).collect()
 }
 
-/// No component is given twice at a place. Of the conditions that an earlier one contradicts each
-/// is told once.
-fn check_contradictions(problem: &ProblemData) -> Vec<MistakeAt> {
+/// Finds components that are given twice at a place. Each condition that an earlier one contradicts
+/// is listed once.
+fn check_contradictions(problem: &ProblemData) -> Vec<InvalidValue> {
     let (boundary, pieces) = (&problem.boundary, problem.pieces());
     let mut all: Vec<_> =
         boundary.iter().enumerate().flat_map(|(k, part)| claims(k, part, pieces)).collect();
@@ -91,22 +98,22 @@ fn check_part(
     index: usize,
     condition: &BoundaryCondition,
     problem: &ProblemData,
-) -> Option<MistakeAt> {
+) -> Option<InvalidValue> {
     let (holes, cracks) = (problem.domain().holes.len(), problem.cracks().len());
     let message = match condition.on {
-        part @ BorderPart::Edge { edge, from, to } => {
+        part @ BoundaryPart::Edge { edge, from, to } => {
             bad_range(edge, [from, to], &problem.domain().bounds)
                 .or_else(|| (!reaches_body(part, problem)).then(|| NOTHING_THERE.to_owned()))?
         }
-        BorderPart::Hole(hole) if hole >= holes => no_such("hole", hole, holes),
-        BorderPart::Piece(piece) if piece >= problem.pieces().len() => {
+        BoundaryPart::Hole(hole) if hole >= holes => no_such("hole", hole, holes),
+        BoundaryPart::Piece(piece) if piece >= problem.pieces().len() => {
             no_such("piece", piece, problem.pieces().len())
         }
-        BorderPart::Sides(run) if !is_of(run, problem) => {
+        BoundaryPart::Sides(run) if !is_of(run, problem) => {
             format!("there is no hole {} with sides {} to {}", run.hole, run.from, run.to)
         }
-        BorderPart::Crack { crack, .. } if crack >= cracks => no_such("crack", crack, cracks),
-        BorderPart::Crack { .. } if condition.fixed().contains(&true) => {
+        BoundaryPart::Crack { crack, .. } if crack >= cracks => no_such("crack", crack, cracks),
+        BoundaryPart::Crack { .. } if condition.fixed().contains(&true) => {
             let remedy = if problem.components() == 1 {
                 "flux or an exchange"
             } else {
@@ -123,8 +130,8 @@ fn check_part(
 const NOTHING_THERE: &str = "nothing of the body is there: it lies in holes, or outside of the outline or the box; leave this [[boundary]] \
      out, or name another part";
 
-/// True if some of a part of the border bounds the body.
-fn reaches_body(part: BorderPart, problem: &ProblemData) -> bool {
+/// True if some of a part of the boundary bounds the body.
+fn reaches_body(part: BoundaryPart, problem: &ProblemData) -> bool {
     let Domain { bounds, holes } = problem.domain();
     let near = wider(bounds, touch(bounds));
     let is_solid = |([a, b], own): (Segment, Option<usize>)| {
@@ -132,18 +139,18 @@ fn reaches_body(part: BorderPart, problem: &ProblemData) -> bool {
         clipped(a, b, &near).is_some_and(|range| solid_part(a, b, range, others) > 0.0)
     };
     match part {
-        BorderPart::Hole(hole) if holes[hole].sides().next().is_none() => true,
-        BorderPart::Crack { .. } => true,
+        BoundaryPart::Hole(hole) if holes[hole].sides().next().is_none() => true,
+        BoundaryPart::Crack { .. } => true,
         _ => problem.sides_of(part).into_iter().any(is_solid),
     }
 }
 
-fn is_of(run: SideRun, problem: &ProblemData) -> bool {
+fn is_of(run: BoundaryRange, problem: &ProblemData) -> bool {
     let count = problem.domain().holes.get(run.hole).map_or(0, |hole| hole.sides().count());
     run.from < run.to && run.to <= count
 }
 
-fn bad_range(edge: Edge, [from, to]: [f64; 2], domain: &Rect) -> Option<String> {
+fn bad_range(edge: DomainEdge, [from, to]: [f64; 2], domain: &Rect) -> Option<String> {
     let [first, last] = edge.range(domain);
     if from >= to {
         return Some(format!("`from` is {from} and `to` is {to}, but `to` must exceed `from`"));
@@ -170,7 +177,7 @@ fn contradiction(
         _ => format!("the {} component", ["x", "y"][component]),
     };
     let remedy = match place {
-        BorderPart::Edge { .. } => "divide the edge by `from` and `to`, or leave",
+        BoundaryPart::Edge { .. } => "divide the edge by `from` and `to`, or leave",
         _ => "leave",
     };
     let place = problem.words_of(place);

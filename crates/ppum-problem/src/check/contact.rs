@@ -1,20 +1,20 @@
 //! Rules for cracks whose faces may touch.
 
-use super::super::boundary::BorderPart;
-use super::super::key::{Key, MistakeAt, no_such};
+use super::super::boundary::BoundaryPart;
+use super::super::key::{InvalidValue, Key, no_such};
 use super::super::model::ProblemData;
 
 /// All rules broken by cracks whose faces may touch.
-pub(super) fn check_contact(problem: &ProblemData) -> Vec<MistakeAt> {
+pub(super) fn check_contact(problem: &ProblemData) -> Vec<InvalidValue> {
     let contact = |crack: usize| Key::new("crack").index(crack).name("contact");
     let of_crack = |(crack, _)| Some(contact(crack).mistake(bad_crack(problem, crack)?));
-    let mut found: Vec<MistakeAt> = problem.body.contacts().filter_map(of_crack).collect();
+    let mut found: Vec<InvalidValue> = problem.body.contacts().filter_map(of_crack).collect();
     for (crack, friction) in problem.body.contacts() {
         let key = Key::new("crack").index(crack).name("friction");
         found.extend(key.out_of_range(friction));
     }
     for (index, condition) in problem.boundary.iter().enumerate() {
-        let BorderPart::Crack { crack, .. } = condition.on else { continue };
+        let BoundaryPart::Crack { crack, .. } = condition.on else { continue };
         if problem.body.contact(crack as u32).is_some() {
             let message = "the faces of this crack may touch, and press on each other with what is not known \
                            before; leave this [[boundary]] out, or leave `contact` out";

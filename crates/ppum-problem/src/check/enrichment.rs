@@ -2,17 +2,17 @@
 
 use ppum::crack::{Crack, CrackEnd, tips};
 use ppum::formula::{Formula, FormulaJets};
-use ppum::function::{Declared, function_scope};
+use ppum::function::{NonsmoothPoints, function_scope};
 use ppum::vec2::{Rect, Vec2};
 
-use super::super::enrichment::{LocalEnrichment, Region, Site};
+use super::super::enrichment::{EnrichmentRegion, LocalEnrichment, Site};
 use super::super::expression;
-use super::super::key::{Key, MistakeAt};
+use super::super::key::{InvalidValue, Key};
 use super::super::model::ProblemData;
 use crate::geometry::meets;
 
 /// All rules broken by the enrichments.
-pub(super) fn check_enrichments(problem: &ProblemData) -> Vec<MistakeAt> {
+pub(super) fn check_enrichments(problem: &ProblemData) -> Vec<InvalidValue> {
     let check = |(index, new): (usize, &LocalEnrichment)| {
         let found = [
             bad_functions(new, problem),
@@ -30,9 +30,9 @@ pub(super) fn check_enrichments(problem: &ProblemData) -> Vec<MistakeAt> {
 }
 
 /// A key and what is wrong with its value.
-type Broken = (&'static str, String);
+type KeyMistake = (&'static str, String);
 
-fn bad_functions(new: &LocalEnrichment, problem: &ProblemData) -> Option<Broken> {
+fn bad_functions(new: &LocalEnrichment, problem: &ProblemData) -> Option<KeyMistake> {
     if new.functions.is_empty() {
         return Some(("functions", "there is no function; give at least one".to_owned()));
     }
@@ -49,7 +49,7 @@ fn bad_functions(new: &LocalEnrichment, problem: &ProblemData) -> Option<Broken>
     })
 }
 
-fn bad_site(new: &LocalEnrichment, problem: &ProblemData) -> Option<Broken> {
+fn bad_site(new: &LocalEnrichment, problem: &ProblemData) -> Option<KeyMistake> {
     let domain = &problem.domain().bounds;
     let message = |text: &str| text.to_owned();
     match new.site {
@@ -78,17 +78,17 @@ fn bad_segment([a, b]: [Vec2; 2], domain: &Rect) -> Option<&'static str> {
     }
 }
 
-fn bad_region(new: &LocalEnrichment, problem: &ProblemData) -> Option<Broken> {
+fn bad_region(new: &LocalEnrichment, problem: &ProblemData) -> Option<KeyMistake> {
     match (&new.region, new.site) {
-        (Region::Near(_), Site::World) => {
+        (EnrichmentRegion::Near(_), Site::World) => {
             let message = "`radius` has no meaning without `at` or `along`; add one of them, or write \
                            `where`";
             Some(("radius", message.to_owned()))
         }
-        (Region::Near(radius), Site::Tips) if *radius >= 0.0 => {
+        (EnrichmentRegion::Near(radius), Site::Tips) if *radius >= 0.0 => {
             Some(("radius", format!("`radius` {}", too_wide(problem, *radius)?)))
         }
-        (Region::Where(_), Site::Tips) => {
+        (EnrichmentRegion::Where(_), Site::Tips) => {
             let message = "`where` cannot choose patches of all tips at once; write `radius`";
             Some(("where", message.to_owned()))
         }
@@ -96,8 +96,8 @@ fn bad_region(new: &LocalEnrichment, problem: &ProblemData) -> Option<Broken> {
     }
 }
 
-fn bad_declaration(new: &LocalEnrichment) -> Option<Broken> {
-    let Declared { kinks, singular } = &new.declared;
+fn bad_declaration(new: &LocalEnrichment) -> Option<KeyMistake> {
+    let NonsmoothPoints { kinks, singular } = &new.declared;
     let message =
         |key: &str| format!("`{key}` has a point that is not finite, or a segment without length");
     if kinks.iter().any(|[a, b]| !((*b - *a).length() > 0.0 && a.is_finite() && b.is_finite())) {
@@ -107,10 +107,10 @@ fn bad_declaration(new: &LocalEnrichment) -> Option<Broken> {
     wrong.then(|| ("singular", message("singular")))
 }
 
-/// The mistake of the radius of a zone around all tips, if it is too large: the functions of a tip
+/// The error of the radius of a zone around all tips, if it is too large: the functions of a tip
 /// jump on the whole straight extension of its segment, also beyond the other end of the crack.
 pub(super) fn too_wide(problem: &ProblemData, radius: f64) -> Option<String> {
-    // from the border on there is nothing to jump
+    // from the boundary on there is nothing to jump
     let goes_on = |crack: &&Crack| {
         crack.ends.contains(&CrackEnd::Tip) && !crack.ends.contains(&CrackEnd::Mouth)
     };

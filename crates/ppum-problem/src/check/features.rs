@@ -1,20 +1,20 @@
 //! Features of problems, and which of them do not go together.
 //!
-//! [`EXCLUDED`] is the one list of pairs. A mistake has the place of the first of a pair, names that
-//! of the second, and ends with what to do about either. What a feature needs is a pair, too: of the
-//! feature, and of what a problem has without.
+//! [`EXCLUDED`] is the one list of pairs. A diagnostic has the place of the first of a pair, names
+//! that of the second, and ends with a remedy for either. A requirement is a pair, too: of the
+//! feature, and of the property of problems without the required one.
 
 use ppum::vec2::Vec2;
 
-use super::super::adaptivity::{Adaptivity, Keep};
+use super::super::adaptivity::{Adaptivity, StepsKept};
 use super::super::discretization::Enrichment;
 use super::super::enrichment::LocalEnrichment;
 use super::super::growth::{GrowthRule, LoadControl};
-use super::super::key::{Key, MistakeAt};
+use super::super::key::{InvalidValue, Key};
 use super::super::model::ProblemData;
 use super::super::solver::SolverKind;
 use super::super::symmetry::Symmetry;
-use super::super::words::Words as _;
+use super::super::words::Keyword as _;
 
 /// A feature has a key, a remedy, and a problem that has it; keys in lists have their first entry.
 struct FeatureRow {
@@ -25,7 +25,7 @@ struct FeatureRow {
 
 macro_rules! features {
     ($($(#[$about:meta])* $name:ident: $key:literal, $remedy:literal => $is_of:expr;)*) => {
-        /// What a problem may have that does not go with everything else.
+        /// A property of a problem that excludes others.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Feature { $($(#[$about])* $name,)* }
 
@@ -69,7 +69,7 @@ features! {
     /// Forces act at points.
     Forces: "force", "give it as a traction on a short piece of the border, or as a [body_force]" =>
         |p| !p.forces.is_empty();
-    /// The body is a part of a symmetric one: a crack lies on its border.
+    /// The body is a part of a symmetric one: a crack lies on its boundary.
     PartialModel: "crack.points", "model the whole plate" => |p| p.border_cracks().next().is_some();
     /// The whole of which it is a part is antisymmetric.
     SlidingPart: "crack.points", "model the whole plate" =>
@@ -82,13 +82,13 @@ features! {
     /// Functions of the user's own are in the space.
     UserFunctions: "enrichment", "leave [[enrichment]] out" => |p| !p.enrichments.is_empty();
     /// Tips have no series.
-    OtherTipFunctions: "discretization.enrichment", "write enrichment = \"williams\"" =>
+    OtherTipFunctions: "discretization.enrichment", "write `enrichment = \"williams\"`" =>
         |p| p.discretization.enrichment != Enrichment::Williams;
     /// No functions jump across cracks.
     NoJumps: "discretization.enrichment", "take another enrichment" =>
         |p| !p.discretization.enrichment.has_jumps() && !p.cracks().is_empty();
     /// No functions are in zones around tips.
-    NoZones: "discretization.enrichment", "write enrichment = \"williams\"" => |p| {
+    NoZones: "discretization.enrichment", "write `enrichment = \"williams\"`" => |p| {
         !p.discretization.enrichment.has_zones() && !p.enrichments.iter().any(LocalEnrichment::has_default_zone)
     };
     /// The number of terms at tips is given.
@@ -98,7 +98,7 @@ features! {
     /// An accuracy is asked for.
     Accuracy: "discretization.accuracy", "leave `accuracy` out" => |p| adapts(p, |set| set.accuracy.is_some());
     /// All steps of an adaptation are kept.
-    KeptSteps: "adaptivity.keep", "leave `keep` out" => |p| adapts(p, |set| set.keep == Keep::All);
+    KeptSteps: "adaptivity.keep", "leave `keep` out" => |p| adapts(p, |set| set.keep == StepsKept::All);
     /// The linear solver has levels.
     Multilevel: "solver.kind", "leave `kind` out" => |p| p.solver.kind == SolverKind::Multilevel;
     /// Cracks grow.
@@ -155,14 +155,14 @@ impl ProblemData {
     }
 }
 
-/// The mistakes of pairs of features that do not go together.
-pub(super) fn check_features(problem: &ProblemData) -> Vec<MistakeAt> {
+/// The diagnostics of pairs of features that exclude each other.
+pub(super) fn check_features(problem: &ProblemData) -> Vec<InvalidValue> {
     let found = problem.features();
     let is_broken = |(first, second, _): &&_| found.contains(first) && found.contains(second);
     EXCLUDED.iter().filter(is_broken).map(|broken| mistake(problem, broken)).collect()
 }
 
-fn mistake(problem: &ProblemData, (first, second, why): &(Feature, Feature, &str)) -> MistakeAt {
+fn mistake(problem: &ProblemData, (first, second, why): &(Feature, Feature, &str)) -> InvalidValue {
     let remedies = [first, second].map(|feature| feature.row().remedy);
     let remedies: Vec<&str> = remedies.into_iter().filter(|remedy| !remedy.is_empty()).collect();
     let why = why.replace("{}", problem.discretization.enrichment.word());

@@ -15,11 +15,11 @@ use ppum::text::trimmed;
 use ppum::vec2::Rect;
 
 use super::cracks::check_cracks;
-use super::discretization::{Cells, Enrichment, MAX_LEVEL, Order};
-use super::enrichment::Region;
-use super::error::{Location, Mistake, ProblemError};
+use super::discretization::{BaseCells, Enrichment, MAX_LEVEL, PolynomialOrder};
+use super::enrichment::EnrichmentRegion;
+use super::error::{Diagnostic, ProblemError, ProblemLocation};
 use super::holes::check_holes;
-use super::key::{Key, MistakeAt};
+use super::key::{InvalidValue, Key};
 use super::model::ProblemData;
 use super::quantities::check_quantities;
 use super::refinement::RefinementRegion;
@@ -47,17 +47,17 @@ impl ProblemData {
         if mistakes.is_empty() {
             return Ok(());
         }
-        let mistake = |mistake: MistakeAt| {
+        let mistake = |mistake: InvalidValue| {
             let other = mistake.other.map_or(String::new(), |key| format!(" (see {key})"));
-            let location = Location::Key(mistake.key.to_string());
-            Mistake { location, message: mistake.message + &other }
+            let location = ProblemLocation::Key(mistake.key.to_string());
+            Diagnostic { location, message: mistake.message + &other }
         };
         Err(ProblemError::new(mistakes.into_iter().map(mistake).collect()))
     }
 }
 
 /// All rules broken by a problem. The later ones are judged only in a domain that is one.
-pub(super) fn mistakes(problem: &ProblemData) -> Vec<MistakeAt> {
+pub(super) fn mistakes(problem: &ProblemData) -> Vec<InvalidValue> {
     let mut found: Vec<_> =
         check_equation(&problem.dataset_equation(), problem.domain()).into_iter().collect();
     found.extend(check_components(problem));
@@ -91,7 +91,7 @@ pub(super) fn mistakes(problem: &ProblemData) -> Vec<MistakeAt> {
 fn numbers(problem: &ProblemData) -> Vec<(Key, f64)> {
     let (set, rule) = (&problem.discretization, problem.growth.as_ref());
     let (steps, paris) = (problem.adaptivity.as_ref(), rule.and_then(|rule| rule.paris));
-    let level = if let Cells::Level(level) = set.cells { Some(level.into()) } else { None };
+    let level = if let BaseCells::Level(level) = set.cells { Some(level.into()) } else { None };
     let toughness = rule.and_then(|rule| rule.toughness.as_ref());
     let single = [
         ("discretization.level", level),
@@ -117,7 +117,8 @@ fn numbers(problem: &ProblemData) -> Vec<(Key, f64)> {
     let mut all: Vec<_> = given.collect();
     for (index, new) in problem.enrichments.iter().enumerate() {
         let key = Key::new("enrichment").index(index);
-        let radius = if let Region::Near(radius) = new.region { Some(radius) } else { None };
+        let radius =
+            if let EnrichmentRegion::Near(radius) = new.region { Some(radius) } else { None };
         all.extend(radius.map(|radius| (key.clone().name("radius"), radius)));
         all.extend(new.degree.map(|degree| (key.name("degree"), degree as f64)));
     }
@@ -135,7 +136,7 @@ fn numbers(problem: &ProblemData) -> Vec<(Key, f64)> {
 /// several vertices.
 const LEAST_INCREMENT: f64 = 100.0;
 
-fn check_increment(problem: &ProblemData) -> Option<MistakeAt> {
+fn check_increment(problem: &ProblemData) -> Option<InvalidValue> {
     let least = LEAST_INCREMENT * touch(&problem.domain().bounds);
     let increment = problem.growth.as_ref()?.increment.filter(|da| *da > 0.0 && *da < least)?;
     let message = format!(
@@ -147,7 +148,7 @@ fn check_increment(problem: &ProblemData) -> Option<MistakeAt> {
 }
 
 /// Functions of tips alone let no crack jump that meets another one, or that comes back to itself.
-fn check_additive(problem: &ProblemData) -> Option<MistakeAt> {
+fn check_additive(problem: &ProblemData) -> Option<InvalidValue> {
     let domain = problem.domain();
     if problem.discretization.enrichment != Enrichment::AdditiveOnly {
         return None;
@@ -159,7 +160,7 @@ fn check_additive(problem: &ProblemData) -> Option<MistakeAt> {
 }
 
 /// No zone of the built-in functions of tips may reach too far.
-fn check_zone(problem: &ProblemData) -> Option<MistakeAt> {
+fn check_zone(problem: &ProblemData) -> Option<InvalidValue> {
     let radius = problem.discretization.enrichment_radius?;
     let message = too_wide(problem, radius)?;
     let key = Key::of("discretization.enrichment_radius");
@@ -169,7 +170,7 @@ fn check_zone(problem: &ProblemData) -> Option<MistakeAt> {
 /// Sizes of a domain whose squares and their sums neither underflow nor overflow in the solver.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 
-fn check_domain(domain: &Domain) -> Vec<MistakeAt> {
+fn check_domain(domain: &Domain) -> Vec<InvalidValue> {
     let size = domain.bounds.size();
     let axes = [("x", size.x), ("y", size.y)];
     let wrong = axes.into_iter().filter(|(_, size)| !SIZES.contains(size));
@@ -201,7 +202,7 @@ fn is_flat(outline: &Hole) -> bool {
 }
 
 /// Names that all formulas may use; files cannot break this, code can.
-fn check_tables(problem: &ProblemData) -> Option<MistakeAt> {
+fn check_tables(problem: &ProblemData) -> Option<InvalidValue> {
     let broken =
         |count: &usize| scopes::check(&problem.tables[..*count], &problem.equation).is_err();
     let count = (1..=problem.tables.len()).find(broken)?;
@@ -209,7 +210,7 @@ fn check_tables(problem: &ProblemData) -> Option<MistakeAt> {
     Some(Key::new("table").index(count - 1).name("name").mistake(error.to_string()))
 }
 
-fn check_equation(equation: &Equation, domain: &Domain) -> Option<MistakeAt> {
+fn check_equation(equation: &Equation, domain: &Domain) -> Option<InvalidValue> {
     let (name, message) = equation.mistake(domain)?;
     if EIGENSTRAINS.contains(&name) || name == EXPANSION {
         let message = format!("`{name}` {message}; correct [temperature] or [strain]");
@@ -219,7 +220,7 @@ fn check_equation(equation: &Equation, domain: &Domain) -> Option<MistakeAt> {
 }
 
 /// One value per component everywhere; files cannot break this, code can.
-fn check_components(problem: &ProblemData) -> Vec<MistakeAt> {
+fn check_components(problem: &ProblemData) -> Vec<InvalidValue> {
     let expected = problem.components();
     let boundary = (0..)
         .zip(&problem.boundary)
@@ -231,8 +232,8 @@ fn check_components(problem: &ProblemData) -> Vec<MistakeAt> {
     wrong.map(|(key, given)| key.mistake(message(given))).collect()
 }
 
-fn check_cells(cells: &Cells) -> Option<MistakeAt> {
-    let Cells::Grid([nx, ny]) = *cells else { return None };
+fn check_cells(cells: &BaseCells) -> Option<InvalidValue> {
+    let BaseCells::Grid([nx, ny]) = *cells else { return None };
     let message = if nx == 0 || ny == 0 {
         "`cells` must be at least 1 in each direction".to_owned()
     } else if u64::from(nx) * u64::from(ny) > MAX_CELLS {
@@ -243,8 +244,8 @@ fn check_cells(cells: &Cells) -> Option<MistakeAt> {
     Some(Key::of("discretization.cells").mistake(message))
 }
 
-fn check_points(cells: &Cells, domain: &Rect) -> Option<MistakeAt> {
-    let Cells::Points(points) = cells else { return None };
+fn check_points(cells: &BaseCells, domain: &Rect) -> Option<InvalidValue> {
+    let BaseCells::Points(points) = cells else { return None };
     let key = Key::of("discretization.points");
     if points.is_empty() {
         return Some(key.mistake("there are no points; at least one is needed"));
@@ -261,7 +262,7 @@ fn check_points(cells: &Cells, domain: &Rect) -> Option<MistakeAt> {
     Some(key.mistake(message))
 }
 
-fn check_order(order: &Order, domain: &Rect) -> Option<MistakeAt> {
+fn check_order(order: &PolynomialOrder, domain: &Rect) -> Option<InvalidValue> {
     let key = Key::of("discretization.order");
     let mut wrong = samples(domain).filter_map(|p| order.at(p).err());
     wrong.next().map(|error| key.mistake(error.to_string()))

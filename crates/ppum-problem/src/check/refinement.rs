@@ -2,8 +2,8 @@
 
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::super::discretization::{Cells, MAX_LEVEL};
-use super::super::key::{Key, MistakeAt, no_such};
+use super::super::discretization::{BaseCells, MAX_LEVEL};
+use super::super::key::{InvalidValue, Key, no_such};
 use super::super::model::ProblemData;
 use super::super::refinement::{DEEPEST, LocalRefinement, RefinementRegion};
 
@@ -22,7 +22,7 @@ pub(super) fn samples(rect: &Rect) -> impl Iterator<Item = Vec2> + use<> {
 }
 
 /// All rules broken by the refinements; the domain and its cracks and holes are in order.
-pub(super) fn check_refinements(problem: &ProblemData) -> Vec<MistakeAt> {
+pub(super) fn check_refinements(problem: &ProblemData) -> Vec<InvalidValue> {
     let all = &problem.refinements;
     if all.len() > MAX_REFINEMENTS {
         let message = format!(
@@ -82,7 +82,7 @@ fn bad_distance(new: &LocalRefinement) -> Option<(&'static str, String)> {
     is_meant.then(|| ("distance", message.to_owned()))
 }
 
-/// The mistake of a size that is none somewhere, or that the base cells cannot be divided to.
+/// The error of a size that is none somewhere, or that the base cells cannot be divided to.
 fn bad_size(new: &LocalRefinement, problem: &ProblemData) -> Option<String> {
     let remedy = if new.size.constant().is_some() {
         ""
@@ -111,7 +111,7 @@ fn bad_size(new: &LocalRefinement, problem: &ProblemData) -> Option<String> {
 /// The size that base cells have after all divisions; nothing is known of those around points.
 fn smallest(problem: &ProblemData) -> Option<f64> {
     let cells = &problem.discretization.cells;
-    if matches!(cells, Cells::Level(level) if *level > MAX_LEVEL) {
+    if matches!(cells, BaseCells::Level(level) if *level > MAX_LEVEL) {
         return None;
     }
     let size = cells.size(&problem.domain().bounds)?;

@@ -5,12 +5,12 @@ use ppum::vec2::Vec2;
 
 use super::super::cracks::shown;
 use super::super::force::is_outside;
-use super::super::key::{Key, MistakeAt};
+use super::super::key::{InvalidValue, Key};
 use super::super::model::ProblemData;
 use ppum::border::touch;
 
 /// All rules broken by the forces.
-pub(super) fn check_forces(problem: &ProblemData) -> Vec<MistakeAt> {
+pub(super) fn check_forces(problem: &ProblemData) -> Vec<InvalidValue> {
     let key = |index: usize| Key::new("force").index(index);
     if problem.forces.is_empty() {
         return Vec::new();
@@ -31,7 +31,7 @@ pub(super) fn check_forces(problem: &ProblemData) -> Vec<MistakeAt> {
 }
 
 /// All rules broken by the supports.
-pub(super) fn check_supports(problem: &ProblemData) -> Vec<MistakeAt> {
+pub(super) fn check_supports(problem: &ProblemData) -> Vec<InvalidValue> {
     let mut found = Vec::new();
     for (index, support) in problem.supports.iter().enumerate() {
         let key = Key::new("support").index(index);
@@ -46,7 +46,7 @@ pub(super) fn check_supports(problem: &ProblemData) -> Vec<MistakeAt> {
     found
 }
 
-/// The mistake of a point that lies outside of the body or on a crack.
+/// The error of a point that lies outside of the body or on a crack.
 fn misplaced(problem: &ProblemData, p: Vec2) -> Option<String> {
     let (domain, cracks) = (problem.domain(), problem.cracks());
     let (touch, place) = (touch(&domain.bounds), shown(p));

@@ -1,26 +1,26 @@
-//! Rules for cracks on straight lines of the border: halves of symmetric bodies.
+//! Rules for cracks on straight lines of the boundary: halves of symmetric bodies.
 
 use ppum::border::BorderLine;
 use ppum::crack::TipId;
 
-use super::super::boundary::{BorderPart, BoundaryCondition, Edge};
+use super::super::boundary::{BoundaryCondition, BoundaryPart, DomainEdge};
 use super::super::cracks::line_words;
-use super::super::key::{Key, MistakeAt};
+use super::super::key::{InvalidValue, Key};
 use super::super::model::ProblemData;
 
-/// All rules broken by cracks on straight lines of the border.
-pub(super) fn check_symmetry(problem: &ProblemData) -> Vec<MistakeAt> {
+/// All rules broken by cracks on straight lines of the boundary.
+pub(super) fn check_symmetry(problem: &ProblemData) -> Vec<InvalidValue> {
     let on_lines: Vec<(usize, BorderLine)> = problem.border_cracks().collect();
     let of_crack = |(crack, line): &(usize, BorderLine)| {
         let message = bad_crack(problem, *crack, line)?;
         Some(Key::points(*crack).mistake(message))
     };
-    let mut found: Vec<MistakeAt> = on_lines.iter().filter_map(of_crack).collect();
+    let mut found: Vec<InvalidValue> = on_lines.iter().filter_map(of_crack).collect();
     found.extend(bad_conditions(problem, &on_lines));
     found
 }
 
-/// What is wrong with a crack on a line of the border.
+/// Returns the reason why a crack must not lie on a line of the boundary, if there is one.
 fn bad_crack(problem: &ProblemData, index: usize, line: &BorderLine) -> Option<String> {
     let (crack, name) = (&problem.cracks()[index], line_words(line));
     if problem.equation.elastic().is_none() {
@@ -40,7 +40,7 @@ fn bad_crack(problem: &ProblemData, index: usize, line: &BorderLine) -> Option<S
     // no conditions are known where one of them cannot be read
     let is_known = !problem.boundary.is_empty();
     (is_known && tips.any(|tip| problem.symmetry_at(tip).is_none())).then(|| {
-        let on = Edge::of_line(line).map_or("{ piece = … }".to_owned(), |edge| format!("\"{}\"", edge.name()));
+        let on = DomainEdge::of_line(line).map_or("{ piece = … }".to_owned(), |edge| format!("\"{}\"", edge.name()));
         format!(
             "the crack runs along the {name}, which nothing holds ahead of its tip; add [[boundary]] with on = {on} \
              and `symmetry = true`, or `antisymmetry = true`, or move the crack into the plate"
@@ -49,7 +49,7 @@ fn bad_crack(problem: &ProblemData, index: usize, line: &BorderLine) -> Option<S
 }
 
 /// Conditions on lines with cracks that are no symmetry, or another one.
-fn bad_conditions(problem: &ProblemData, on_lines: &[(usize, BorderLine)]) -> Vec<MistakeAt> {
+fn bad_conditions(problem: &ProblemData, on_lines: &[(usize, BorderLine)]) -> Vec<InvalidValue> {
     let bad = |(index, condition): (usize, _)| {
         let key = Key::new("boundary").index(index);
         let (own, crack, message) = bad_condition(problem, condition, on_lines)?;
@@ -64,7 +64,7 @@ fn bad_condition(
     condition: &BoundaryCondition,
     on_lines: &[(usize, BorderLine)],
 ) -> Option<(&'static str, usize, String)> {
-    if let BorderPart::Crack { crack, face } = condition.on {
+    if let BoundaryPart::Crack { crack, face } = condition.on {
         face?;
         on_lines.iter().find(|(own, _)| *own == crack)?;
         let message = "only one face of a crack on the border is in the plate, and a load on it means the same on \

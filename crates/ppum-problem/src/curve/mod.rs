@@ -4,9 +4,9 @@
 //! the first power of the segments' length. Here an open curve keeps its ends and its tangents
 //! there: the first and the last segment lie on them. The other vertices lie beside the curve, on
 //! the outer side of the bend by κ h²/12 where segments of length h would have κ h²/8 between chord
-//! and curve, so that the segments enclose as much on one side of the curve as on the other. What
-//! the short pieces at the tips do to K, of the order h^1.5, depends on the length of the first and
-//! the last segment, and vanishes at about a quarter of h.
+//! and curve, so that the segments enclose as much on one side of the curve as on the other. The
+//! effect of the short pieces at the tips on K, of the order h^1.5, depends on the length of the
+//! first and the last segment, and vanishes at about a quarter of h.
 
 use ppum::vec2::{Vec2, vec2};
 
@@ -76,7 +76,7 @@ impl SmoothCurve {
     /// # Errors
     /// It takes too many.
     pub(super) fn divided(&self, segments: Option<usize>) -> Result<Vec<Vec2>, TooSharp> {
-        let walk = Walk::new(self);
+        let walk = SegmentCounts::new(self);
         let inner = match segments {
             Some(segments) => segments.saturating_sub(2).max(1),
             None => walk.segments(2.0 * END, 2)?,
@@ -101,7 +101,7 @@ impl SmoothCurve {
     /// # Errors
     /// It takes too many.
     pub(super) fn closed(&self, segments: Option<usize>) -> Result<Vec<Vec2>, TooSharp> {
-        let walk = Walk::new(self);
+        let walk = SegmentCounts::new(self);
         let count = match segments {
             Some(segments) => segments.max(3),
             None => walk.segments(0.0, 3)?,
@@ -140,7 +140,7 @@ impl SmoothCurve {
 }
 
 /// A curve with the number of segments that it takes from its begin up to each of many places.
-struct Walk<'c> {
+struct SegmentCounts<'c> {
     curve: &'c SmoothCurve,
     parameters: Vec<f64>,
     nodes: Vec<CurvePoint>,
@@ -152,7 +152,7 @@ struct Walk<'c> {
     least: f64,
 }
 
-impl<'c> Walk<'c> {
+impl<'c> SegmentCounts<'c> {
     fn new(curve: &'c SmoothCurve) -> Self {
         let [from, to] = curve.range();
         let looks = match curve {

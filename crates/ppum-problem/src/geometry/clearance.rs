@@ -15,7 +15,7 @@ use ppum::vec2::{Rect, Vec2};
 const BESIDE: f64 = 1e-9;
 
 /// Radius of the clearance, in cells at the tip, from which on stress intensity factors are off by
-/// less than 0.2 % with tips beside another tip and beside the border (order 2; 0.05 % at order
+/// less than 0.2 % with tips beside another tip and beside the boundary (order 2; 0.05 % at order
 /// 3; docs/decisions/0004).
 pub const AMPLE_CLEARANCE: f64 = 2.0;
 
@@ -29,7 +29,7 @@ const GENTLE: f64 = 0.1;
 /// which cells are divided.
 const AS_LONG: f64 = 1e-6;
 
-/// The largest disc around a tip that holds no border, no hole, no other crack, and of its own
+/// The largest disc around a tip that holds no boundary, no hole, no other crack, and of its own
 /// crack no more than the part that leads away from the tip. This part may have kinks. The material
 /// may vary and jump in the disc; a tip at which it jumps has none.
 ///
@@ -43,13 +43,13 @@ pub struct TipClearance {
     /// Its radius.
     pub radius: f64,
     /// The obstacle that ends it.
-    pub end: Obstacle,
+    pub end: TipObstacle,
 }
 
 /// The end of the [`TipClearance`] of a tip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Obstacle {
-    /// The border of the plate.
+pub enum TipObstacle {
+    /// The boundary of the body.
     Border,
     /// The rim of a hole, by its index.
     Hole(usize),
@@ -63,7 +63,7 @@ pub enum Obstacle {
     Force,
 }
 
-impl Obstacle {
+impl TipObstacle {
     /// In words, e.g. `crack 3`.
     #[must_use]
     pub fn name(self) -> String {
@@ -92,8 +92,8 @@ pub fn known_points(functions: &[Function]) -> impl Iterator<Item = Vec2> {
 }
 
 impl TipClearance {
-    /// That of a tip on the border.
-    pub const NONE: Self = Self { radius: 0.0, end: Obstacle::Border };
+    /// That of a tip on the boundary.
+    pub const NONE: Self = Self { radius: 0.0, end: TipObstacle::Border };
 
     /// The clearance of a tip of a step of a dataset, in cells of the size `cell`.
     pub fn new(dataset: &Dataset, step: &Step, tip: TipId, cell: f64) -> Self {
@@ -101,9 +101,9 @@ impl TipClearance {
         let p = cracks[tip.crack as usize].end_point(tip.end);
         let elastic = dataset.equation.elastic();
         let on_interface = elastic.is_some_and(|body| jumps(body, p, BESIDE * cell));
-        let end = on_interface.then_some(Self { radius: 0.0, end: Obstacle::Interface });
+        let end = on_interface.then_some(Self { radius: 0.0, end: TipObstacle::Interface });
         let forces = known_points(&step.functions)
-            .map(|at| Self { radius: (at - p).length(), end: Obstacle::Force });
+            .map(|at| Self { radius: (at - p).length(), end: TipObstacle::Force });
         Self::among_cracks(cracks, &dataset.domain, tip).with(end.into_iter().chain(forces))
     }
 
@@ -125,7 +125,7 @@ impl TipClearance {
         Self::nearest(cracks, domain, (own, tip), behind(own, tip.end))
     }
 
-    /// The nearest of border, rims, other cracks, and what is at the distance `of_own` of the own
+    /// The nearest of boundary, rims, other cracks, and what is at the distance `of_own` of the own
     /// one.
     fn nearest<'c>(
         cracks: impl Iterator<Item = (usize, &'c Crack)>,
@@ -135,10 +135,11 @@ impl TipClearance {
     ) -> Self {
         let p = own.end_point(tip.end);
         let [low, high] = [p - domain.bounds.min, domain.bounds.max - p];
-        // a tip on a line of the border has one half of its field in the body
+        // a tip on a line of the boundary has one half of its field in the body
         let touch = touch(&domain.bounds);
         let depths = [low.x, low.y, high.x, high.y].into_iter().filter(|depth| *depth != 0.0);
-        let border = Self { radius: depths.fold(f64::INFINITY, f64::min), end: Obstacle::Border };
+        let border =
+            Self { radius: depths.fold(f64::INFINITY, f64::min), end: TipObstacle::Border };
         let holes = domain.holes.iter().enumerate();
         let distance = |hole: &Hole| match hole.rim_distance(p) {
             on if on <= touch => {
@@ -149,13 +150,13 @@ impl TipClearance {
         };
         let rims = holes.map(|(k, hole)| Self {
             radius: distance(hole),
-            end: if hole.is_outside() { Obstacle::Border } else { Obstacle::Hole(k) },
+            end: if hole.is_outside() { TipObstacle::Border } else { TipObstacle::Hole(k) },
         });
         let others = cracks.filter(|(k, _)| *k != tip.crack as usize).map(|(k, c)| Self {
             radius: segment::polyline_distance(&c.points, p),
-            end: Obstacle::Crack(k),
+            end: TipObstacle::Crack(k),
         });
-        border.with(rims).with(others.chain([Self { radius: of_own, end: Obstacle::Own }]))
+        border.with(rims).with(others.chain([Self { radius: of_own, end: TipObstacle::Own }]))
     }
 
     /// The smallest of several.
@@ -172,7 +173,7 @@ fn behind(own: &Crack, end: End) -> f64 {
 }
 
 /// The vertices of a crack from an end on, from that one beyond which it has turned by more than
-/// [`GENTLE`] up to its other end, which is always among them.
+/// `GENTLE` up to its other end, which is always among them.
 pub fn bent_part(own: &Crack, end: End) -> Vec<Vec2> {
     let points: Vec<Vec2> = from_tip(own, end).collect();
     let first = points[1] - points[0];
@@ -216,9 +217,9 @@ pub(super) fn led_away(own: &Crack, end: End) -> [Vec<Vec2>; 2] {
     [points[..=away].to_vec(), points[away..].to_vec()]
 }
 
-/// Distance from a tip up to which θ surely jumps on its crack alone. Of a hook, whose extensions
-/// meet it or each other, that is up to where the other end's extension, or what comes back, may be
-/// nearer than the tip's own part.
+/// Distance from a tip up to which θ surely jumps on its crack alone. For a hook, whose extensions
+/// meet it or each other, that is the distance at which the other end's extension, or a part of the
+/// crack that returns, may be nearer than the tip's own part.
 fn led_astray(own: &Crack, end: End, bounds: &Rect) -> f64 {
     let reach = bounds.size().length();
     if extensions(own, reach, 0.0).is_some() {
@@ -230,7 +231,7 @@ fn led_astray(own: &Crack, end: End, bounds: &Rect) -> f64 {
 }
 
 /// Distance from a vertex of a crack up to which the crack's side changes nowhere but on the two
-/// segments there. Of a hook, whose side is not that of the whole plane, it ends half way to the
+/// segments there. For a hook, whose side is not that of the whole plane, it ends half way to the
 /// next part or extension: there that is as near.
 pub fn sure_side(crack: &Crack, at: Vec2, bounds: &Rect, touch: f64) -> f64 {
     let reach = bounds.size().length();
@@ -274,7 +275,7 @@ mod tests {
     use ppum::domain::Hole;
     use ppum::vec2::vec2;
 
-    fn clearance(cracks: &[Crack], crack: u32, end: End) -> (f64, Obstacle) {
+    fn clearance(cracks: &[Crack], crack: u32, end: End) -> (f64, TipObstacle) {
         let bounds = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
         let holes = vec![Hole::Circle { center: vec2(0.0, 0.75), radius: 0.125 }];
         let domain = Domain { bounds, holes };
@@ -290,12 +291,12 @@ mod tests {
     #[test]
     fn the_nearest_thing_ends_the_room() {
         let alone = [crack(&[[-0.125, 0.0], [0.5, 0.0]])];
-        assert_eq!(clearance(&alone, 0, End::Last), (0.5, Obstacle::Border));
-        assert_eq!(clearance(&alone, 0, End::Start), (0.625, Obstacle::Own));
+        assert_eq!(clearance(&alone, 0, End::Last), (0.5, TipObstacle::Border));
+        assert_eq!(clearance(&alone, 0, End::Start), (0.625, TipObstacle::Own));
         let two = [crack(&[[-0.5, 0.0], [0.0, 0.0]]), crack(&[[0.125, -0.5], [0.125, 0.5]])];
-        assert_eq!(clearance(&two, 0, End::Last), (0.125, Obstacle::Crack(1)));
+        assert_eq!(clearance(&two, 0, End::Last), (0.125, TipObstacle::Crack(1)));
         let up = [crack(&[[0.0, -0.5], [0.0, 0.5]])];
-        assert_eq!(clearance(&up, 0, End::Last), (0.125, Obstacle::Hole(0)));
+        assert_eq!(clearance(&up, 0, End::Last), (0.125, TipObstacle::Hole(0)));
     }
 
     /// Kinks lie in the disc as long as the crack goes on away from the tip.
@@ -304,22 +305,22 @@ mod tests {
         let room = |points: &[[f64; 2]], end| clearance(&[crack(points)], 0, end);
         let gentle = [[-0.25, 0.0], [0.0, 0.0], [0.25, 0.0625]];
         let length = vec2(0.5, 0.0625).length();
-        assert_eq!(room(&gentle, End::Last), (length, Obstacle::Own));
-        assert_eq!(room(&gentle, End::Start), (length, Obstacle::Own));
+        assert_eq!(room(&gentle, End::Last), (length, TipObstacle::Own));
+        assert_eq!(room(&gentle, End::Start), (length, TipObstacle::Own));
         // square kinks go neither away nor back; after sharper ones the crack comes nearer
         let square = [[-0.25, 0.0], [0.25, 0.0], [0.25, 0.125]];
-        assert_eq!(room(&square, End::Last), (0.125, Obstacle::Own));
-        assert_eq!(room(&square, End::Start), (0.5, Obstacle::Own));
+        assert_eq!(room(&square, End::Last), (0.125, TipObstacle::Own));
+        assert_eq!(room(&square, End::Start), (0.5, TipObstacle::Own));
         let sharp = [[0.0, 0.0], [0.5, 0.0], [0.0, 0.25]];
         let (found, end) = room(&sharp, End::Start);
-        assert!((found - 0.5 * 0.2f64.sqrt()).abs() < 1e-15 && end == Obstacle::Own, "{found}");
+        assert!((found - 0.5 * 0.2f64.sqrt()).abs() < 1e-15 && end == TipObstacle::Own, "{found}");
         // back beside the tip without a vertex near it
         let hooked = [[0.0, 0.0], [0.5, 0.0], [0.5, 0.25], [-0.5, 0.25]];
-        assert_eq!(room(&hooked, End::Start), (0.25, Obstacle::Own));
+        assert_eq!(room(&hooked, End::Start), (0.25, TipObstacle::Own));
         // round the tip, always farther away from it, and ahead of it at last
         let round = [[0.0, 0.0], [-0.25, 0.0], [-0.26, 0.25], [-0.1, 0.45], [0.3, 0.6]];
         let (found, end) = room(&round, End::Start);
-        assert!((found - 0.2125f64.sqrt()).abs() < 1e-15 && end == Obstacle::Own, "{found}");
+        assert!((found - 0.2125f64.sqrt()).abs() < 1e-15 && end == TipObstacle::Own, "{found}");
     }
 
     /// The extension of the end of a hook runs into the hook, and past its other tip.
@@ -327,7 +328,7 @@ mod tests {
     fn hooks_lead_astray() {
         let hook = [[-0.5, -0.25], [0.5, -0.25], [0.5, 0.25], [0.0, 0.25], [0.0, 0.125]];
         let found = clearance(&[crack(&hook)], 0, End::Start);
-        assert_eq!(found, (0.25, Obstacle::Own));
+        assert_eq!(found, (0.25, TipObstacle::Own));
         assert_eq!(clearance(&[crack(&hook[..4])], 0, End::Start).0, 0.5);
     }
 
@@ -340,7 +341,7 @@ mod tests {
                 (0..=n).map(|k| [0.4 * at(k).sin(), 0.4 * at(k).cos() - 0.4]).collect();
             let (found, end) = clearance(&[crack(&points)], 0, End::Last);
             let chord = 0.8 * 0.75f64.sin();
-            assert!((found - chord).abs() < 1e-15 && end == Obstacle::Own, "{n}: {found}");
+            assert!((found - chord).abs() < 1e-15 && end == TipObstacle::Own, "{n}: {found}");
         }
     }
 }

@@ -11,8 +11,8 @@ pub fn inside(open: &Rect, p: Vec2) -> bool {
     p.x > open.min.x && p.x < open.max.x && p.y > open.min.y && p.y < open.max.y
 }
 
-/// Length of a crack inside an open box and outside of holes; a segment along the box's border does
-/// not count.
+/// Length of a crack inside an open box and outside of holes; a segment along the box's boundary
+/// does not count.
 pub fn length_inside(crack: &Crack, open: &Rect, holes: &[Hole]) -> f64 {
     let length = |s: &[Vec2]| match clipped(s[0], s[1], open) {
         Some(range) => solid_part(s[0], s[1], range, holes.iter()) * (s[1] - s[0]).length(),
@@ -60,7 +60,7 @@ pub fn is_on_rim(crack: &Crack, holes: &[Hole]) -> bool {
     holes.iter().any(|hole| hole.line_along(&crack.points).is_some())
 }
 
-/// What is left of a range without others.
+/// Returns the parts of a range that lie outside of others.
 pub fn without(range: [f64; 2], others: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let beside = |parts: Vec<[f64; 2]>, &[a, b]: &[f64; 2]| {
         let (a, b) = (a.min(b), a.max(b));
@@ -84,7 +84,8 @@ pub(crate) fn runs_inside(points: &[Vec2], open: &Rect) -> usize {
     runs
 }
 
-/// The same of a closed polygon, whose last corner is joined to the first.
+/// Number of connected parts of a closed polygon, whose last corner is joined to the first, inside
+/// an open box.
 pub fn runs_of_rim(corners: &[Vec2], open: &Rect) -> usize {
     let start = corners.iter().position(|p| !inside(open, *p));
     let Some(start) = start else { return 1 };
@@ -117,7 +118,7 @@ pub fn clipped(a: Vec2, b: Vec2, open: &Rect) -> Option<[f64; 2]> {
     (to > from).then_some([from, to])
 }
 
-/// True if a part of a segment lies inside an open box or on its border.
+/// True if a part of a segment lies inside an open box or on its boundary.
 pub fn meets([a, b]: [Vec2; 2], rect: &Rect) -> bool {
     distance([a, b], rect) == 0.0
 }

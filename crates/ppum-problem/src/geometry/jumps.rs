@@ -10,10 +10,10 @@
 //! there would be a small difference of large parts. So it gives the patch the indicator of
 //! the sliver.
 
+use super::box_list::{BoxList, around, wider};
 use super::clearance::{extension, extensions, led_away};
 use super::clip::{clipped, inside, is_on_rim, meets, segment_inside, solid_part};
 use super::components::{Components, middle};
-use super::placed::{Placed, around, wider};
 use ppum::crack::{Crack, End, SegmentId, TipId};
 use ppum::domain::{Domain, Hole};
 use ppum::function::FunctionKind;
@@ -26,11 +26,11 @@ const LEAST_CUT: f64 = 1e-9;
 /// Most segments of cracks that may cut a patch where cracks meet: time grows with the square.
 const MOST: usize = 512;
 
-/// What cracks are to patches.
+/// The relation of cracks to patches.
 pub struct Jumps<'p> {
     cracks: &'p [Crack],
-    segments: Placed<(SegmentId, Segment)>,
-    holes: Placed<&'p Hole>,
+    segments: BoxList<(SegmentId, Segment)>,
+    holes: BoxList<&'p Hole>,
     /// The straight extensions of each crack; none of one that they or the crack itself meet.
     extensions: Vec<Option<[Segment; 2]>>,
     /// Length of extensions.
@@ -48,8 +48,8 @@ impl<'p> Jumps<'p> {
         let reach = domain.bounds.size().length();
         Self {
             cracks,
-            segments: Placed::new(all.map(place)),
-            holes: Placed::new(
+            segments: BoxList::new(all.map(place)),
+            holes: BoxList::new(
                 domain.holes.iter().flat_map(|hole| hole.boxes().map(move |b| (b, hole))),
             ),
             extensions: cracks.iter().map(|crack| extensions(crack, reach, touch)).collect(),

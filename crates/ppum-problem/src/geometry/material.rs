@@ -57,8 +57,8 @@ fn change(a: &Material, b: &Material) -> f64 {
     young.max((a.poisson - b.poisson).abs())
 }
 
-/// The least distance below `reach` at which there is a jump. What changes over a step and no
-/// more when that is halved to nothing has varied smoothly.
+/// The least distance below `reach` at which there is a jump. A change over a step that vanishes as
+/// the step is halved again and again is a smooth variation.
 fn first_jump<T: Copy>(
     at: &dyn Fn(f64) -> T,
     change: &dyn Fn(&T, &T) -> f64,
@@ -92,7 +92,7 @@ mod tests {
     #[test]
     fn materials_jump_on_interfaces_alone() {
         let jump = |young: &str, p: Vec2| jumps(&body(young, "0.3"), p, 1e-10);
-        // the point lies on these lines but for rounding
+        // the point lies on these lines except for rounding
         for (p, young) in [
             (vec2(0.2, 0.16), "if(y > 0.3*x + 0.1, 2, 1)"),
             (vec2(0.2, 0.16), "if(y >= 0.3*x + 0.1, 2, 1)"),

@@ -1,16 +1,17 @@
-//! Plane geometry of plates: what lies in a box, near a point, around a tip.
+//! Plane geometry of bodies: what lies in a box, near a point, around a tip.
 
+mod box_list;
 mod clearance;
 mod clip;
 mod components;
 mod jumps;
 mod material;
-mod placed;
 mod vicinity;
 
+pub use box_list::{BoxList, around, wider};
 pub use clearance::{
-    AMPLE_CLEARANCE, Obstacle, TipClearance, bent_part, exceeds, from_tip, is_known, known_points,
-    sure_side,
+    AMPLE_CLEARANCE, TipClearance, TipObstacle, bent_part, exceeds, from_tip, is_known,
+    known_points, sure_side,
 };
 pub use clip::{
     clipped, distance, inside, is_on_rim, length_inside, meets, rim_crossings, runs_of_rim,
@@ -18,5 +19,4 @@ pub use clip::{
 };
 pub use jumps::Jumps;
 pub use material::{interface_distance, jumps_within};
-pub use placed::{Placed, around, wider};
-pub use vicinity::Around;
+pub use vicinity::Vicinity;

@@ -1,4 +1,4 @@
-//! The place on the plate that an error is about.
+//! The location in the body that an error is about.
 
 use ppum::text::{beside, trimmed};
 use ppum::vec2::{Rect, Vec2};
@@ -6,20 +6,20 @@ use std::fmt;
 
 /// The neighbourhood of a cell or a patch: users know places, not numbers of patches.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Around {
+pub struct Vicinity {
     /// Its middle.
     pub center: Vec2,
     /// Its extent from the middle along x and y.
     pub reach: Vec2,
 }
 
-impl From<Rect> for Around {
+impl From<Rect> for Vicinity {
     fn from(rect: Rect) -> Self {
         Self { center: rect.center(), reach: rect.size() * 0.5 }
     }
 }
 
-impl fmt::Display for Around {
+impl fmt::Display for Vicinity {
     /// `around (0.5, 0.25), up to 0.125 away`
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { center, reach } = *self;

@@ -4,8 +4,8 @@ use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::super::boundary::{BorderPart, BoundaryCondition, Condition, Edge, OUTLINE};
-use super::super::document::{Read as _, Section, Value, all};
+use super::super::boundary::{BoundaryCondition, BoundaryPart, Condition, DomainEdge, OUTLINE};
+use super::super::document::{DocumentValue, FromValue as _, Section, all};
 use super::super::key::no_such;
 use super::super::symmetry::Symmetry;
 use super::super::words::EquationKind;
@@ -37,7 +37,7 @@ const SPECIAL: [&str; 3] = ["pressure", "symmetry", "antisymmetry"];
 /// A pressure, symmetry or antisymmetry, which say all components.
 fn special(
     section: &Section<'_>,
-    on: Option<BorderPart>,
+    on: Option<BoundaryPart>,
     body: &BodyShape,
 ) -> Option<BoundaryCondition> {
     let [pressure, symmetry, antisymmetry] = SPECIAL;
@@ -65,12 +65,12 @@ fn special(
     Some(BoundaryCondition::symmetry_on(on?, normal, kind))
 }
 
-/// The normal of a part of the border all of which has one direction; that of an axis, if rounding
-/// is all that they differ by.
-fn normal(on: BorderPart, body: &BodyShape) -> Option<Vec2> {
+/// The normal of a part of the boundary all of which has one direction; that of an axis, if
+/// rounding is all that they differ by.
+fn normal(on: BoundaryPart, body: &BodyShape) -> Option<Vec2> {
     let piece = match on {
-        BorderPart::Edge { edge, .. } => return Some(edge.normal()),
-        BorderPart::Piece(piece) => &body.pieces[piece],
+        BoundaryPart::Edge { edge, .. } => return Some(edge.normal()),
+        BoundaryPart::Piece(piece) => &body.pieces[piece],
         _ => return None,
     };
     let holes = body.holes.as_ref()?;
@@ -95,14 +95,14 @@ fn exchange(section: &Section<'_>) -> Option<Option<Expression>> {
     Some(Some(exchange))
 }
 
-/// A part of the border: the name of an edge, or a table.
-fn part(value: &Value<'_>, body: &mut BodyShape) -> Option<BorderPart> {
+/// A part of the boundary: the name of an edge, or a table.
+fn part(value: &DocumentValue<'_>, body: &mut BodyShape) -> Option<BoundaryPart> {
     let domain = &body.bounds.unwrap_or(Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0)));
     let Some(section) = value.as_section() else {
         return if value.as_text() == Some(OUTLINE) {
             outline(value, body)
         } else {
-            Some(BorderPart::edge(value.choice()?, domain))
+            Some(BoundaryPart::edge(value.choice()?, domain))
         };
     };
     let mut given =
@@ -128,28 +128,28 @@ fn part(value: &Value<'_>, body: &mut BodyShape) -> Option<BorderPart> {
                     section.value("hole")?.report(&no_such("hole", hole, count));
                     None
                 }
-                _ => Some(BorderPart::Hole(hole)),
+                _ => Some(BoundaryPart::Hole(hole)),
             }
         }
         "piece" => {
             let whole = piece(&section.value("piece")?, body);
             let ends = [section.optional("from")?, section.optional("to")?];
             let Some(end) = section.value("from").or(section.value("to")) else { return whole };
-            let BorderPart::Piece(whole) = whole? else { return None };
+            let BoundaryPart::Piece(whole) = whole? else { return None };
             match body.part_of(whole, ends) {
-                Ok(part) => Some(BorderPart::Piece(part)),
+                Ok(part) => Some(BoundaryPart::Piece(part)),
                 Err(message) => end.error(&message),
             }
         }
         "crack" => {
             let (crack, face) = (section.get("crack"), section.optional("face"));
-            Some(BorderPart::Crack { crack: crack?, face: face? })
+            Some(BoundaryPart::Crack { crack: crack?, face: face? })
         }
         _ => {
-            let edge: Edge = section.require("edge")?;
+            let edge: DomainEdge = section.require("edge")?;
             let [first, last] = edge.range(domain);
             let (from, to) = (section.or("from", first), section.or("to", last));
-            Some(BorderPart::Edge { edge, from: from?, to: to? })
+            Some(BoundaryPart::Edge { edge, from: from?, to: to? })
         }
     }
 }
@@ -160,21 +160,21 @@ fn bounded(holes: &[Hole]) -> usize {
 }
 
 /// The outline of the body; if it cannot be read, any part.
-fn outline(value: &Value<'_>, body: &BodyShape) -> Option<BorderPart> {
+fn outline(value: &DocumentValue<'_>, body: &BodyShape) -> Option<BoundaryPart> {
     let holes = body.holes.as_ref()?;
     match holes.iter().position(Hole::is_outside) {
-        Some(hole) => Some(BorderPart::Hole(hole)),
+        Some(hole) => Some(BoundaryPart::Hole(hole)),
         None => value.error("is the outline, but [domain] has none; name an edge, or give one"),
     }
 }
 
 /// The piece of a name.
-fn piece(value: &Value<'_>, body: &BodyShape) -> Option<BorderPart> {
+fn piece(value: &DocumentValue<'_>, body: &BodyShape) -> Option<BoundaryPart> {
     let name = String::read(value)?;
     body.holes.as_ref()?;
     let names: Vec<_> = body.pieces.iter().map(|piece| format!("`{}`", piece.name)).collect();
     match body.pieces.iter().position(|piece| piece.name == name) {
-        Some(piece) => Some(BorderPart::Piece(piece)),
+        Some(piece) => Some(BoundaryPart::Piece(piece)),
         None if names.is_empty() => value.error(&format!(
             "is \"{name}\", but no piece of a `path` has a `name`; give it one, in [domain.outline] or [[hole]]"
         )),
@@ -209,12 +209,12 @@ fn conditions(
 }
 
 fn dirichlet(
-    value: &Value<'_>,
+    value: &DocumentValue<'_>,
     unknown: &str,
     exact: Option<&[Expression]>,
 ) -> Option<Vec<Condition>> {
     // the exact solution must have been given where a value asks for it
-    let known = |value: &Value<'_>| match exact? {
+    let known = |value: &DocumentValue<'_>| match exact? {
         [] => {
             value.error(&format!("is \"exact\", but there is no [exact]; add it with `{unknown}`"))
         }
@@ -223,7 +223,7 @@ fn dirichlet(
     if value.as_text() == Some("exact") {
         return Some(known(value)?.iter().cloned().map(Condition::Dirichlet).collect());
     }
-    let condition = |(component, value): (usize, &Value<'_>)| match value.as_text() {
+    let condition = |(component, value): (usize, &DocumentValue<'_>)| match value.as_text() {
         Some("free") => Some(Condition::Free),
         Some("exact") => Some(Condition::Dirichlet(known(value)?[component].clone())),
         _ => Expression::read(value).map(Condition::Dirichlet),
@@ -231,8 +231,8 @@ fn dirichlet(
     all(value.components()?.iter().enumerate().map(condition))
 }
 
-fn neumann(value: &Value<'_>) -> Option<Vec<Condition>> {
-    let condition = |value: &Value<'_>| match value.as_text() {
+fn neumann(value: &DocumentValue<'_>) -> Option<Vec<Condition>> {
+    let condition = |value: &DocumentValue<'_>| match value.as_text() {
         Some("free") => Some(Condition::Free),
         Some("exact") => value.error("cannot be \"exact\"; write its formula"),
         _ => Expression::read(value).map(Condition::Neumann),

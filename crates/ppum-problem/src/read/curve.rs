@@ -5,7 +5,7 @@ use ppum::vec2::{Vec2, vec2};
 
 use super::super::cracks::shown;
 use super::super::curve::{self, SmoothCurve, TooSharp};
-use super::super::document::{Read as _, Section, Value, all};
+use super::super::document::{DocumentValue, FromValue as _, Section, all};
 use super::super::keys::MOST_SEGMENTS;
 use ppum::spline::Spline;
 
@@ -39,7 +39,7 @@ pub(super) fn segments(section: &Section<'_>) -> Option<Option<usize>> {
 }
 
 /// The vertices of an open curve.
-fn open(key: &str, value: &Value<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
+fn open(key: &str, value: &DocumentValue<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
     let curve = match key {
         "arc" => arc(value)?,
         "ellipse" => ellipse(value, true)?,
@@ -50,7 +50,7 @@ fn open(key: &str, value: &Value<'_>, segments: Option<usize>) -> Option<Vec<Vec
 
 pub(super) fn points_or_mistake(
     points: Result<Vec<Vec2>, TooSharp>,
-    value: &Value<'_>,
+    value: &DocumentValue<'_>,
 ) -> Option<Vec<Vec2>> {
     points.or_else(|TooSharp { at }| {
         let message = format!(
@@ -63,14 +63,14 @@ pub(super) fn points_or_mistake(
 }
 
 /// Pieces one after the other, each from where the one before ends.
-fn path(value: &Value<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
+fn path(value: &DocumentValue<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
     Some(joined(value, segments)?.0)
 }
 
 /// Pieces one after the other, each from where the one before ends, and the number of the point at
 /// which each begins.
 pub(super) fn joined(
-    value: &Value<'_>,
+    value: &DocumentValue<'_>,
     segments: Option<usize>,
 ) -> Option<(Vec<Vec2>, Vec<usize>)> {
     let pieces = value.list()?;
@@ -98,7 +98,7 @@ pub(super) fn joined(
     Some((points, starts))
 }
 
-fn piece(value: &Value<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
+fn piece(value: &DocumentValue<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
     let (section, keys) = (value.table()?, ["points", "arc", "ellipse", "spline"]);
     let given = section.given(&keys);
     let [(key, curve)] = &given[..] else {
@@ -120,7 +120,7 @@ fn piece(value: &Value<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
     }
 }
 
-fn arc(value: &Value<'_>) -> Option<SmoothCurve> {
+fn arc(value: &DocumentValue<'_>) -> Option<SmoothCurve> {
     let section = value.table()?;
     let (center, radius) = (section.require("center"), section.within("radius"));
     let [from, to] = range(&section)?;
@@ -128,7 +128,7 @@ fn arc(value: &Value<'_>) -> Option<SmoothCurve> {
 }
 
 /// A part of an ellipse, or all of it.
-pub(super) fn ellipse(value: &Value<'_>, is_part: bool) -> Option<SmoothCurve> {
+pub(super) fn ellipse(value: &DocumentValue<'_>, is_part: bool) -> Option<SmoothCurve> {
     let section = value.table()?;
     let center = section.require("center");
     let axes = section.required("axes").and_then(|value| {
@@ -157,7 +157,7 @@ fn range(section: &Section<'_>) -> Option<[f64; 2]> {
 }
 
 /// The points of a spline.
-pub(super) fn knots(value: &Value<'_>, is_closed: bool) -> Option<Vec<Vec2>> {
+pub(super) fn knots(value: &DocumentValue<'_>, is_closed: bool) -> Option<Vec<Vec2>> {
     let points: Vec<Vec2> = Vec::read(value)?;
     if points.len() < 3 {
         return value.error("needs at least 3 points; add `[x, y]`");

@@ -5,18 +5,18 @@ use ppum::text::nearest;
 use ppum::weight::{WeightError, WeightFunction};
 
 use super::super::adaptivity::Adaptivity;
-use super::super::discretization::{Cells, Discretization, Order};
-use super::super::document::{FileSource, Read as _, Section, Value};
+use super::super::discretization::{BaseCells, Discretization, PolynomialOrder};
+use super::super::document::{DocumentValue, FileSource, FromValue as _, Section};
 use super::super::{points, scopes};
 use super::enrichment::is_word;
 
 /// Optional values that are wrong are reported, and left at their defaults.
 pub(super) fn discretization(section: &Section<'_>) -> Option<Discretization> {
     let cells = cells(section);
-    let default = Discretization::new(Cells::Level(0));
+    let default = Discretization::new(BaseCells::Level(0));
     let order = section.value("order").and_then(|value| match value.as_text() {
-        Some(_) => section.get("order").map(Order::Formula),
-        None => usize::read(&value).map(Order::Uniform),
+        Some(_) => section.get("order").map(PolynomialOrder::Formula),
+        None => usize::read(&value).map(PolynomialOrder::Uniform),
     });
     let weight = section.value("weight").and_then(|value| weight(&value));
     let set = with_keys!(section, default, refine, overlap, enrichment, interfaces, tip_degree);
@@ -31,7 +31,7 @@ pub(super) fn discretization(section: &Section<'_>) -> Option<Discretization> {
 }
 
 /// A B-spline, another weight of the library, or a formula of t.
-fn weight(value: &Value<'_>) -> Option<WeightFunction> {
+fn weight(value: &DocumentValue<'_>) -> Option<WeightFunction> {
     let text = value.text()?;
     if let Some(spline) = WeightFunction::from_name(text) {
         return Some(spline);
@@ -55,26 +55,26 @@ fn weight(value: &Value<'_>) -> Option<WeightFunction> {
     }
 }
 
-fn cells(section: &Section<'_>) -> Option<Cells> {
+fn cells(section: &Section<'_>) -> Option<BaseCells> {
     let given = section.given(&["level", "cells", "points"]);
     match &given[..] {
-        [("level", _)] => section.get("level").map(Cells::Level),
-        [("cells", _)] => section.get("cells").map(Cells::Grid),
+        [("level", _)] => section.get("level").map(BaseCells::Level),
+        [("cells", _)] => section.get("cells").map(BaseCells::Grid),
         [(_, points)] => match section.document.source {
             FileSource::Folder(folder) => {
                 let found = points::read(&points.file(folder)?);
-                found.map(Cells::Points).map_err(|mistakes| points.add(mistakes)).ok()
+                found.map(BaseCells::Points).map_err(|mistakes| points.add(mistakes)).ok()
             }
             FileSource::Stored(dataset) => {
                 let points = dataset.steps.first()?.partition.boxes().points.clone();
                 // a temperature is solved for on the cells of its body, which may have none
                 let is_other = section.document.heated.is_some() && points.is_empty();
-                Some(if is_other { Cells::Level(0) } else { Cells::Points(points) })
+                Some(if is_other { BaseCells::Level(0) } else { BaseCells::Points(points) })
             }
         },
         // the steps to an accuracy begin somewhere
         [] if section.mentions("accuracy") => {
-            section.get("accuracy").map(Adaptivity::first_level).map(Cells::Level)
+            section.get("accuracy").map(Adaptivity::first_level).map(BaseCells::Level)
         }
         [] if section.mentions_any(&["level", "cells", "points"]) => None,
         [] => section.error("[discretization] has no cells; add e.g. `level = 5`"),

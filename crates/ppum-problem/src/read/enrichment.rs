@@ -2,13 +2,13 @@
 
 use ppum::expression::Expression;
 use ppum::formula::{Formula, FormulaJets, Scope, ScopeError};
-use ppum::function::{Declared, function_scope};
+use ppum::function::{NonsmoothPoints, function_scope};
 use ppum::library::{self, Entry};
 use ppum::text::nearest;
 use ppum::vec2::Vec2;
 
-use super::super::document::{Read as _, Section, Value, all};
-use super::super::enrichment::{LocalEnrichment, Region, Site};
+use super::super::document::{DocumentValue, FromValue as _, Section, all};
+use super::super::enrichment::{EnrichmentRegion, LocalEnrichment, Site};
 
 /// The enrichment of a problem with so many cracks.
 pub(super) fn enrichment(section: &Section<'_>, cracks: usize) -> Option<LocalEnrichment> {
@@ -52,7 +52,7 @@ fn functions(section: &Section<'_>, cracks: usize) -> Option<Functions> {
 }
 
 /// The values of `function` or `functions`.
-fn given<'a>(section: &Section<'a>) -> Option<Vec<Value<'a>>> {
+fn given<'a>(section: &Section<'a>) -> Option<Vec<DocumentValue<'a>>> {
     match (section.value("function"), section.value("functions")) {
         (Some(one), None) => Some(vec![one]),
         (None, Some(list)) => list.list(),
@@ -67,7 +67,7 @@ fn given<'a>(section: &Section<'a>) -> Option<Vec<Value<'a>>> {
 }
 
 /// The entry of the library that a value names.
-fn entry(value: &Value<'_>) -> Option<&'static Entry> {
+fn entry(value: &DocumentValue<'_>) -> Option<&'static Entry> {
     library::enrichment(value.as_text()?)
 }
 
@@ -84,7 +84,7 @@ fn parameters(
         Some(value) => Some(value.table()?),
         None => None,
     };
-    let read = |(name, value): (&str, Value<'_>)| {
+    let read = |(name, value): (&str, DocumentValue<'_>)| {
         if of_library && !defaults.iter().any(|(known, _)| *known == name) {
             return value.error(&no_parameter(name, &defaults));
         }
@@ -112,7 +112,7 @@ fn no_parameter(name: &str, known: &[&(&'static str, f64)]) -> String {
 }
 
 /// The formulas of a text: those of the library that it names, or the one it is.
-fn texts(value: &Value<'_>, scope: &Scope) -> Option<Vec<String>> {
+fn texts(value: &DocumentValue<'_>, scope: &Scope) -> Option<Vec<String>> {
     if let Some(entry) = entry(value) {
         return Some(entry.texts.iter().map(|&text| text.to_owned()).collect());
     }
@@ -152,19 +152,19 @@ fn site(section: &Section<'_>) -> Option<Site> {
     }
 }
 
-fn region(section: &Section<'_>) -> Option<Region> {
+fn region(section: &Section<'_>) -> Option<EnrichmentRegion> {
     match (section.value("radius"), section.value("where")) {
         (Some(_), Some(condition)) => condition.error("contradicts `radius`; give one of them"),
-        (Some(_), None) => section.get("radius").map(Region::Near),
+        (Some(_), None) => section.get("radius").map(EnrichmentRegion::Near),
         (None, Some(value)) => {
             let (text, scope) = (value.text()?, section.document.scope()?);
-            value.inside(text, Expression::condition(text, scope)).map(Region::Where)
+            value.inside(text, Expression::condition(text, scope)).map(EnrichmentRegion::Where)
         }
-        (None, None) => Some(Region::Default),
+        (None, None) => Some(EnrichmentRegion::Default),
     }
 }
 
-fn declared(section: &Section<'_>) -> Option<Declared> {
+fn declared(section: &Section<'_>) -> Option<NonsmoothPoints> {
     let (kinks, singular) = (section.or("kinks", Vec::new()), section.or("singular", Vec::new()));
-    Some(Declared { kinks: kinks?, singular: singular? })
+    Some(NonsmoothPoints { kinks: kinks?, singular: singular? })
 }

@@ -1,7 +1,7 @@
 //! From the text of a problem file to a problem.
 //!
 //! Every reader of a table reports what is wrong and returns something harmless in its place (or
-//! `None` where nothing is harmless), so that one reading finds all mistakes.
+//! `None` where nothing is harmless), so that one reading finds all errors.
 
 /// A value whose fields are what keys of their names say, or as they are where these are left out.
 macro_rules! with_keys {
@@ -36,17 +36,19 @@ use toml::de::DeTable;
 
 use super::adaptivity::Adaptivity;
 use super::body::{Body, HeatedBody};
-use super::boundary::BorderPart;
+use super::boundary::BoundaryPart;
 use super::check::mistakes;
-use super::discretization::{Discretization, Order};
-use super::document::{Document, FileSource, MAX_LENGTH, Read as _, Section, Value, all};
-use super::error::{Location, Mistake, ProblemError};
+use super::discretization::{Discretization, PolynomialOrder};
+use super::document::{
+    DocumentValue, FileSource, FromValue as _, MAX_LENGTH, ProblemDocument, Section, all,
+};
+use super::error::{Diagnostic, ProblemError, ProblemLocation};
 use super::keys::ROOT;
 use super::model::{Problem, ProblemData};
 use super::quantities;
 use super::refinement::RefinementRegion;
-use super::report::Report;
-use super::solver::Solver;
+use super::report::DiagnosticList;
+use super::solver::SolverSettings;
 use super::stiffness::default_order;
 use super::words::EquationKind;
 use rim::BodyShape;
@@ -57,11 +59,11 @@ impl Problem {
     ///
     /// # Errors
     /// Everything that is wrong, with file, line, column and remedy, of a file of numbers the first
-    /// 100 mistakes; or that the file cannot be read.
+    /// 100 errors; or that the file cannot be read.
     pub fn read(path: &Path) -> Result<Self, ProblemError> {
         let file = path.display().to_string();
-        let text = ppum_file::text(path, MAX_LENGTH).map_err(|error| Mistake {
-            location: Location::File(file.clone()),
+        let text = ppum_file::text(path, MAX_LENGTH).map_err(|error| Diagnostic {
+            location: ProblemLocation::File(file.clone()),
             message: format!("cannot read the problem file: {error}"),
         })?;
         Self::parse(&text, &file, path.parent().unwrap_or(Path::new("")))
@@ -99,7 +101,7 @@ impl Problem {
 }
 
 fn read(text: &str, file: &str, source: FileSource<'_>) -> Result<Problem, ProblemError> {
-    read_document(text, file, Document::new(file, text, source))
+    read_document(text, file, ProblemDocument::new(file, text, source))
 }
 
 /// Reads the problem of a temperature in a body from a text that begins at a line and column of a
@@ -110,13 +112,17 @@ fn read_heat(
     source: FileSource<'_>,
     heated: &HeatedBody<'_>,
 ) -> Result<Problem, ProblemError> {
-    let mut document = Document::new(file, text, source);
+    let mut document = ProblemDocument::new(file, text, source);
     document.report.begins_at(line, column);
     document.heated = Some(heated);
     read_document(text, file, document)
 }
 
-fn read_document(text: &str, file: &str, document: Document<'_>) -> Result<Problem, ProblemError> {
+fn read_document(
+    text: &str,
+    file: &str,
+    document: ProblemDocument<'_>,
+) -> Result<Problem, ProblemError> {
     let (table, errors) = DeTable::parse_recoverable(text);
     report_syntax(&document.report, &errors);
     let problem = if errors.is_empty() { problem(&document, table.get_ref()) } else { None };
@@ -133,7 +139,7 @@ fn read_document(text: &str, file: &str, document: Document<'_>) -> Result<Probl
         "" => Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned(),
         title => title.to_owned(),
     };
-    // mistakes are about the vertices of the file
+    // errors are about the vertices of the file
     let text = Some(temperature::with_text(text, table.get_ref(), &problem));
     let body = (*problem.body).clone().settled().into();
     Ok(Problem::of_checked(ProblemData { title, body, text, files, ..problem }))
@@ -146,9 +152,9 @@ const BODY: [&str; 3] = ["domain", "hole", "crack"];
 /// the array.
 const IN_ARRAY: &str = "missing comma between array elements";
 
-/// Reports what is no TOML; only the first mistake of a line, as the others mostly follow from it,
+/// Reports what is no TOML; only the first error of a line, as the others mostly follow from it,
 /// and nothing after an open bracket.
-fn report_syntax(report: &Report<'_>, errors: &[toml::de::Error]) {
+fn report_syntax(report: &DiagnosticList<'_>, errors: &[toml::de::Error]) {
     let mut seen = BTreeSet::new();
     for error in errors {
         let offset = error.span().map_or(0, |span| span.start);
@@ -163,7 +169,7 @@ fn report_syntax(report: &Report<'_>, errors: &[toml::de::Error]) {
 }
 
 fn report_violations(
-    Document { report, misnamed, .. }: &Document<'_>,
+    ProblemDocument { report, misnamed, .. }: &ProblemDocument<'_>,
     document: &DeTable<'_>,
     problem: &ProblemData,
 ) {
@@ -177,7 +183,7 @@ fn report_violations(
     }
 }
 
-fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<ProblemData> {
+fn problem<'a>(document: &'a ProblemDocument<'a>, table: &'a DeTable<'a>) -> Option<ProblemData> {
     let root = Section::unchecked(document, &ROOT, table, 0);
     let kind = match root.mentions("equation") {
         true => root
@@ -189,7 +195,7 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     let root = &root.checked();
     document.misnamed.replace(root.misnamed_keys());
     let heated = document.heated.filter(|_| !root.mentions_any(&BODY));
-    // mistakes in the body are those of the problem that it stands in
+    // errors in the body are those of the problem that it stands in
     document.misnamed.borrow_mut().extend(heated.iter().flat_map(|_| BODY));
     let loads = ["boundary", "force", "body_force", "source", "temperature", "strain"];
     if !root.mentions_any(&loads) {
@@ -218,7 +224,7 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     let mut boundary = boundary::boundary(root, kind, &mut shape, exact.as_deref());
     if cracks.is_empty() && root.mentions("crack") {
         // none could be read: what is said of them cannot be judged
-        boundary.retain(|condition| !matches!(condition.on, BorderPart::Crack { .. }));
+        boundary.retain(|condition| !matches!(condition.on, BoundaryPart::Crack { .. }));
         refinements.retain(|new| !matches!(new.place, RefinementRegion::Crack(_)));
     }
     let domain = Domain { bounds: shape.bounds?, holes: shape.holes? };
@@ -236,7 +242,8 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     let equation = equation.without_expansion();
     if plan.is_some_and(|plan| !plan.mentions("order")) {
         let first = accuracy.map_or(0, Adaptivity::first_order);
-        discretization.order = Order::Uniform(default_order(&equation, body.domain()).max(first));
+        discretization.order =
+            PolynomialOrder::Uniform(default_order(&equation, body.domain()).max(first));
     }
     Some(ProblemData {
         title,
@@ -261,7 +268,8 @@ fn problem<'a>(document: &'a Document<'a>, table: &'a DeTable<'a>) -> Option<Pro
     })
 }
 
-/// The table `[discretization]`, which the problem of a temperature need not have, and what it says.
+/// The table `[discretization]`, which the problem of a temperature need not have, and what it
+/// says.
 fn plan<'a>(root: &Section<'a>) -> (Option<Section<'a>>, Option<Discretization>) {
     match root.document.heated {
         Some(heated) if !root.mentions("discretization") => {
@@ -335,12 +343,12 @@ fn exact(root: &Section<'_>, kind: EquationKind) -> Option<Vec<Expression>> {
     expressions(&root.section("exact")?.required(unknown)?)
 }
 
-fn expressions(value: &Value<'_>) -> Option<Vec<Expression>> {
+fn expressions(value: &DocumentValue<'_>) -> Option<Vec<Expression>> {
     all(value.components()?.iter().map(Expression::read))
 }
 
-fn solver(root: &Section<'_>) -> Solver {
-    let default = Solver::default();
+fn solver(root: &Section<'_>) -> SolverSettings {
+    let default = SolverSettings::default();
     let section = root.section("solver");
     section.map_or(default, |section| with_keys!(section, default, tolerance, kind, kernels))
 }

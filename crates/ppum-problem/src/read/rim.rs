@@ -4,11 +4,11 @@ use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Rect, Vec2};
 
 use super::super::body::Body;
-use super::super::boundary::{Piece, SideRun};
+use super::super::boundary::{BoundaryPiece, BoundaryRange};
 use super::super::cracks::shown;
 use super::super::curve::SmoothCurve;
 use super::super::discretization::Discretization;
-use super::super::document::{Read as _, Section, Value, all};
+use super::super::document::{DocumentValue, FromValue as _, Section, all};
 use super::super::straight::needed;
 use super::curve::{ellipse, joined, knots, points_or_mistake, segments};
 use ppum::border::touch;
@@ -26,7 +26,7 @@ pub(super) struct Rim {
 pub(super) struct BodyShape {
     pub(super) bounds: Option<Rect>,
     pub(super) holes: Option<Vec<Hole>>,
-    pub(super) pieces: Vec<Piece>,
+    pub(super) pieces: Vec<BoundaryPiece>,
 }
 
 /// Room between the outline and the box around it, in parts of its size, where cells are not known
@@ -49,11 +49,15 @@ pub(super) fn body(root: &Section<'_>, cells: Option<&Discretization>) -> BodySh
     BodyShape { bounds, holes: is_whole.then_some(holes), pieces }
 }
 
-fn add_piece(pieces: &mut Vec<Piece>, (name, [from, to]): (String, [usize; 2]), hole: usize) {
-    let run = SideRun { hole, from, to };
+fn add_piece(
+    pieces: &mut Vec<BoundaryPiece>,
+    (name, [from, to]): (String, [usize; 2]),
+    hole: usize,
+) {
+    let run = BoundaryRange { hole, from, to };
     match pieces.iter_mut().find(|piece| piece.name == name) {
         Some(piece) => piece.runs.push(run),
-        None => pieces.push(Piece { name, runs: vec![run] }),
+        None => pieces.push(BoundaryPiece { name, runs: vec![run] }),
     }
 }
 
@@ -68,13 +72,13 @@ impl BodyShape {
     /// Sides are divided at its ends.
     ///
     /// # Errors
-    /// What is wrong with the lengths.
+    /// Lengths that do not fit the piece.
     pub(super) fn part_of(
         &mut self,
         piece: usize,
         [from, to]: [Option<f64>; 2],
     ) -> Result<usize, String> {
-        let Piece { name, runs } = self.pieces[piece].clone();
+        let BoundaryPiece { name, runs } = self.pieces[piece].clone();
         let Some(holes) = &self.holes else { return Ok(piece) };
         let [run] = runs[..] else {
             return Err(
@@ -102,8 +106,9 @@ impl BodyShape {
         let count = self.pieces[piece].runs[0].to;
         let first = self.vertex_at(piece, ends[0], touch);
         let to = last + self.pieces[piece].runs[0].to - count;
-        let runs = vec![SideRun { hole: run.hole, from: first, to }];
-        self.pieces.push(Piece { name: format!("{name} from {} to {}", ends[0], ends[1]), runs });
+        let runs = vec![BoundaryRange { hole: run.hole, from: first, to }];
+        self.pieces
+            .push(BoundaryPiece { name: format!("{name} from {} to {}", ends[0], ends[1]), runs });
         Ok(self.pieces.len() - 1)
     }
 
@@ -139,7 +144,7 @@ impl BodyShape {
 }
 
 /// The box: the one given, or one around the outline. There the outline runs through the middle of
-/// the outer cells: it is on no line of cells but for rounding.
+/// the outer cells: it is on no line of cells except for rounding.
 fn bounds(
     domain: &Section<'_>,
     outline: Option<&Rim>,
@@ -229,7 +234,7 @@ fn closed(section: &Section<'_>, keys: &[&'static str]) -> Option<Rim> {
 }
 
 /// Pieces one after the other, the last of which ends where the first begins.
-fn path(value: &Value<'_>, segments: Option<usize>) -> Option<Rim> {
+fn path(value: &DocumentValue<'_>, segments: Option<usize>) -> Option<Rim> {
     let (mut points, starts) = joined(value, segments)?;
     let (first, last) = (points[0], points.pop()?);
     let size = points.iter().map(|p| (*p - first).length()).fold(0.0, f64::max);
@@ -241,7 +246,7 @@ fn path(value: &Value<'_>, segments: Option<usize>) -> Option<Rim> {
         ));
     }
     let (points, runs) = needed_of(&points, &starts);
-    let name = |(value, run): (&Value<'_>, [usize; 2])| {
+    let name = |(value, run): (&DocumentValue<'_>, [usize; 2])| {
         let section = value.table()?;
         let Some(name) = section.value("name") else { return Some(None) };
         match String::read(&name)? {

@@ -1,6 +1,6 @@
 //! The tables `[[force]]` and `[[support]]`.
 
-use super::super::document::{Read as _, Section, Value, all};
+use super::super::document::{DocumentValue, FromValue as _, Section, all};
 use super::super::support::{Force, Support};
 
 /// The forces; none at all if one of them cannot be read, as the checks count them.
@@ -21,8 +21,8 @@ pub(super) fn supports(root: &Section<'_>) -> Vec<Support> {
     })
 }
 
-fn displacement(value: &Value<'_>) -> Option<[Option<f64>; 2]> {
-    let component = |value: &Value<'_>| match value.as_text() {
+fn displacement(value: &DocumentValue<'_>) -> Option<[Option<f64>; 2]> {
+    let component = |value: &DocumentValue<'_>| match value.as_text() {
         Some("free") => Some(None),
         _ => f64::read(value).map(Some),
     };

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use ppum::dataset::{Equation, MAX_TABLES};
 use ppum::formula::{Table, TableError};
 
-use super::super::document::{FileSource, Read as _, Section, Value, all};
+use super::super::document::{DocumentValue, FileSource, FromValue as _, Section, all};
 use super::super::scopes;
 use super::super::table_file::{self, TableData};
 
@@ -64,7 +64,7 @@ fn inline(section: &Section<'_>) -> Option<TableData> {
     let y: Option<Vec<f64>> = section.or("y", Vec::new());
     let values = section.required("values");
     let (x, y, values) = (x?, y?, values?);
-    let rows = |row: &Value<'_>| row_of(row, x.len());
+    let rows = |row: &DocumentValue<'_>| row_of(row, x.len());
     let values = match y.is_empty() {
         true => Vec::read(&values)?,
         false => all(values.list()?.iter().map(rows))?.concat(),
@@ -73,7 +73,7 @@ fn inline(section: &Section<'_>) -> Option<TableData> {
 }
 
 /// A row of so many numbers.
-fn row_of(row: &Value<'_>, length: usize) -> Option<Vec<f64>> {
+fn row_of(row: &DocumentValue<'_>, length: usize) -> Option<Vec<f64>> {
     let found = Vec::read(row)?;
     let given = found.len();
     if given != length {

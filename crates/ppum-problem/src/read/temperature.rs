@@ -7,12 +7,12 @@ use ppum::expression::Expression;
 use toml::de::DeTable;
 
 use super::super::body::Body;
-use super::super::document::{FileSource, MAX_LENGTH, Section, Value};
+use super::super::document::{DocumentValue, FileSource, MAX_LENGTH, Section};
 use super::super::error::ProblemError;
 use super::super::model::{Problem, ProblemData, SolvedTemperature};
 
 /// Reads the problem of a text that begins at a line and column of a file.
-type Reader<'r> =
+type TemperatureReader<'r> =
     &'r dyn Fn(&str, (&str, usize, usize), FileSource<'_>) -> Result<Problem, ProblemError>;
 
 /// ε⁰ = α ΔT I + what is given beside; none if nothing is. A temperature that another problem gives
@@ -40,11 +40,12 @@ pub(super) fn eigenstrain(
         formula.map(|section| format!("({})*({})", alpha.text(), text_of(section, "value")));
     let component = |name: &'static str| {
         let beside = given.as_ref().filter(|section| section.mentions(name));
-        let beside = beside.map(|section| text_of(section, name)).filter(|text| text != "0");
+        let beside =
+            beside.map(|section| text_of(section, name)).filter(|text| text.parse() != Ok(0.0));
         let parts = swelling.iter().filter(|_| name != "xy").chain(&beside);
         let parts: Vec<&str> = parts.map(String::as_str).collect();
         let text = if parts.is_empty() { "0".to_owned() } else { parts.join(" + ") };
-        // the parts are formulas, so that their sum is one but for its size
+        // the parts are formulas, so that their sum is one except for its size
         Expression::parse_in(&text, root.document.scope()?).ok()
     };
     let strains = ["xx", "yy", "xy", "zz"].map(|name| component(name).unwrap_or(0.0.into()));
@@ -62,7 +63,7 @@ pub(super) fn solved(
     root: &Section<'_>,
     equation: &Equation,
     body: &Body,
-    read: Reader<'_>,
+    read: TemperatureReader<'_>,
 ) -> Option<SolvedTemperature> {
     let expansion = equation.expansion()?.clone();
     let section = root.section("temperature")?;
@@ -92,9 +93,9 @@ pub(super) fn solved(
 
 /// The problem of a text of several lines, or of the file of that name.
 fn problem_of(
-    value: &Value<'_>,
+    value: &DocumentValue<'_>,
     text: &str,
-    read: Reader<'_>,
+    read: TemperatureReader<'_>,
 ) -> Option<Result<Problem, ProblemError>> {
     let source = value.document.source;
     if text.contains('\n') {
@@ -115,7 +116,7 @@ fn problem_of(
     Some(problem)
 }
 
-/// What is wrong with the problem of a temperature in a body with cracks.
+/// Returns the error in the problem of a temperature in a body with cracks.
 fn mistake(problem: &Problem, has_tables: bool, body: &Body) -> Option<&'static str> {
     let paths = |body: &Body| body.cracks().iter().map(|c| c.points.clone()).collect::<Vec<_>>();
     match problem.equation {

@@ -26,14 +26,14 @@ const FILES: [(&str, &str, &str); 10] = files![
 ];
 
 /// One case: a part of the good file, what replaces it, and what is then found wrong.
-struct Case {
+struct BadFileCase {
     title: String,
     old: Vec<String>,
     new: Vec<String>,
     expected: Vec<String>,
 }
 
-impl Case {
+impl BadFileCase {
     /// Lines with `-` are replaced by those with `+`, the others are mistakes.
     fn read(text: &str) -> Self {
         let mut lines = text.lines();
@@ -70,7 +70,7 @@ fn the_files_themselves_are_in_order() {
 fn every_mistake_is_told_in_full() {
     let mut wrong = Vec::new();
     for (name, good, cases) in FILES {
-        let cases: Vec<_> = cases.split("\n== ").skip(1).map(Case::read).collect();
+        let cases: Vec<_> = cases.split("\n== ").skip(1).map(BadFileCase::read).collect();
         assert!(cases.len() >= 8, "{name}: {} cases", cases.len());
         wrong.extend(cases.iter().filter_map(|case| case.wrong_answer(name, good)));
     }

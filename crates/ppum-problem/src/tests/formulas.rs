@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ppum::dataset::NamedQuantity;
 use ppum::formula::Table;
-use ppum::function::{Declared, WESTERGAARD};
+use ppum::function::{NonsmoothPoints, WESTERGAARD};
 use ppum::library;
 
 use super::*;
@@ -40,7 +40,7 @@ fn enrichments() {
     let expected = LocalEnrichment {
         name: "corner of mine".to_owned(),
         parameters: vec![("lambda".to_owned(), 0.6), ("m".to_owned(), 0.5 * angle)],
-        region: Region::Near(0.3),
+        region: EnrichmentRegion::Near(0.3),
         ..LocalEnrichment::new(
             &["r^lambda*cos(m*theta)", "table(k, y)"],
             Site::Point { at: vec2(0.5, 0.25), angle },
@@ -50,7 +50,7 @@ fn enrichments() {
     let expected = LocalEnrichment {
         name: "kink".to_owned(),
         degree: Some(2),
-        declared: Declared {
+        declared: NonsmoothPoints {
             kinks: vec![[vec2(0.0, 0.0), vec2(1.0, 0.0)]],
             singular: vec![vec2(0.5, 0.0)],
         },
@@ -59,12 +59,12 @@ fn enrichments() {
     assert_eq!(*kink, expected);
     let expected = LocalEnrichment {
         name: "westergaard".to_owned(),
-        region: Region::Near(0.0),
+        region: EnrichmentRegion::Near(0.0),
         ..LocalEnrichment::new(&WESTERGAARD, Site::Tips)
     };
     assert_eq!(*tips, expected);
     assert_eq!((layer.site, layer.name.as_str()), (Site::World, ""));
-    let Region::Where(holds) = &layer.region else { panic!("a condition") };
+    let EnrichmentRegion::Where(holds) = &layer.region else { panic!("a condition") };
     assert_eq!([-0.6, -0.4].map(|x| holds.value(vec2(x, 0.0))), [1.0, 0.0]);
 }
 
@@ -82,7 +82,7 @@ fn defaults_and_parameters_of_the_library() {
     let Some(entry) = library::enrichment("corner") else { panic!("an entry") };
     assert_eq!(new.functions, entry.texts);
     assert_eq!(new.parameters, [("lambda".to_owned(), entry.parameters[0].1)]);
-    assert_eq!((new.region, new.degree), (Region::Default, None));
+    assert_eq!((new.region, new.degree), (EnrichmentRegion::Default, None));
     let new = corner("\nparameters = { lambda = \"1/4\" }");
     assert_eq!(new.parameters, [("lambda".to_owned(), 0.25)]);
 }

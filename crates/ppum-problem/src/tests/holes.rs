@@ -18,10 +18,10 @@ fn everything_about_holes() {
     assert_eq!(problem.cracks()[0].ends, [CrackEnd::Mouth, CrackEnd::Tip]);
     let [left, top, first, second, face] = &problem.boundary[..] else { panic!("five conditions") };
     assert_eq!(left.components, [Condition::Dirichlet(0.0.into()), Condition::Free]);
-    assert_eq!(top.on, BorderPart::Edge { edge: Edge::Top, from: 0.5, to: 2.0 });
+    assert_eq!(top.on, BoundaryPart::Edge { edge: DomainEdge::Top, from: 0.5, to: 2.0 });
     assert_eq!(top.values(vec2(1.0, 1.0), vec2(0.0, 1.0)), [0.0, -2.0]);
-    assert_eq!(first.on, BorderPart::Hole(0));
+    assert_eq!(first.on, BoundaryPart::Hole(0));
     assert_eq!(first.values(vec2(0.5, 0.25), vec2(-1.0, 0.0)), [2.0, 0.0]);
-    assert_eq!((second.on, second.held()), (BorderPart::Hole(1), [true, false]));
-    assert_eq!(face.on, BorderPart::Crack { crack: 0, face: Some(Side::Above) });
+    assert_eq!((second.on, second.held()), (BoundaryPart::Hole(1), [true, false]));
+    assert_eq!(face.on, BoundaryPart::Crack { crack: 0, face: Some(Side::Above) });
 }

@@ -41,7 +41,7 @@ fn good(text: &str) -> ProblemData {
 fn mistakes(text: &str) -> Vec<String> {
     match parse(text) {
         Ok(_) => panic!("nothing was found wrong:\n{text}"),
-        Err(error) => error.mistakes().iter().map(Mistake::to_string).collect(),
+        Err(error) => error.mistakes().iter().map(Diagnostic::to_string).collect(),
     }
 }
 
@@ -55,10 +55,10 @@ fn plate() {
     let expected = ProblemData {
         title: "Centre crack".to_owned(),
         text: Some(PLATE.to_owned()),
-        ..ProblemData::elasticity(domain, material, Discretization::new(Cells::Level(4)))
+        ..ProblemData::elasticity(domain, material, Discretization::new(BaseCells::Level(4)))
             .with_crack(&[[-0.5, 0.0], [0.5, 0.0]])
-            .with_boundary(Edge::Bottom, vec![dirichlet, Condition::Free])
-            .with_boundary(Edge::Top, vec![Condition::Neumann(0.0.into()), neumann])
+            .with_boundary(DomainEdge::Bottom, vec![dirichlet, Condition::Free])
+            .with_boundary(DomainEdge::Top, vec![Condition::Neumann(0.0.into()), neumann])
     };
     assert_eq!(problem, expected);
     assert_eq!(expected.check(), Ok(()));
@@ -71,11 +71,11 @@ fn membrane() {
     assert_eq!(problem.equation, Equation::poisson(2.0));
     assert_eq!(problem.source[0].value(vec2(3.0, 4.0)), 12.0);
     assert_eq!(problem.exact[0].text(), "x + y");
-    assert_eq!(problem.discretization.cells, Cells::Grid([8, 4]));
+    assert_eq!(problem.discretization.cells, BaseCells::Grid([8, 4]));
     let [left, top] = problem.boundary.as_slice() else { panic!("two conditions") };
-    assert_eq!(left.on, BorderPart::Edge { edge: Edge::Left, from: 0.0, to: 1.0 });
+    assert_eq!(left.on, BoundaryPart::Edge { edge: DomainEdge::Left, from: 0.0, to: 1.0 });
     assert_eq!(left.components, [Condition::Dirichlet(problem.exact[0].clone())]);
-    assert_eq!(top.on, BorderPart::Edge { edge: Edge::Top, from: 0.5, to: 2.0 });
+    assert_eq!(top.on, BoundaryPart::Edge { edge: DomainEdge::Top, from: 0.5, to: 2.0 });
     assert!(matches!(top.components.as_slice(), [Condition::Neumann(_)]));
 }
 
@@ -89,11 +89,14 @@ fn everything_said() {
     );
     let problem = good(&text);
     let discretization = &problem.discretization;
-    assert_eq!(problem.solver, Solver { kind: SolverKind::Direct, ..Solver::default() });
+    assert_eq!(
+        problem.solver,
+        SolverSettings { kind: SolverKind::Direct, ..SolverSettings::default() }
+    );
     assert_eq!(discretization.order.at(vec2(0.5, 0.0)), Ok(2));
     assert_eq!(discretization.order.at(vec2(-0.5, 0.0)), Ok(2));
     let expected = Discretization {
-        cells: Cells::Grid([3, 5]),
+        cells: BaseCells::Grid([3, 5]),
         refine: false,
         order: discretization.order.clone(),
         overlap: 1.5,
@@ -163,7 +166,7 @@ fn files_and_their_points() {
     let points = vec![vec2(0.5, 0.25), vec2(-1.0, 1.0)];
     assert_eq!(
         read().map(|problem| problem.into_data().discretization.cells),
-        Ok(Cells::Points(points))
+        Ok(BaseCells::Points(points))
     );
     cloud("0.5, 0.25\n1,y\n");
     wrong("cloud.csv:2:3: `y` is not a finite number");
@@ -221,9 +224,9 @@ fn a_file_that_cannot_be_read() {
 #[test]
 fn problems_built_in_code_are_checked_alike() {
     let domain = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
-    let problem = ProblemData::poisson(domain, 0.0, Discretization::new(Cells::Level(12)))
+    let problem = ProblemData::poisson(domain, 0.0, Discretization::new(BaseCells::Level(12)))
         .with_crack(&[[0.5, 0.5], [2.0, 0.5]])
-        .with_boundary(Edge::Top, vec![Condition::Free; 2]);
+        .with_boundary(DomainEdge::Top, vec![Condition::Free; 2]);
     let error = problem.check().expect_err("much is wrong");
     let keys: Vec<_> =
         error.mistakes().iter().map(|mistake| mistake.location.to_string()).collect();
@@ -252,7 +255,7 @@ fn the_example_of_the_documentation() {
     let mut blocks = page.split("```");
     let example = blocks.nth(1).and_then(|block| block.strip_prefix("toml\n"));
     let problem = good(example.expect("the page's first block is the example"));
-    assert_eq!(problem.discretization, Discretization::new(Cells::Level(4)));
+    assert_eq!(problem.discretization, Discretization::new(BaseCells::Level(4)));
     assert_eq!(problem.boundary.len(), 2);
 }
 

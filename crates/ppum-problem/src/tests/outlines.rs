@@ -1,7 +1,7 @@
 //! Outlines of bodies, paths of pieces, and conditions on pieces.
 
 use super::*;
-use crate::{Piece, SideRun};
+use crate::{BoundaryPiece, BoundaryRange};
 use ppum::crack::CrackEnd;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -53,9 +53,9 @@ fn everything_about_outlines() {
     let [slot, foot, head] = problem.pieces() else { panic!("three names") };
     assert_eq!([slot, foot, head].map(|piece| piece.name.as_str()), ["slot", "foot", "head"]);
     // one corner of the foot is on a straight line
-    assert_eq!(foot.runs, [SideRun { hole: 1, from: 0, to: 3 }]);
+    assert_eq!(foot.runs, [BoundaryRange { hole: 1, from: 0, to: 3 }]);
     assert_eq!((slot.runs.len(), slot.runs[0].from), (2, 0));
-    assert_eq!(problem.boundary[0].on, BorderPart::Piece(2));
+    assert_eq!(problem.boundary[0].on, BoundaryPart::Piece(2));
     let on = problem.stations(0.05);
     let at_head = |p: Vec2| (p.y == 4.0 && p.x <= 1.0) || (p.x == 1.0 && p.y >= 2.0);
     assert!(on.iter().filter(|s| s.held[0]).all(|s| at_head(s.at)));
@@ -128,9 +128,9 @@ fn straight_sides_have_no_corners() {
         let problem = good(&text);
         let Hole::Polygon { points, .. } = &problem.domain().holes[0] else { panic!("a polygon") };
         assert_eq!(points.len(), 4, "{points:?}");
-        let piece = |k: usize| Piece {
+        let piece = |k: usize| BoundaryPiece {
             name: format!("side {k}"),
-            runs: vec![SideRun { hole: 0, from: k, to: k + 1 }],
+            runs: vec![BoundaryRange { hole: 0, from: k, to: k + 1 }],
         };
         assert_eq!(problem.pieces(), [0, 1, 2, 3].map(piece));
     }

@@ -3,28 +3,28 @@
 use std::ops::Range;
 
 use ppum::crack::{LocalTip, Side};
-use ppum::formula::Scratch as FormulaScratch;
+use ppum::formula::BlockScratch as FormulaScratch;
 use ppum::function::{GROUP, at_tip};
 use ppum::jet::Jet;
-use ppum::real::{Job, Real, Scalar};
+use ppum::real::{LaneJob, LaneNumber, Real};
 
 use super::collapse::{ROWS, Slopes};
 use super::layout::{basis_len, basis_stride, size, store_slopes};
 use super::plan::{COLUMNS, Tiles};
-use super::prepared::PreparedView;
-use super::tile::{Active, Batch, Scratch, Tile};
+use super::tile::{ActiveGroup, PatchBatch, Tile, TileScratch};
+use super::view_data::PreparedView;
 
 /// Draws a band: the tiles of some rows, with `D` derivatives.
 pub(super) struct Band<'a, 'f, T, const D: usize> {
     pub(super) scene: &'a PreparedView<'f, T>,
     pub(super) tiles: &'a Tiles,
     pub(super) band: usize,
-    pub(super) scratch: &'a mut Scratch<T>,
+    pub(super) scratch: &'a mut TileScratch<T>,
     /// The band's rows of the raster.
     pub(super) out: &'a mut [T],
 }
 
-impl<T: Scalar, const D: usize> Job<T> for Band<'_, '_, T, D> {
+impl<T: LaneNumber, const D: usize> LaneJob<T> for Band<'_, '_, T, D> {
     type Output = ();
 
     #[inline(always)]
@@ -38,13 +38,13 @@ impl<T: Scalar, const D: usize> Job<T> for Band<'_, '_, T, D> {
     }
 }
 
-impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
+impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
     /// Draws column by column.
     #[inline(always)]
     fn draw<R: Real<Scalar = T>>(
         &self,
         tiles: &Tiles,
-        scratch: &mut Scratch<T>,
+        scratch: &mut TileScratch<T>,
         out: &mut [T],
         zero: R,
     ) {
@@ -71,7 +71,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     fn draw_vector<R: Real<Scalar = T>>(
         &self,
         vector: usize,
-        scratch: &mut Scratch<T>,
+        scratch: &mut TileScratch<T>,
         out: &mut [T],
         zero: R,
     ) {
@@ -83,7 +83,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         let (mut is_first, mut from) = (!self.scene.plan.has_grains, 0);
         loop {
             from = self.gather(vector, from, scratch, zero);
-            let batch = Batch { is_first, is_last: from == scratch.listed.len() };
+            let batch = PatchBatch { is_first, is_last: from == scratch.listed.len() };
             self.evaluate_functions(vector, scratch, zero);
             self.sweep(start, batch, scratch, zero);
             if batch.is_last {
@@ -107,7 +107,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     fn evaluate_functions<R: Real<Scalar = T>>(
         &self,
         vector: usize,
-        scratch: &mut Scratch<T>,
+        scratch: &mut TileScratch<T>,
         zero: R,
     ) {
         let len = basis_len::<R, D>() * scratch.active.len();
@@ -131,7 +131,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     #[inline(always)]
     fn evaluate_formulas<R: Real<Scalar = T>>(
         &self,
-        active: &Active,
+        active: &ActiveGroup,
         vector: usize,
         (memory, basis): (&mut FormulaScratch<T>, &mut [T]),
         zero: R,
@@ -158,7 +158,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     fn evaluate_tip<R: Real<Scalar = T>>(
         &self,
         tip: &LocalTip,
-        active: &Active,
+        active: &ActiveGroup,
         vector: usize,
         basis: &mut [T],
         zero: R,
@@ -173,7 +173,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     #[inline(always)]
     fn evaluate_one<R: Real<Scalar = T>>(
         &self,
-        active: &Active,
+        active: &ActiveGroup,
         vector: usize,
         basis: &mut [T],
         zero: R,

@@ -10,7 +10,7 @@
 
 use ppum::dataset::monomials;
 use ppum::jet::Jet;
-use ppum::real::{Real, Scalar};
+use ppum::real::{LaneNumber, Real};
 
 use crate::rows::BAND;
 
@@ -31,7 +31,7 @@ pub(super) const fn table_len<R: Real, const D: usize>(degree: usize) -> usize {
 
 /// A factor of the weight and its derivative in the world.
 #[derive(Clone, Copy)]
-pub(super) struct Factor<R> {
+pub(super) struct WeightFactor<R> {
     pub(super) value: R,
     pub(super) slope: R,
 }
@@ -47,7 +47,7 @@ pub(super) struct Slopes<R> {
 impl<R: Real> Slopes<R> {
     #[inline(always)]
     pub(super) fn constant(v: R) -> Self {
-        let zero = v.lit(0.0);
+        let zero = v.broadcast(0.0);
         Self { v, x: zero, y: zero }
     }
 
@@ -59,7 +59,7 @@ impl<R: Real> Slopes<R> {
     /// Quotient by the quotient rule.
     #[inline(always)]
     pub(super) fn over<const D: usize>(self, b: Self) -> Self {
-        let inverse = b.v.lit(1.0) / b.v;
+        let inverse = b.v.broadcast(1.0) / b.v;
         let mut out = Self::constant(self.v * inverse);
         if D >= 1 {
             out.x = (self.x - out.v * b.x) * inverse;
@@ -100,7 +100,7 @@ pub(super) struct Across<R> {
     /// Coordinate ξ of the polynomials.
     pub(super) xi: R,
     /// Factor of the weight.
-    pub(super) factor: Factor<R>,
+    pub(super) factor: WeightFactor<R>,
     /// The factor, for slopes by ξ.
     pub(super) scaled: R,
 }
@@ -136,7 +136,7 @@ fn collapse_degree<R: Real, const D: usize, const P: usize, const ADD: bool>(
 #[inline(always)]
 fn inner<R: Real, const D: usize>(c: &[R::Scalar], degree: usize, j: usize, xi: R) -> [R; 2] {
     let last = degree - j;
-    let (mut a, mut b) = (splat(xi, c[monomials(degree) - 1 - last]), xi.lit(0.0));
+    let (mut a, mut b) = (splat(xi, c[monomials(degree) - 1 - last]), xi.broadcast(0.0));
     let mut k = last;
     while k > 0 {
         if D >= 1 {
@@ -158,7 +158,7 @@ pub(super) fn evaluate<R: Real, const D: usize, const P: usize, const C: usize>(
     scale: R,
 ) -> [Slopes<R>; C] {
     let degree = constant_or(P, degree);
-    let mut v = [Slopes::constant(eta.lit(0.0)); C];
+    let mut v = [Slopes::constant(eta.broadcast(0.0)); C];
     let (mut at, mut j) = (0, 0);
     while j <= degree {
         let mut c = 0;
@@ -205,5 +205,5 @@ pub(super) fn put_sum<R: Real, const ADD: bool>(value: R, to: &mut [R::Scalar]) 
 /// A number in every lane.
 #[inline(always)]
 pub(super) fn splat<R: Real>(like: R, value: R::Scalar) -> R {
-    like.lit(value.to_f64())
+    like.broadcast(value.to_f64())
 }

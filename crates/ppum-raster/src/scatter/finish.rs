@@ -2,14 +2,14 @@
 //! by a formula, some rows at a time.
 
 use ppum::jet::Jet;
-use ppum::quantity::{Input, Quantity, QuantityBlock, QuantityFormula, Sample, Source};
-use ppum::real::{Real, Scalar};
+use ppum::quantity::{Quantity, QuantityBlock, QuantityFormula, QuantityInput, Sample, Source};
+use ppum::real::{LaneNumber, Real};
 
 use super::collapse::{ANY, Slopes, constant_or};
 use super::layout::{load_slopes, size};
-use super::tile::{Scratch, Tile};
+use super::tile::{Tile, TileScratch};
 
-impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
+impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
     /// Makes the quantity of what begins at `start` and writes it to the raster. The quantity most
     /// often drawn is compiled as a constant: the choice between thirty costs more than it.
     #[inline(always)]
@@ -17,7 +17,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         &self,
         vector: usize,
         start: usize,
-        scratch: &mut Scratch<T>,
+        scratch: &mut TileScratch<T>,
         out: &mut [T],
         zero: R,
     ) {
@@ -51,7 +51,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         &self,
         quantity: &Quantity,
         (vector, start): (usize, usize),
-        scratch: &mut Scratch<T>,
+        scratch: &mut TileScratch<T>,
         out: &mut [T],
         zero: R,
     ) {
@@ -73,7 +73,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         let width = self.scene.view.pixels[0] as usize;
         let [column, first_row] = self.corner();
         let column = column + vector * R::LANES;
-        let Scratch { sums, shift, .. } = scratch;
+        let TileScratch { sums, shift, .. } = scratch;
         let rows = out.len() / width;
         for row in 0..rows {
             let cell = &sums[start + row * stride..][..stride];
@@ -87,7 +87,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             let has_values = C != 2 && source == Source::Gradient && components > 2;
             if has_values || matches!(source, Source::Values | Source::Partition) {
                 for (jet, &shift) in jets.iter_mut().zip(&*shift) {
-                    jet.v = jet.v + zero.lit(shift);
+                    jet.v = jet.v + zero.broadcast(shift);
                 }
             }
             let value = match source {
@@ -110,11 +110,11 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         &self,
         formula: &QuantityFormula,
         (vector, start): (usize, usize),
-        scratch: &mut Scratch<T>,
+        scratch: &mut TileScratch<T>,
         out: &mut [T],
         zero: R,
     ) {
-        let Scratch { sums, shift, formulas, .. } = scratch;
+        let TileScratch { sums, shift, formulas, .. } = scratch;
         let mut block = formula.block(formulas);
         let some = QuantityBlock::<T>::vectors::<R>();
         let width = self.scene.view.pixels[0] as usize;
@@ -165,7 +165,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     #[inline(always)]
     fn fill_input<R: Real<Scalar = T>>(
         &self,
-        input: Input,
+        input: QuantityInput,
         (cells, shift): (&[T], &[f64]),
         [vector, row]: [usize; 2],
         numbers: &mut [T],
@@ -174,11 +174,11 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         let anchor = self.scene.view.center;
         let stride = self.stride::<R>();
         let (axis, component, part, add) = match input {
-            Input::X => (Some(0), 0, 0, anchor.x),
-            Input::Y => (Some(1), 0, 0, anchor.y),
-            Input::Value(c) => (None, c, 0, shift[c]),
-            Input::SlopeX(c) => (None, c, 1, 0.0),
-            Input::SlopeY(c) => (None, c, 2, 0.0),
+            QuantityInput::X => (Some(0), 0, 0, anchor.x),
+            QuantityInput::Y => (Some(1), 0, 0, anchor.y),
+            QuantityInput::Value(c) => (None, c, 0, shift[c]),
+            QuantityInput::SlopeX(c) => (None, c, 1, 0.0),
+            QuantityInput::SlopeY(c) => (None, c, 2, 0.0),
             _ => return,
         };
         let at = (1 + component) * size::<R, D>() + part * R::LANES;
@@ -187,7 +187,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
                 Some(axis) => self.offset(vector, row + k, zero)[axis],
                 None => zero.load(&cells[k * stride + at..]),
             };
-            (number + zero.lit(add)).store(numbers);
+            (number + zero.broadcast(add)).store(numbers);
         }
     }
 }

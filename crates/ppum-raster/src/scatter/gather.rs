@@ -4,13 +4,13 @@ use std::ops::Range;
 
 use ppum::dataset::monomials;
 use ppum::function::Slot;
-use ppum::real::{Real, Scalar};
+use ppum::real::{LaneNumber, Real};
 
-use super::collapse::{Across, Factor, ROWS, collapse, put_sum, table_len};
+use super::collapse::{Across, ROWS, WeightFactor, collapse, put_sum, table_len};
 use super::layout::{basis_len, size, weight_len};
-use super::plan::{Affine, COLUMNS, Patch};
-use super::strips::{BlockTerm, DOWN, Strip, Strips};
-use super::tile::{Active, Listed, Scratch, Tile};
+use super::plan::{Affine, COLUMNS, VisiblePatch};
+use super::strips::{BlockTerm, ColumnSpan, ColumnSpans, DOWN};
+use super::tile::{ActiveGroup, Tile, TilePatch, TileScratch};
 use crate::summation::Savings;
 
 /// Groups of functions that are kept at a time for the strips of a tile, more if one strip has
@@ -19,21 +19,26 @@ const MOST_ACTIVE: usize = 256;
 
 /// True if there is no room for another strip.
 #[inline]
-fn is_full<T>(scratch: &Scratch<T>, numbers: usize) -> bool {
+fn is_full<T>(scratch: &TileScratch<T>, numbers: usize) -> bool {
     let is_full = scratch.strips.used > numbers || scratch.active.len() > MOST_ACTIVE;
     is_full && !scratch.strips.all.is_empty()
 }
 
 /// The place of a group among the active ones, with others or as a new one, needed on some rows.
 #[inline]
-fn need(active: &mut Vec<Active>, places: &mut [u32], group: u32, rows: &Range<usize>) -> usize {
+fn need(
+    active: &mut Vec<ActiveGroup>,
+    places: &mut [u32],
+    group: u32,
+    rows: &Range<usize>,
+) -> usize {
     let place = places[group as usize] as usize;
     if let Some(known) = active.get_mut(place).filter(|known| known.group == group) {
         known.rows = union(&known.rows, rows);
         return place;
     }
     places[group as usize] = active.len() as u32;
-    active.push(Active { group, rows: rows.clone() });
+    active.push(ActiveGroup { group, rows: rows.clone() });
     active.len() - 1
 }
 
@@ -42,10 +47,10 @@ fn union(a: &Range<usize>, b: &Range<usize>) -> Range<usize> {
     a.start.min(b.start)..a.end.max(b.end)
 }
 
-impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
+impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
     /// Takes patches with their coefficients, less the constants that the tile subtracts.
-    pub(super) fn take_patches(&self, patches: &[u32], scratch: &mut Scratch<T>) {
-        let Scratch { coefficients, listed, shift, .. } = scratch;
+    pub(super) fn take_patches(&self, patches: &[u32], scratch: &mut TileScratch<T>) {
+        let TileScratch { coefficients, listed, shift, .. } = scratch;
         let plan = &self.scene.plan;
         coefficients.clear();
         listed.clear();
@@ -53,7 +58,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             let patch = &plan.patches[index as usize];
             let [columns, _] = self.within(patch);
             let columns = first_bits(columns.end) & !first_bits(columns.start);
-            listed.push(Listed { columns, patch: index, start: coefficients.len() });
+            listed.push(TilePatch { columns, patch: index, start: coefficients.len() });
             let blocks = &plan.blocks[patch.blocks()];
             for (component, &shift) in shift.iter().enumerate() {
                 let first = coefficients.len();
@@ -75,7 +80,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         &self,
         vector: usize,
         from: usize,
-        scratch: &mut Scratch<T>,
+        scratch: &mut TileScratch<T>,
         zero: R,
     ) -> usize {
         let plan = &self.scene.plan;
@@ -101,7 +106,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             }
             next += 1;
         }
-        let Strips { all, tables, .. } = &mut scratch.strips;
+        let ColumnSpans { all, tables, .. } = &mut scratch.strips;
         for strip in all {
             strip.is_full = !R::any(zero.ge(zero.load(&tables[strip.table..])));
         }
@@ -114,10 +119,10 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         &self,
         index: u32,
         slot: usize,
-        scratch: &mut Scratch<T>,
+        scratch: &mut TileScratch<T>,
         zero: R,
     ) -> usize {
-        let Scratch { strips, places, active, shift, .. } = scratch;
+        let TileScratch { strips, places, active, shift, .. } = scratch;
         let patch = &self.scene.plan.patches[index as usize];
         let [_, rows] = self.within(patch);
         let (first, mut len) = (strips.terms.len(), 0);
@@ -133,7 +138,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
             strips.terms.push(BlockTerm { degree, len: table_len::<R, D>(degree), function });
             len += table_len::<R, D>(degree);
         }
-        let strip = Strip {
+        let strip = ColumnSpan {
             support: patch.support[1],
             frame: patch.frame[1],
             kind: patch.kind,
@@ -164,13 +169,14 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     #[inline(always)]
     fn collapse<R: Real<Scalar = T>, const ADD: bool>(
         &self,
-        (patch, from): (&Patch, usize),
+        (patch, from): (&VisiblePatch, usize),
         place: usize,
         (x, pixel): (R, usize),
-        scratch: &mut Scratch<T>,
+        scratch: &mut TileScratch<T>,
     ) {
-        let Scratch { strips: Strips { all, terms, tables, .. }, coefficients, shift, .. } =
-            scratch;
+        let TileScratch {
+            strips: ColumnSpans { all, terms, tables, .. }, coefficients, shift, ..
+        } = scratch;
         let strip = &all[place];
         let terms = &terms[strip.terms.clone()];
         let tables = &mut tables[strip.table..];
@@ -179,7 +185,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         if D >= 1 {
             put_sum::<R, ADD>(factor.slope, &mut tables[R::LANES..]);
         }
-        let scaled = factor.value * x.lit(patch.frame[0].scale);
+        let scaled = factor.value * x.broadcast(patch.frame[0].scale);
         let across = Across { xi: place_of(x, patch.frame[0]), factor, scaled };
         let (mut at, mut coefficients) = (weight_len::<R, D>(), &coefficients[from..]);
         for _ in 0..shift.len() {
@@ -195,25 +201,30 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     /// One factor of the weight with its derivative in the world, at a vector of pixels with
     /// their offsets.
     #[inline(always)]
-    fn factor<R: Real<Scalar = T>>(&self, offset: R, support: Affine, pixel: usize) -> Factor<R> {
+    fn factor<R: Real<Scalar = T>>(
+        &self,
+        offset: R,
+        support: Affine,
+        pixel: usize,
+    ) -> WeightFactor<R> {
         let xi = place_of(offset, support);
         if self.scene.plan.is_overlap {
-            let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
+            let (zero, one) = (xi.broadcast(0.0), xi.broadcast(1.0));
             let inside = R::select(xi.ge(-one), R::select(one.gt(xi), one, zero), zero);
-            return Factor { value: inside, slope: zero };
+            return WeightFactor { value: inside, slope: zero };
         }
         if let Some(factor) = self.scene.weights.factor(support, pixel, offset) {
             return factor;
         }
         let [value, slope, _] = self.scene.weight.spline(xi);
-        Factor { value, slope: slope * xi.lit(support.scale) }
+        WeightFactor { value, slope: slope * xi.broadcast(support.scale) }
     }
 
     /// Divides the tables of a strip by the weight's factor.
     #[inline(always)]
     pub(super) fn divide_strip<R: Real<Scalar = T>>(
         &self,
-        strip: &mut Strip,
+        strip: &mut ColumnSpan,
         (from, to): (&[T], &mut [T]),
         components: usize,
         zero: R,
@@ -221,7 +232,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         strip.is_divided = true;
         let len = weight_len::<R, D>() + strip.len * components;
         let (from, to) = (&from[strip.table..][..len], &mut to[strip.table..][..len]);
-        let inverse = zero.lit(1.0) / zero.load(from);
+        let inverse = zero.broadcast(1.0) / zero.load(from);
         let slope = if D >= 1 { zero.load(&from[R::LANES..]) } else { zero };
         let mut at = weight_len::<R, D>();
         while at < len {
@@ -245,5 +256,5 @@ const fn first_bits(count: usize) -> u64 {
 /// A coordinate at an offset.
 #[inline(always)]
 fn place_of<R: Real>(offset: R, affine: Affine) -> R {
-    offset.mul_add(offset.lit(affine.scale), offset.lit(affine.shift))
+    offset.mul_add(offset.broadcast(affine.scale), offset.broadcast(affine.shift))
 }

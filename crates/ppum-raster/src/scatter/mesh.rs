@@ -8,9 +8,9 @@ use ppum::quantity::Quantity;
 use rayon::prelude::*;
 
 use super::collapse::ROWS;
-use crate::error::RenderError;
+use crate::error::RasterError;
 use crate::parts::Parts;
-use crate::rows::Strips;
+use crate::rows::RowBatches;
 use crate::view::View;
 
 /// Columns of a tile, whose elements are looked at one after the other.
@@ -22,10 +22,10 @@ pub(super) fn render_strips(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
-    strips: &Strips,
+    strips: &RowBatches,
     watcher: &dyn Watcher,
     take: &mut dyn FnMut(Vec<f64>),
-) -> Result<(), RenderError> {
+) -> Result<(), RasterError> {
     let columns = view.pixels[0] as usize;
     let parts = Parts::start(watcher, strips.bands())?;
     let seen = field.at(view.center);

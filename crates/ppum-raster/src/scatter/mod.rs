@@ -1,6 +1,6 @@
 //! The CPU renderer: exact values at all pixels of a view, patch by patch on vectors of pixels.
 //!
-//! The picture is cut into tiles. Each patch adds to the sums of the tiles it meets
+//! The image is cut into tiles. Each patch adds to the sums of the tiles it meets
 //!
 //! ```text
 //! S = Σ W_i     U = Σ W_i v_i     ∇S     ∇U
@@ -13,7 +13,7 @@
 //! to one (`strips`). Row by row (`sweep`) these are summed and divided in registers (`sums`), and
 //! the quantity is made while all is in the nearest cache (`finish`). Functions are evaluated once
 //! for a column, and only where a patch needs them. Where patches are too small for that to pay
-//! they are summed one by one instead (`grains`).
+//! they are summed one by one instead (`patch_sums`).
 //!
 //! The renderer evaluates the same field as [`LocalField`](ppum::field::LocalField), which
 //! [`reference`](fn@crate::reference::reference) draws with, in another order; they agree to
@@ -29,16 +29,16 @@ mod band;
 mod collapse;
 mod finish;
 mod gather;
-mod grains;
 mod layout;
 mod mesh;
+mod patch_sums;
 mod plan;
-mod prepared;
 mod schedule;
 mod strips;
 mod sums;
 mod sweep;
 mod tile;
+mod view_data;
 mod weights;
 
 use std::ops::Range;
@@ -46,20 +46,20 @@ use std::ops::Range;
 use ppum::field::Field;
 use ppum::progress::{Cancelled, Watcher};
 use ppum::quantity::{Quantity, Source};
-use ppum::real::Scalar;
+use ppum::real::LaneNumber;
 use rayon::prelude::*;
 
-use crate::error::RenderError;
+use crate::error::RasterError;
 use crate::parts::Parts;
-use crate::raster::{Raster, Sample, SampleSlice, zeros};
-use crate::rows::Strips;
+use crate::raster::{Raster, RasterValue, SampleSlice, zeros};
+use crate::rows::RowBatches;
 use crate::summation::Summation;
 use crate::view::View;
 use band::Band;
 use collapse::ROWS;
 use plan::strips;
-use prepared::PreparedView;
-use tile::Scratch;
+use tile::TileScratch;
+use view_data::PreparedView;
 
 pub use crate::rows::BAND;
 pub use schedule::{Schedule, TileLoad};
@@ -74,16 +74,16 @@ pub use schedule::{Schedule, TileLoad};
 /// The watcher hears of every band of 32 rows.
 ///
 /// # Errors
-/// [`RenderError::Cancelled`] if the watcher stops the call;
+/// [`RasterError::Cancelled`] if the watcher stops the call;
 /// [`QuantityError::Patch`](ppum::quantity::QuantityError::Patch) for the partition function of a
 /// patch that does not exist; [`QuantityError::NoExact`](ppum::quantity::QuantityError::NoExact)
 /// for the error of a field whose exact solution is not known.
-pub fn render<T: Sample>(
+pub fn render<T: RasterValue>(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
     watcher: &dyn Watcher,
-) -> Result<Raster<T>, RenderError> {
+) -> Result<Raster<T>, RasterError> {
     T::render(field, view, quantity, watcher)
 }
 
@@ -92,15 +92,15 @@ pub fn render<T: Sample>(
 ///
 /// # Errors
 /// Those of [`render`].
-pub fn render_with<T: Sample>(
+pub fn render_with<T: RasterValue>(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
     summation: Summation,
     watcher: &dyn Watcher,
-) -> Result<Raster<T>, RenderError> {
+) -> Result<Raster<T>, RasterError> {
     let mut values = Vec::new();
-    let strips = Strips::whole(view, view.pixels[1]);
+    let strips = RowBatches::whole(view, view.pixels[1]);
     T::render_strips(field, view, quantity, summation, strips, watcher, &mut |v| values = v)?;
     Ok(Raster::new(view.pixels, values))
 }
@@ -113,42 +113,42 @@ pub fn render_with<T: Sample>(
 ///
 /// # Panics
 /// If the first row is no multiple of [`BAND`], or the view does not have the last one.
-pub fn render_rows<T: Sample>(
+pub fn render_rows<T: RasterValue>(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
     rows: Range<u32>,
     watcher: &dyn Watcher,
-) -> Result<Vec<T>, RenderError> {
+) -> Result<Vec<T>, RasterError> {
     let is_whole = rows.start.is_multiple_of(BAND) && rows.end <= view.pixels[1];
     assert!(is_whole, "rows {rows:?} do not begin at a band, or are not in the view");
     let (mut values, height) = (Vec::new(), rows.len() as u32);
-    let (strips, summation) = (Strips::new(rows, height), Summation::Automatic);
+    let (strips, summation) = (RowBatches::new(rows, height), Summation::Automatic);
     T::render_strips(field, view, quantity, summation, strips, watcher, &mut |v| values = v)?;
     Ok(values)
 }
 
 /// The values of [`render`], to the last bit, a strip at a time, for views of more pixels than are
 /// to be held at once: `take` is given the values of the strips from the top, each of `rows` rows,
-/// rounded up to whole bands of 32, but for the last one.
+/// rounded up to whole bands of 32, except for the last one.
 ///
 /// # Errors
 /// Those of [`render`].
-pub fn render_strips<T: Sample>(
+pub fn render_strips<T: RasterValue>(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
     rows: u32,
     watcher: &dyn Watcher,
     take: &mut dyn FnMut(Vec<T>),
-) -> Result<(), RenderError> {
-    let strips = Strips::whole(view, rows);
+) -> Result<(), RasterError> {
+    let strips = RowBatches::whole(view, rows);
     T::render_strips(field, view, quantity, Summation::Automatic, strips, watcher, take)
 }
 
 macro_rules! sample {
     ($t:ty, $kind:ident, $same:expr) => {
-        impl Sample for $t {
+        impl RasterValue for $t {
             const SAME: f64 = $same;
 
             fn render(
@@ -156,7 +156,7 @@ macro_rules! sample {
                 view: &View,
                 quantity: &Quantity,
                 watcher: &dyn Watcher,
-            ) -> Result<Raster<Self>, RenderError> {
+            ) -> Result<Raster<Self>, RasterError> {
                 render_with(field, view, quantity, Summation::Automatic, watcher)
             }
 
@@ -169,10 +169,10 @@ macro_rules! sample {
                 view: &View,
                 quantity: &Quantity,
                 summation: Summation,
-                strips: Strips,
+                strips: RowBatches,
                 watcher: &dyn Watcher,
                 take: &mut dyn FnMut(Vec<Self>),
-            ) -> Result<(), RenderError> {
+            ) -> Result<(), RasterError> {
                 quantity.check(field)?;
                 if field.step.partition.mesh().is_some() {
                     let take = &mut |wide: Vec<f64>| {
@@ -204,17 +204,17 @@ sample!(f32, Single, 32.0 * f32::EPSILON as f64);
 
 /// True if the square of a hundredth of a length is a normal number of `T`, so that distances to a
 /// tip neither underflow nor overflow.
-fn resolves<T: Scalar>(length: f64) -> bool {
+fn resolves<T: LaneNumber>(length: f64) -> bool {
     let square = (0.01 * length) * (0.01 * length);
     (T::from_f64(square).to_f64() / square - 1.0).abs() < 1e-6 || T::VECTOR == f64::VECTOR
 }
 
-impl<T: Sample> PreparedView<'_, T> {
+impl<T: RasterValue> PreparedView<'_, T> {
     /// Draws with `D` derivatives, a strip at a time, whose rows `take` is given in order; bands of
     /// rows in parallel.
     fn draw<const D: usize>(
         &self,
-        rows: &Strips,
+        rows: &RowBatches,
         watcher: &dyn Watcher,
         take: &mut dyn FnMut(Vec<T>),
     ) -> Result<(), Cancelled> {
@@ -243,7 +243,7 @@ impl<T: Sample> PreparedView<'_, T> {
     ) -> Result<(), Cancelled> {
         let tiles = &self.plan.tiles(&bands);
         let chunks = strip.par_chunks_mut(self.view.pixels[0] as usize * ROWS).enumerate();
-        chunks.try_for_each_init(Scratch::default, |scratch, (k, out)| {
+        chunks.try_for_each_init(TileScratch::default, |scratch, (k, out)| {
             let (scene, band) = (self, bands.start + k);
             T::dispatch(Band::<'_, '_, T, D> { scene, tiles, band, scratch, out: &mut *out });
             self.clear_outside(band * ROWS, out);

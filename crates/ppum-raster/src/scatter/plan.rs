@@ -19,7 +19,7 @@ use crate::view::View;
 /// Columns of a tile, at most as many as a number has bits.
 pub(super) const COLUMNS: usize = 64;
 
-/// Patches whose pixels are counted, at most, to choose how a picture is drawn.
+/// Patches whose pixels are counted, at most, to choose how an image is drawn.
 const SAMPLE: usize = 1000;
 
 /// ξ = `scale` · offset + `shift` in one direction.
@@ -27,7 +27,8 @@ const SAMPLE: usize = 1000;
 pub(super) struct Affine {
     pub(super) scale: f64,
     pub(super) shift: f64,
-    /// Of a support, where its factors of the weight are, see [`Weights`](super::weights::Weights).
+    /// For a support, the index of its factors of the weight, see
+    /// [`PixelWeights`](super::weights::PixelWeights).
     pub(super) table: Option<u32>,
 }
 
@@ -57,7 +58,7 @@ impl PatchBlock {
 
 /// A patch in sight.
 #[derive(Clone, Debug)]
-pub(super) struct Patch {
+pub(super) struct VisiblePatch {
     /// Its index in the field.
     pub(super) index: u32,
     /// Coordinates of the support, [−1, 1]².
@@ -74,7 +75,7 @@ pub(super) struct Patch {
     pub(super) kind: u32,
 }
 
-impl Patch {
+impl VisiblePatch {
     /// Its blocks in the plan's list.
     #[inline(always)]
     pub(super) fn blocks(&self) -> Range<usize> {
@@ -84,7 +85,7 @@ impl Patch {
 
 /// All data of one view, made once in f64. The anchor is the view's centre.
 #[derive(Debug)]
-pub(super) struct Plan<'f> {
+pub(super) struct ViewPlan<'f> {
     field: &'f Field<'f>,
     view: View,
     quantity: &'f Quantity,
@@ -92,9 +93,9 @@ pub(super) struct Plan<'f> {
     pub(super) pixel: f64,
     /// True if the patches at a point are counted: their weights are 1.
     pub(super) is_overlap: bool,
-    /// True if the patches are drawn as grains: then none is listed here.
+    /// True if the patches are summed one by one (`patch_sums`): then none is listed here.
     pub(super) has_grains: bool,
-    pub(super) patches: Vec<Patch>,
+    pub(super) patches: Vec<VisiblePatch>,
     pub(super) blocks: Vec<PatchBlock>,
     /// Coefficients of each component.
     pub(super) coefficients: Vec<&'f [f64]>,
@@ -116,7 +117,7 @@ pub(super) struct HolePixels {
     pub(super) rows: Range<usize>,
 }
 
-impl<'f> Plan<'f> {
+impl<'f> ViewPlan<'f> {
     /// The plan for tiles of `rows` rows.
     pub(super) fn new(
         field: &'f Field<'f>,
@@ -152,7 +153,7 @@ impl<'f> Plan<'f> {
             rows,
         };
         plan.patches = visible.par_iter().map(|&index| plan.patch(index, &pixels)).collect();
-        let mut kinds = Kinds::default();
+        let mut kinds = ListNumbers::default();
         for patch in &mut plan.patches {
             let start = plan.blocks.len();
             add_blocks(field, patch.index as usize, quantity, &mut plan.blocks);
@@ -214,7 +215,7 @@ impl<'f> Plan<'f> {
 
     /// A patch, without its blocks.
     #[inline(always)]
-    pub(super) fn patch(&self, index: u32, pixels: &Pixels<'_>) -> Patch {
+    pub(super) fn patch(&self, index: u32, pixels: &Pixels<'_>) -> VisiblePatch {
         let (partition, k, anchor) =
             (self.field.step.partition.boxes(), index as usize, self.view.center);
         let (center, half) = (partition.center[k] - anchor, partition.half[k]);
@@ -226,20 +227,20 @@ impl<'f> Plan<'f> {
         } else {
             support
         };
-        Patch { index, support, frame, columns, rows, blocks: 0..0, kind: 0 }
+        VisiblePatch { index, support, frame, columns, rows, blocks: 0..0, kind: 0 }
     }
 }
 
 /// Numbers for lists of functions and degrees.
 #[derive(Debug, Default)]
-struct Kinds {
+struct ListNumbers {
     known: HashMap<Vec<[u32; 3]>, u32>,
     /// The last list, which most often comes again.
     last: Vec<[u32; 3]>,
     number: u32,
 }
 
-impl Kinds {
+impl ListNumbers {
     fn number(&mut self, blocks: &[PatchBlock]) -> u32 {
         let is_last = self.last.iter().copied().eq(blocks.iter().map(PatchBlock::kind));
         if !is_last || self.known.is_empty() {
@@ -251,9 +252,9 @@ impl Kinds {
     }
 }
 
-/// True if patches are drawn as grains: if on average those of a sample have fewer pixels than so
-/// many. Weights by formula are found for many pixels of strips at a time, and would be dear one
-/// by one.
+/// True if patches are summed one by one: if on average those of a sample have fewer pixels than so
+/// many. Weights by formula are found for many pixels of strips at a time, and would be dear one by
+/// one.
 fn has_grains(
     field: &Field,
     anchor: Vec2,
@@ -331,7 +332,7 @@ fn holes(holes: &[Hole], anchor: Vec2, pixels: &Pixels) -> Vec<HolePixels> {
 }
 
 /// Most patches in the lists of a strip's tiles, unless one band has more: 128 MiB. A million
-/// patches that a picture resolves have two million entries.
+/// patches that an image resolves have two million entries.
 const MOST_ENTRIES: usize = 1 << 25;
 
 /// Some bands in strips whose lists of patches, of so many entries a band, are short enough to be
@@ -360,9 +361,9 @@ pub(super) struct Tiles {
 }
 
 impl Tiles {
-    fn new(patches: &[Patch], columns: usize, bands: &Range<usize>, rows: usize) -> Self {
+    fn new(patches: &[VisiblePatch], columns: usize, bands: &Range<usize>, rows: usize) -> Self {
         let count = columns * bands.len();
-        let for_each_tile = |patch: &Patch, f: &mut dyn FnMut(usize)| {
+        let for_each_tile = |patch: &VisiblePatch, f: &mut dyn FnMut(usize)| {
             let of = tiles(&patch.rows, rows);
             for band in of.start.max(bands.start)..of.end.min(bands.end) {
                 tiles(&patch.columns, COLUMNS).for_each(|c| f((band - bands.start) * columns + c));

@@ -4,8 +4,8 @@ use ppum::field::Field;
 use ppum::quantity::Quantity;
 
 use super::plan::COLUMNS;
-use super::prepared::PreparedView;
-use super::tile::{Scratch, Tile};
+use super::tile::{Tile, TileScratch};
+use super::view_data::PreparedView;
 use crate::summation::Summation;
 use crate::view::View;
 
@@ -58,7 +58,7 @@ impl<'f> Schedule<'f> {
     pub fn tile(&self, [column, row]: [usize; 2]) -> TileLoad {
         let tiles = self.scene.plan.tiles(&(row..row + 1));
         let tile = Tile::<f64, 1>::new(&self.scene, column, row);
-        let mut scratch = Scratch::default();
+        let mut scratch = TileScratch::default();
         scratch.shift.resize(self.scene.plan.coefficients.len(), 0.0);
         scratch.places.resize(self.scene.functions.table().groups(), 0);
         let patches = tiles.patches_at(column, row);

@@ -1,19 +1,19 @@
 //! Patches at a column of vectors that are the same in y, collapsed together.
 //!
 //! The weight is a product, W = a(x) b(y). Patches beside each other mostly have the same b, the
-//! same coordinate η and the same functions. What they collapse to at a vector of columns,
-//! polynomials in y, is then added coefficient by coefficient: a strip of patches costs a pixel
-//! what one patch does, however narrow they are. Whether patches are the same is asked of their
-//! numbers, so any cover is drawn, and where neighbours differ each is a strip of its own.
+//! same coordinate η and the same functions. The polynomials in y that they collapse to at a vector
+//! of columns are then added coefficient by coefficient: a strip of patches costs a pixel what one
+//! patch does, however narrow they are. Whether patches are the same is asked of their numbers, so
+//! any cover is drawn, and where neighbours differ each is a strip of its own.
 //!
 //! Where a strip is alone, its b(y) cancels: the field is what its tables hold over Σ a.
 
 use std::ops::Range;
 
-use ppum::real::Scalar;
+use ppum::real::LaneNumber;
 
 use super::collapse::ROWS;
-use super::plan::{Affine, Patch};
+use super::plan::{Affine, VisiblePatch};
 
 /// Places to look for a strip, and how many of them before it is given up: patches that begin at
 /// different rows of a tile never meet there.
@@ -22,15 +22,15 @@ const TRIES: usize = 4;
 
 /// The strips at a column of vectors.
 #[derive(Debug, Default)]
-pub(super) struct Strips<T> {
-    pub(super) all: Vec<Strip>,
+pub(super) struct ColumnSpans<T> {
+    pub(super) all: Vec<ColumnSpan>,
     pub(super) terms: Vec<BlockTerm>,
-    /// Of each strip the weight's factor and slope in x, then for each component the tables of
+    /// For each strip, the weight's factor and slope in x, then for each component the tables of
     /// its blocks.
     pub(super) tables: Vec<T>,
-    /// The same over the weight's factor, of strips that are alone somewhere.
+    /// The values over the weight's factor, for strips that are alone somewhere.
     pub(super) alone: Vec<T>,
-    /// Of each strip the weight's factor and slope in y and η, by rows.
+    /// For each strip, the weight's factor and slope in y and η, by rows.
     pub(super) down: Vec<T>,
     /// The numbers in use.
     pub(super) used: usize,
@@ -43,7 +43,7 @@ pub(super) const DOWN: usize = 3 * ROWS;
 
 /// Patches that are the same in y.
 #[derive(Clone, Debug)]
-pub(super) struct Strip {
+pub(super) struct ColumnSpan {
     /// Coordinates in y, of the support and of the polynomials.
     pub(super) support: Affine,
     pub(super) frame: Affine,
@@ -61,10 +61,10 @@ pub(super) struct Strip {
     pub(super) is_divided: bool,
 }
 
-impl Strip {
+impl ColumnSpan {
     /// True if a patch has the same b(y), η(y), functions and degrees.
     #[inline]
-    fn joins(&self, patch: &Patch) -> bool {
+    fn joins(&self, patch: &VisiblePatch) -> bool {
         self.kind == patch.kind && self.support == patch.support[1] && self.frame == patch.frame[1]
     }
 }
@@ -79,7 +79,7 @@ pub(super) struct BlockTerm {
     pub(super) function: Option<usize>,
 }
 
-impl<T: Scalar> Strips<T> {
+impl<T: LaneNumber> ColumnSpans<T> {
     #[inline]
     pub(super) fn clear(&mut self) {
         self.all.clear();
@@ -91,7 +91,7 @@ impl<T: Scalar> Strips<T> {
 
     /// The strip of a patch, or the slot for one.
     #[inline]
-    pub(super) fn find(&self, patch: &Patch, joins: bool) -> Result<usize, usize> {
+    pub(super) fn find(&self, patch: &VisiblePatch, joins: bool) -> Result<usize, usize> {
         let first = patch.rows.start as usize * TRIES % SLOTS;
         for slot in first..first + TRIES {
             let place = self.slots[slot] as usize;
@@ -106,7 +106,7 @@ impl<T: Scalar> Strips<T> {
 
     /// Makes room for a strip; the numbers in its tables are left over from others.
     #[inline]
-    pub(super) fn push(&mut self, strip: Strip, len: usize, slot: usize) -> usize {
+    pub(super) fn push(&mut self, strip: ColumnSpan, len: usize, slot: usize) -> usize {
         let place = self.all.len();
         self.used += len;
         if self.tables.len() < self.used {

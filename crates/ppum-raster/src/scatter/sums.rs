@@ -6,24 +6,24 @@
 
 use std::ops::Range;
 
-use ppum::real::{Real, Scalar};
+use ppum::real::{LaneNumber, Real};
 
-use super::collapse::{ANY, Factor, ROWS, Slopes, constant_or, evaluate, splat, table_len};
+use super::collapse::{ANY, ROWS, Slopes, WeightFactor, constant_or, evaluate, splat, table_len};
 use super::layout::{basis_stride, load_slopes, size, store_slopes, weight_len};
-use super::strips::{BlockTerm, DOWN, Strip};
-use super::tile::Batch;
+use super::strips::{BlockTerm, ColumnSpan, DOWN};
+use super::tile::PatchBatch;
 
 /// Where the sums of some rows come from and go to.
 pub(super) struct RowSums<'a, T> {
     pub(super) rows: Range<usize>,
-    pub(super) strips: &'a [Strip],
+    pub(super) strips: &'a [ColumnSpan],
     pub(super) here: &'a [usize],
     pub(super) terms: &'a [BlockTerm],
     pub(super) tables: &'a [T],
     pub(super) down: &'a [T],
     pub(super) basis: &'a [T],
     pub(super) sums: &'a mut [T],
-    pub(super) batch: Batch,
+    pub(super) batch: PatchBatch,
 }
 
 /// A row, and the first of some components.
@@ -44,8 +44,8 @@ impl From {
 }
 
 /// Some components of a strip.
-struct Local<'a, T, const C: usize> {
-    strip: &'a Strip,
+struct SpanComponents<'a, T, const C: usize> {
+    strip: &'a ColumnSpan,
     /// The degree of the smooth block, and its tables.
     degree: usize,
     smooth: [&'a [T]; C],
@@ -54,7 +54,7 @@ struct Local<'a, T, const C: usize> {
     start: usize,
 }
 
-impl<'a, T: Scalar> RowSums<'a, T> {
+impl<'a, T: LaneNumber> RowSums<'a, T> {
     /// The degree of all smooth blocks, [`ANY`] if they differ.
     #[inline]
     pub(super) fn common_degree(&self) -> usize {
@@ -221,22 +221,22 @@ impl<'a, T: Scalar> RowSums<'a, T> {
         &self,
         at: usize,
         component: usize,
-    ) -> Local<'a, T, C> {
-        let all: &'a [Strip] = self.strips;
+    ) -> SpanComponents<'a, T, C> {
+        let all: &'a [ColumnSpan] = self.strips;
         let strip = &all[at];
         let terms: &'a [BlockTerm] = &self.terms[strip.terms.clone()];
         let degree = constant_or(P, terms[0].degree);
         let start = strip.table + weight_len::<R, D>() + component * strip.len;
         let smooth = self.tables_of::<R, D, C>(strip, start, degree);
         let start = start + table_len::<R, D>(degree);
-        Local { strip, degree, smooth, others: &terms[1..], start }
+        SpanComponents { strip, degree, smooth, others: &terms[1..], start }
     }
 
     /// The tables of a strip's block of a degree from a place on, of the components from there on.
     #[inline(always)]
     fn tables_of<R: Real<Scalar = T>, const D: usize, const C: usize>(
         &self,
-        strip: &Strip,
+        strip: &ColumnSpan,
         start: usize,
         degree: usize,
     ) -> [&'a [T]; C] {
@@ -253,21 +253,22 @@ impl<'a, T: Scalar> RowSums<'a, T> {
 
     /// b(y) and η(y) of a strip at a row.
     #[inline(always)]
-    fn down<R: Real<Scalar = T>>(&self, at: usize, row: usize, zero: R) -> (Factor<R>, R) {
+    fn down<R: Real<Scalar = T>>(&self, at: usize, row: usize, zero: R) -> (WeightFactor<R>, R) {
         let down = &self.down[DOWN * at..][..DOWN];
-        let b = Factor { value: splat(zero, down[row]), slope: splat(zero, down[ROWS + row]) };
+        let b =
+            WeightFactor { value: splat(zero, down[row]), slope: splat(zero, down[ROWS + row]) };
         (b, splat(zero, down[2 * ROWS + row]))
     }
 
-    /// What the tables of a strip hold at a row.
+    /// Evaluates the tables of a strip at a row.
     #[inline(always)]
     fn local_field<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
         &self,
-        local: &Local<'_, T, C>,
+        local: &SpanComponents<'_, T, C>,
         row: usize,
         eta: R,
     ) -> [Slopes<R>; C] {
-        let scale = eta.lit(local.strip.frame.scale);
+        let scale = eta.broadcast(local.strip.frame.scale);
         let degree = constant_or(P, local.degree);
         let mut v = evaluate::<R, D, P, C>(local.smooth, degree, eta, scale);
         let mut start = local.start;
@@ -295,7 +296,7 @@ impl<'a, T: Scalar> RowSums<'a, T> {
         like: R,
     ) -> Slopes<R> {
         match term.function {
-            None => Slopes::constant(like.lit(1.0)),
+            None => Slopes::constant(like.broadcast(1.0)),
             Some(offset) => {
                 let start = offset + row * basis_stride::<R, D>();
                 load_slopes::<R, D>(&self.basis[start..][..size::<R, D>()], like)
@@ -339,7 +340,11 @@ fn add_constants<R: Real, const D: usize, const C: usize>(
 
 /// The sum and b(y) v with derivatives, where v holds a(x) and its derivative.
 #[inline(always)]
-fn plus_product<R: Real, const D: usize>(sum: Slopes<R>, b: Factor<R>, v: Slopes<R>) -> Slopes<R> {
+fn plus_product<R: Real, const D: usize>(
+    sum: Slopes<R>,
+    b: WeightFactor<R>,
+    v: Slopes<R>,
+) -> Slopes<R> {
     let mut out = sum;
     out.v = b.value.mul_add(v.v, sum.v);
     if D >= 1 {

@@ -6,22 +6,22 @@
 
 use std::ops::Range;
 
-use ppum::real::{Real, Scalar};
+use ppum::real::{LaneNumber, Real};
 
 use super::collapse::{ANY, ROWS};
-use super::strips::{DOWN, Strip};
+use super::strips::{ColumnSpan, DOWN};
 use super::sums::RowSums;
-use super::tile::{Batch, Scratch, Tile};
+use super::tile::{PatchBatch, Tile, TileScratch};
 
-impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
+impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
     /// Adds the strips at a column of vectors to the sums that begin at `start`; behind the last
     /// batch these are quotients.
     #[inline(always)]
     pub(super) fn sweep<R: Real<Scalar = T>>(
         &self,
         start: usize,
-        batch: Batch,
-        scratch: &mut Scratch<T>,
+        batch: PatchBatch,
+        scratch: &mut TileScratch<T>,
         zero: R,
     ) {
         let mut row = 0;
@@ -39,7 +39,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
 
     /// True if rows are covered by one strip, and whole vectors of them.
     #[inline(always)]
-    fn is_alone(&self, rows: Range<usize>, batch: Batch, scratch: &Scratch<T>) -> bool {
+    fn is_alone(&self, rows: Range<usize>, batch: PatchBatch, scratch: &TileScratch<T>) -> bool {
         let [at] = *scratch.here else { return false };
         let strips = &scratch.strips;
         // a weight is positive between any two places where it is
@@ -51,8 +51,8 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
     }
 
     #[inline(always)]
-    fn divide_alone<R: Real<Scalar = T>>(&self, scratch: &mut Scratch<T>, zero: R) {
-        let Scratch { strips, here, shift, .. } = scratch;
+    fn divide_alone<R: Real<Scalar = T>>(&self, scratch: &mut TileScratch<T>, zero: R) {
+        let TileScratch { strips, here, shift, .. } = scratch;
         let strip = &mut strips.all[here[0]];
         if !strip.is_divided {
             let tables = (&*strips.tables, &mut *strips.alone);
@@ -67,12 +67,12 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
         &self,
         rows: Range<usize>,
         start: usize,
-        batch: Batch,
-        scratch: &mut Scratch<T>,
+        batch: PatchBatch,
+        scratch: &mut TileScratch<T>,
         zero: R,
     ) {
         let components = self.scene.plan.coefficients.len();
-        let Scratch { strips, here, basis, sums, .. } = scratch;
+        let TileScratch { strips, here, basis, sums, .. } = scratch;
         let span = RowSums {
             rows,
             strips: &strips.all,
@@ -100,7 +100,7 @@ impl<T: Scalar, const D: usize> Tile<'_, '_, T, D> {
 }
 
 /// Lists the strips that are at a row; returns up to which row there are no others.
-fn choose(strips: &[Strip], row: usize, here: &mut Vec<usize>) -> usize {
+fn choose(strips: &[ColumnSpan], row: usize, here: &mut Vec<usize>) -> usize {
     here.clear();
     let mut end = ROWS;
     for (at, strip) in strips.iter().enumerate() {

@@ -2,40 +2,40 @@
 
 use std::ops::Range;
 
-use ppum::formula::Scratch as FormulaScratch;
-use ppum::real::{Real, Scalar};
+use ppum::formula::BlockScratch as FormulaScratch;
+use ppum::real::{LaneNumber, Real};
 
 use super::collapse::{ROWS, splat};
 use super::layout::size;
-use super::plan::{COLUMNS, Patch, PatchBlock};
-use super::prepared::PreparedView;
-use super::strips::Strips;
+use super::plan::{COLUMNS, PatchBlock, VisiblePatch};
+use super::strips::ColumnSpans;
+use super::view_data::PreparedView;
 
 /// Buffers of one thread.
 #[derive(Debug, Default)]
-pub(super) struct Scratch<T> {
+pub(super) struct TileScratch<T> {
     /// At the vectors of points of a column: Σ W, then Σ W v of each component, each with
-    /// derivatives; when all patches are there, the field's components in place of these. Of all
-    /// columns where patches come in batches.
+    /// derivatives; when all patches are there, the field's components in place of these. Sums of
+    /// all columns where patches come in batches.
     pub(super) sums: Vec<T>,
     /// The functions of each active group with derivatives, at the vectors of a column.
     pub(super) basis: Vec<T>,
     /// Working space of formulas.
     pub(super) formulas: FormulaScratch<T>,
     /// The groups in `basis`.
-    pub(super) active: Vec<Active>,
-    /// Of each group its place among the active ones, if it is one of them.
+    pub(super) active: Vec<ActiveGroup>,
+    /// The position of each group among the active ones, if it is one of them.
     pub(super) places: Vec<u32>,
     /// The patches at hand.
-    pub(super) strips: Strips<T>,
+    pub(super) strips: ColumnSpans<T>,
     pub(super) grains: Grains<T>,
     /// Those of the strips that cover some rows.
     pub(super) here: Vec<usize>,
     /// Subtracted from each component.
     pub(super) shift: Vec<f64>,
-    /// Of each patch of the tile, then of each component the coefficients of its blocks.
+    /// For each patch of the tile, then for each component, the coefficients of its blocks.
     pub(super) coefficients: Vec<T>,
-    pub(super) listed: Vec<Listed>,
+    pub(super) listed: Vec<TilePatch>,
 }
 
 /// The sums of a tile, and the patch at hand. Memory that a thread uses again.
@@ -44,8 +44,8 @@ pub(super) struct Grains<T> {
     pub(super) found: Vec<u32>,
     /// The blocks of the patch; the first is of function 1.
     pub(super) blocks: Vec<PatchBlock>,
-    /// Of each component the coefficients of the first block, less the constant that the
-    /// tile subtracts.
+    /// For each component, the coefficients of the first block, less the constant that the tile
+    /// subtracts.
     pub(super) smooth: Vec<T>,
     /// By rows, then numbers: W with derivatives, then W v of each component.
     pub(super) sums: Vec<T>,
@@ -53,7 +53,7 @@ pub(super) struct Grains<T> {
 
 /// A patch of a tile.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Listed {
+pub(super) struct TilePatch {
     /// A bit for each column of the tile that it covers.
     pub(super) columns: u64,
     pub(super) patch: u32,
@@ -63,14 +63,14 @@ pub(super) struct Listed {
 
 /// A group of functions needed on some rows of a tile.
 #[derive(Debug)]
-pub(super) struct Active {
+pub(super) struct ActiveGroup {
     pub(super) group: u32,
     pub(super) rows: Range<usize>,
 }
 
 /// Patches of a tile that are summed together.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Batch {
+pub(super) struct PatchBatch {
     /// Nothing is summed before it, or after it.
     pub(super) is_first: bool,
     pub(super) is_last: bool,
@@ -83,7 +83,7 @@ pub(super) struct Tile<'a, 'f, T, const D: usize> {
     pub(super) band: usize,
 }
 
-impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
+impl<'a, 'f, T: LaneNumber, const D: usize> Tile<'a, 'f, T, D> {
     #[inline(always)]
     pub(super) fn new(scene: &'a PreparedView<'f, T>, column: usize, band: usize) -> Self {
         Self { scene, column, band }
@@ -103,7 +103,7 @@ impl<'a, 'f, T: Scalar, const D: usize> Tile<'a, 'f, T, D> {
 
     /// The columns and rows of the tile that a patch may cover.
     #[inline(always)]
-    pub(super) fn within(&self, patch: &Patch) -> [Range<usize>; 2] {
+    pub(super) fn within(&self, patch: &VisiblePatch) -> [Range<usize>; 2] {
         let [column, row] = self.corner();
         [within(&patch.columns, column, COLUMNS), within(&patch.rows, row, ROWS)]
     }

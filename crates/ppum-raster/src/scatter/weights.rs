@@ -4,11 +4,11 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use ppum::real::{Real, Scalar};
+use ppum::real::{LaneNumber, Real};
 use ppum::weight::WeightFunction;
 
-use super::collapse::Factor;
-use super::plan::{Affine, Patch};
+use super::collapse::WeightFactor;
+use super::plan::{Affine, VisiblePatch};
 use crate::view::View;
 
 /// Most numbers that are kept: 128 MiB of f64. Covers made of halved squares need some thousands.
@@ -16,7 +16,7 @@ const MOST: usize = 1 << 24;
 
 /// Factors with their slopes, by pixels of one direction.
 #[derive(Debug, Default)]
-pub(super) struct Weights<T> {
+pub(super) struct PixelWeights<T> {
     values: Vec<T>,
     slopes: Vec<T>,
 }
@@ -24,10 +24,10 @@ pub(super) struct Weights<T> {
 /// The numbers that a factor depends on, and the pixels where it is needed.
 type FactorKey = (u64, u64, u32, u32);
 
-impl<T: Scalar> Weights<T> {
+impl<T: LaneNumber> PixelWeights<T> {
     /// The factors of patches that are formulas; of other kinds there are none. Supports learn
     /// where theirs are.
-    pub(super) fn new(weight: &WeightFunction, view: &View, patches: &mut [Patch]) -> Self {
+    pub(super) fn new(weight: &WeightFunction, view: &View, patches: &mut [VisiblePatch]) -> Self {
         let mut weights = Self::default();
         if !matches!(weight, WeightFunction::Formula(_)) {
             return weights;
@@ -77,15 +77,15 @@ impl<T: Scalar> Weights<T> {
         support: Affine,
         pixel: usize,
         like: R,
-    ) -> Option<Factor<R>> {
+    ) -> Option<WeightFactor<R>> {
         let place = support.table?.wrapping_add(pixel as u32) as usize;
         let [value, slope] = [&self.values, &self.slopes].map(|all| like.load(&all[place..]));
-        Some(Factor { value, slope })
+        Some(WeightFactor { value, slope })
     }
 }
 
 /// Pixels up to whole vectors.
-fn whole_vectors<T: Scalar>(pixels: &Range<u32>) -> Range<u32> {
+fn whole_vectors<T: LaneNumber>(pixels: &Range<u32>) -> Range<u32> {
     let vector = T::VECTOR as u32;
     pixels.start / vector * vector..pixels.end.next_multiple_of(vector)
 }

@@ -11,23 +11,27 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_raster::reference::reference;
 use ppum_raster::scatter::{BAND, render, render_rows, render_strips};
 use ppum_raster::view::View;
-use ppum_testkit::extended::Double;
-use ppum_testkit::meshes::{ElementPart, Elements, Polynomial, field, random_polynomial};
+use ppum_testkit::extended::DoubleDouble;
+use ppum_testkit::meshes::{
+    AffineElement, BivariatePolynomial, MeshBuilder, field, random_polynomial,
+};
 use ppum_testkit::random::Random;
 
 /// A curved mesh, all elements cut in two by a curve, with a polynomial on each part, and a
 /// function of the level field.
 fn dataset() -> Dataset {
     let mut random = Random(4);
-    let bend = |random: &mut Random, linear: Polynomial| {
+    let bend = |random: &mut Random, linear: BivariatePolynomial| {
         let small = random_polynomial(random, Total, 3);
-        linear.plus(&small.times(&Polynomial::linear(0.05, 0.0, 0.0)))
+        linear.plus(&small.times(&BivariatePolynomial::linear(0.05, 0.0, 0.0)))
     };
-    let x = bend(&mut random, Polynomial::linear(0.0, 1.0, 0.0));
-    let y = bend(&mut random, Polynomial::linear(0.0, 0.0, 1.0));
-    let half = Elements::grid([6, 5], 3, &[x, y]);
-    let mut elements = Elements::default();
-    let level = Polynomial([((0, 1), 1.0), ((1, 0), -0.5), ((2, 0), 0.25), ((0, 0), -0.31)].into());
+    let x = bend(&mut random, BivariatePolynomial::linear(0.0, 1.0, 0.0));
+    let y = bend(&mut random, BivariatePolynomial::linear(0.0, 0.0, 1.0));
+    let half = MeshBuilder::grid([6, 5], 3, &[x, y]);
+    let mut elements = MeshBuilder::default();
+    let level = BivariatePolynomial(
+        [((0, 1), 1.0), ((1, 0), -0.5), ((2, 0), 0.25), ((0, 0), -0.31)].into(),
+    );
     let (mut parts, mut levels) = (Vec::new(), Vec::new());
     let mesh = &half.mesh;
     for k in 0..mesh.len() {
@@ -113,13 +117,13 @@ fn threads_and_strips_change_nothing() {
 /// none is drawn.
 #[test]
 fn no_pixel_is_lost() {
-    let mut elements = Elements::grid(
+    let mut elements = MeshBuilder::grid(
         [7, 6],
         1,
-        &[Polynomial::linear(0.0, 1.0, 0.25), Polynomial::linear(0.0, -0.5, 1.0)],
+        &[BivariatePolynomial::linear(0.0, 1.0, 0.25), BivariatePolynomial::linear(0.0, -0.5, 1.0)],
     );
     elements.mesh.element.reverse();
-    let parts = vec![(Total, 0, Polynomial::linear(1.0, 0.0, 0.0)); elements.mesh.len()];
+    let parts = vec![(Total, 0, BivariatePolynomial::linear(1.0, 0.0, 0.0)); elements.mesh.len()];
     let dataset = elements.dataset(vec![field("v", &parts)]);
     let compiled = Field::new(&dataset, 0).expect("a field");
     let view = View::new(vec2(0.6, 0.25), 1.9, [301, 283]).expect("a view");
@@ -150,8 +154,9 @@ fn no_pixel_of_a_quadtree_is_lost() {
     for _ in 0..4 {
         let angle = random.between(-3.0, 3.0);
         let (c, s) = (angle.cos(), angle.sin());
-        let plane = [Polynomial::linear(0.1, c, -s), Polynomial::linear(-0.7, s, c)];
-        let (elements, leaves) = Elements::quadtree(&mut random, 5, 1, &plane);
+        let plane =
+            [BivariatePolynomial::linear(0.1, c, -s), BivariatePolynomial::linear(-0.7, s, c)];
+        let (elements, leaves) = MeshBuilder::quadtree(&mut random, 5, 1, &plane);
         let parts: Vec<_> = leaves
             .iter()
             .map(|leaf| {
@@ -166,18 +171,18 @@ fn no_pixel_of_a_quadtree_is_lost() {
         let view = View::new(middle, 1.5, [120, 120]).expect("a view");
         let found =
             render::<f64>(&compiled, &view, &Quantity::Component(0), unwatched()).expect("drawn");
-        let det = Double::product(c, c) + Double::product(s, s);
+        let det = DoubleDouble::product(c, c) + DoubleDouble::product(s, s);
         let mut inside = 0;
         for (i, j) in (0..120).flat_map(|i| (0..120).map(move |j| (i, j))) {
             let offset = view.offset(i, j);
             let [x, y] = [
-                Double::sum(view.center.x, offset.x) - 0.1,
-                Double::sum(view.center.y, offset.y) + 0.7,
+                DoubleDouble::sum(view.center.x, offset.x) - 0.1,
+                DoubleDouble::sum(view.center.y, offset.y) + 0.7,
             ];
             let st = [(x * c + y * s) / det, (y * c - x * s) / det];
-            let (xi, near) = (|k: usize| leaves[k].xi(st), st.map(Double::to_f64));
+            let (xi, near) = (|k: usize| leaves[k].xi(st), st.map(DoubleDouble::to_f64));
             let margin = |k: usize| {
-                let ElementPart { shape, origin, scale } = leaves[k];
+                let AffineElement { shape, origin, scale } = leaves[k];
                 shape.margin(
                     [0.0; 2],
                     [(near[0] - origin.x) / scale.x, (near[1] - origin.y) / scale.y],
@@ -187,7 +192,7 @@ fn no_pixel_of_a_quadtree_is_lost() {
             match (0..leaves.len()).max_by(|&a, &b| margin(a).total_cmp(&margin(b))) {
                 Some(leaf) if margin(leaf) > 1e-9 => {
                     let (p, size) = (parts[leaf].2.at(xi(leaf)).to_f64(), xi(leaf));
-                    let size = parts[leaf].2.magnitude(size.map(Double::to_f64)).max(1e-3);
+                    let size = parts[leaf].2.magnitude(size.map(DoubleDouble::to_f64)).max(1e-3);
                     assert!((value - p).abs() <= 2e-12 * size, "{value} {p} at {i}, {j}");
                     inside += 1;
                 }

@@ -4,16 +4,16 @@ use std::sync::Mutex;
 
 use cpu_time::ThreadTime;
 use ppum::dataset::Dataset;
-use ppum::decompose::{KINDS, Part};
+use ppum::decompose::{FieldPart, KINDS};
 use ppum::domain::Hole;
 use ppum::field::Field;
 use ppum::progress::{Cancelled, Phase, Progress, Verdict, unwatched};
 use ppum::quantity::{Axis, Quantity, QuantityError, Source};
-use ppum::real::{Scalar, narrowed};
+use ppum::real::{LaneNumber, narrowed};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
-use ppum_raster::RenderError;
-use ppum_raster::raster::{Raster, Sample};
+use ppum_raster::RasterError;
+use ppum_raster::raster::{Raster, RasterValue};
 use ppum_raster::reference::reference;
 use ppum_raster::scatter::render;
 use ppum_raster::view::View;
@@ -70,7 +70,7 @@ fn around(raster: &Raster<f64>, column: u32, row: u32) -> f64 {
 }
 
 /// Differences from the reference in units of the local scale, ascending, 0 if there are none.
-fn differences<T: Sample>(found: &Raster<T>, scale: &Scale) -> Vec<f64> {
+fn differences<T: RasterValue>(found: &Raster<T>, scale: &Scale) -> Vec<f64> {
     let mut all = vec![0.0];
     for row in 0..found.size[1] {
         for column in 0..found.size[0] {
@@ -114,7 +114,7 @@ fn compare(field: &Field, view: &View, quantity: &Quantity) -> [f64; 3] {
 
 /// The differences with the vectors of this processor, and with those of any other: the
 /// larger ones.
-fn of_all_processors<T: Sample>(
+fn of_all_processors<T: RasterValue>(
     field: &Field,
     view: &View,
     quantity: &Quantity,
@@ -274,7 +274,7 @@ fn infinite_at_a_tip() {
     let dataset = dataset(&Recipe::default());
     let field = Field::new(&dataset, 0).unwrap();
     let view = View::new(kinked().points[2], 1e-3, [41, 21]).unwrap();
-    fn check<T: Scalar + Sample>(field: &Field, view: &View) {
+    fn check<T: LaneNumber + RasterValue>(field: &Field, view: &View) {
         let raster = render::<T>(field, view, &Quantity::VonMises, unwatched()).unwrap();
         assert_eq!(raster.value(20, 10).into(), f64::INFINITY);
         assert_eq!(raster.statistics().infinite, 1);
@@ -343,7 +343,7 @@ fn a_watcher_hears_of_all_and_can_stop() {
     let mut heard = heard.into_inner().unwrap();
     heard.sort_unstable();
     assert_eq!(heard, [0, 1, 2, 3, 4]);
-    let stopped = Err(RenderError::Cancelled(Cancelled));
+    let stopped = Err(RasterError::Cancelled(Cancelled));
     for after in [0, 2] {
         let stop = |progress: Progress| Verdict::go_on_unless(progress.done >= after);
         assert_eq!(render::<f64>(&field, &view, &quantity, &stop), stopped);
@@ -399,11 +399,11 @@ fn what_cannot_be_drawn_is_refused() {
     let field = Field::new(&dataset, 0).unwrap();
     let error =
         |quantity| render::<f64>(&field, &whole([3, 2]), quantity, unwatched()).unwrap_err();
-    assert!(matches!(error(&Quantity::Error), RenderError::Quantity(QuantityError::NoExact(_))));
+    assert!(matches!(error(&Quantity::Error), RasterError::Quantity(QuantityError::NoExact(_))));
     let beyond = field.step.partition.len() as u32;
     assert!(matches!(
         error(&Quantity::PartitionFunction(beyond)),
-        RenderError::Quantity(QuantityError::Patch { .. })
+        RasterError::Quantity(QuantityError::Patch { .. })
     ));
 }
 
@@ -459,10 +459,10 @@ fn parts_add_up_in_pictures() {
         let whole = Recipe::random(seed).dataset();
         let field = Field::new(&whole, 0).expect("a field");
         let (data, functions) = (field.data, &field.step.functions);
-        let is_there = |part: &Part| data.part(*part, functions).is_ok();
-        let parts: Vec<Part> = KINDS.into_iter().filter(is_there).collect();
+        let is_there = |part: &FieldPart| data.part(*part, functions).is_ok();
+        let parts: Vec<FieldPart> = KINDS.into_iter().filter(is_there).collect();
         assert!(parts.len() > 2, "{parts:?}");
-        let changed = |part: Part| {
+        let changed = |part: FieldPart| {
             let mut dataset = whole.clone();
             dataset.steps[0].fields[0] = data.part(part, functions).expect("it is there");
             dataset

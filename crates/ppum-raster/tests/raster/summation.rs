@@ -5,7 +5,7 @@ use ppum::field::Field;
 use ppum::function::{Frame, FunctionKind};
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
-use ppum_raster::raster::Sample;
+use ppum_raster::raster::RasterValue;
 use ppum_raster::reference::reference;
 use ppum_raster::scatter::{BAND, Schedule, render_rows, render_strips, render_with};
 use ppum_raster::summation::{Savings, Summation};
@@ -14,7 +14,7 @@ use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Coefficients, Recipe};
 
 /// Values by row spans with some savings only.
-fn by_row_spans<T: Sample>(
+fn by_row_spans<T: RasterValue>(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
@@ -26,13 +26,13 @@ fn by_row_spans<T: Sample>(
 }
 
 /// Values by summation per patch, whatever the number of patches.
-fn by_patches<T: Sample>(field: &Field<'_>, view: &View, quantity: &Quantity) -> Vec<f64> {
+fn by_patches<T: RasterValue>(field: &Field<'_>, view: &View, quantity: &Quantity) -> Vec<f64> {
     let schedule = Schedule::new(field, view, quantity, Summation::PerPatch);
     assert!(schedule.is_per_patch() && schedule.listed_patches() == 0);
     values::<T>(field, view, quantity, Summation::PerPatch)
 }
 
-fn values<T: Sample>(
+fn values<T: RasterValue>(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,

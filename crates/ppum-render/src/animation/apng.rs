@@ -4,9 +4,9 @@ use std::io::Write;
 
 use ::png::{BitDepth, BlendOp, ColorType, Encoder, SrgbRenderingIntent, Writer};
 
-use super::changed::{AnimationError, Changed, check_size};
+use super::pixel_box::{AnimationError, PixelBox, check_size};
 use crate::image::{Image, Rgba};
-use crate::png::{self, Text};
+use crate::png::{self, TextChunk};
 
 /// An APNG file that is being written, without loss of any colour. A program that does not know
 /// APNG shows the first image.
@@ -32,7 +32,7 @@ impl<W: Write> Apng<W> {
         size: [u32; 2],
         count: u32,
         milliseconds: u16,
-        texts: &[Text],
+        texts: &[TextChunk],
     ) -> Result<Self, AnimationError> {
         if count == 0 {
             return Err(AnimationError::Empty);
@@ -73,7 +73,7 @@ impl<W: Write> Apng<W> {
 
     fn add_changed(&mut self, pixels: &[Rgba]) -> Result<(), AnimationError> {
         let columns = self.size[0] as usize;
-        let changed = Changed::between(&self.shown, pixels, columns);
+        let changed = PixelBox::between(&self.shown, pixels, columns);
         let ([width, height], [x, y]) =
             (changed.size().map(|n| n as u32), changed.from.map(|n| n as u32));
         self.writer.reset_frame_position()?;

@@ -5,17 +5,17 @@ use std::io::Write;
 
 use ::gif::{DisposalMethod, Encoder, EncodingError, Frame, Repeat};
 
-use super::changed::{AnimationError, Changed, check_size};
 use super::palette::ColorCounts;
-use super::palette::{Palette, TRANSPARENT};
+use super::palette::{GifPalette, TRANSPARENT};
+use super::pixel_box::{AnimationError, PixelBox, check_size};
 use crate::image::Image;
 
 /// A GIF file that is being written. Its palette of 256 colours is that of all images: all of their
-/// colours if there are no more, else such that none is far off. What is more transparent than
-/// opaque is transparent. Times are held as hundredths of a second.
+/// colours if there are no more, else such that none is far off. Pixels that are more transparent
+/// than opaque are transparent. Times are held as hundredths of a second.
 pub struct Gif<W: Write> {
     encoder: Encoder<W>,
-    palette: Palette,
+    palette: GifPalette,
     size: [u16; 2],
     delay: u16,
     /// Images are transparent somewhere: each takes the place of the one before as a whole, since
@@ -39,7 +39,7 @@ impl<W: Write> Gif<W> {
     ) -> Result<Self, AnimationError> {
         let side = |n: u32| u16::try_from(n).map_err(|_| AnimationError::TooLarge { size });
         let size = [side(size[0])?, side(size[1])?];
-        let palette = Palette::new(colors);
+        let palette = GifPalette::new(colors);
         let mut encoder = Encoder::new(out, size[0], size[1], &palette.bytes())?;
         encoder.set_repeat(Repeat::Infinite)?;
         let delay = (milliseconds + 5) / 10;
@@ -55,9 +55,10 @@ impl<W: Write> Gif<W> {
         check_size(self.count, image.size, self.size.map(u32::from))?;
         let indices = self.palette.indices(image);
         let columns = usize::from(self.size[0]);
-        let all = Changed { from: [0; 2], to: self.size.map(usize::from) };
+        let all = PixelBox { from: [0; 2], to: self.size.map(usize::from) };
         let is_whole = self.as_a_whole || self.count == 0;
-        let changed = if is_whole { all } else { Changed::between(&self.shown, &indices, columns) };
+        let changed =
+            if is_whole { all } else { PixelBox::between(&self.shown, &indices, columns) };
         let kept = |at: usize| !is_whole && self.shown[at] == indices[at];
         let seen = |at: usize| if kept(at) { TRANSPARENT } else { indices[at] };
         let buffer = changed.places(columns).map(seen).collect();
@@ -67,7 +68,7 @@ impl<W: Write> Gif<W> {
         Ok(())
     }
 
-    fn write(&mut self, changed: Changed, buffer: Vec<u8>) -> Result<(), AnimationError> {
+    fn write(&mut self, changed: PixelBox, buffer: Vec<u8>) -> Result<(), AnimationError> {
         let ([width, height], [left, top]) =
             (changed.size().map(|n| n as u16), changed.from.map(|n| n as u16));
         let dispose =

@@ -1,4 +1,4 @@
-//! Moving pictures: APNG, without loss, and GIF, in 256 colours, for programs that know no other.
+//! Animations: APNG, without loss, and GIF, in 256 colours, for programs that know no other.
 //!
 //! All images have one size and are shown for one time each, over and over. [`Apng`] and [`Gif`]
 //! take them one by one, so that no two have to be held at a time; what does not change from one to
@@ -6,14 +6,14 @@
 //! [`ColorCounts`] of all its images are counted before the first one is written.
 
 mod apng;
-mod changed;
 mod gif;
 mod palette;
+mod pixel_box;
 
 pub use apng::Apng;
-pub use changed::AnimationError;
 pub use gif::Gif;
 pub use palette::ColorCounts;
+pub use pixel_box::AnimationError;
 
 #[cfg(test)]
 mod tests {
@@ -22,12 +22,12 @@ mod tests {
     use super::*;
     use crate::colormap::Colormap;
     use crate::image::Image;
-    use crate::png::Text;
+    use crate::png::TextChunk;
 
     fn apng(
         images: &[Image],
         milliseconds: u16,
-        texts: &[Text],
+        texts: &[TextChunk],
     ) -> Result<Vec<u8>, AnimationError> {
         let size = images.first().ok_or(AnimationError::Empty)?.size;
         let mut bytes = Vec::new();
@@ -154,7 +154,7 @@ mod tests {
         }
     }
 
-    /// What does not change is left out of the file, and what a program shows are the images.
+    /// Pixels that do not change are left out of the file, and a program shows the original images.
     #[test]
     fn only_what_changes_is_stored() {
         for with_holes in [false, true] {

@@ -15,15 +15,15 @@ pub(super) const TRANSPARENT: u8 = 255;
 const PLACES: usize = 255;
 
 /// A colour and how often it is there.
-type Counted = ([u8; 3], u64);
+type ColorCount = ([u8; 3], u64);
 
 /// Colours, and the place of each that was seen.
-pub(super) struct Palette {
+pub(super) struct GifPalette {
     colors: Vec<[u8; 3]>,
     places: BTreeMap<[u8; 3], u8>,
 }
 
-impl Palette {
+impl GifPalette {
     /// The palette of colours that were counted.
     pub(super) fn new(colors: &ColorCounts) -> Self {
         let mut boxes = vec![ColorBox::new(colors.counted())];
@@ -124,7 +124,7 @@ impl ColorCounts {
         self.has_transparent
     }
 
-    fn counted(&self) -> Vec<Counted> {
+    fn counted(&self) -> Vec<ColorCount> {
         let there = (0u32..).zip(&self.counts).filter(|(_, count)| **count > 0);
         let color = |bits: u32| [bits >> 16, bits >> 8, bits].map(|channel| channel as u8);
         there.map(|(bits, count)| (color(bits), u64::from(*count))).collect()
@@ -133,7 +133,7 @@ impl ColorCounts {
 
 /// Colours of one box.
 struct ColorBox {
-    colors: Vec<Counted>,
+    colors: Vec<ColorCount>,
     /// The channel in which they differ most.
     channel: usize,
     /// The sum of their squared distances from the mean in that channel.
@@ -143,13 +143,13 @@ struct ColorBox {
 /// Every colour counts, and often seen ones more, by the power of 3/4: with the number itself rare
 /// colours, those of lines and letters, were off by half as much again, with its root slopes had
 /// half as many steps.
-fn weight((_, count): &Counted) -> f64 {
+fn weight((_, count): &ColorCount) -> f64 {
     let root = (*count as f64).sqrt();
     root * root.sqrt()
 }
 
 impl ColorBox {
-    fn new(colors: Vec<Counted>) -> Self {
+    fn new(colors: Vec<ColorCount>) -> Self {
         let spreads = [0, 1, 2].map(|channel| (channel, spread(&colors, channel)));
         let widest = spreads.into_iter().max_by(|a, b| a.1.total_cmp(&b.1));
         let (channel, spread) = widest.unwrap_or((0, 0.0));
@@ -172,13 +172,13 @@ impl ColorBox {
     }
 }
 
-fn mean(colors: &[Counted], channel: usize) -> f64 {
+fn mean(colors: &[ColorCount], channel: usize) -> f64 {
     let sum: f64 = colors.iter().map(weight).sum();
     colors.iter().map(|c| weight(c) * f64::from(c.0[channel])).sum::<f64>() / sum
 }
 
 /// 0 of a single colour, whatever rounding says.
-fn spread(colors: &[Counted], channel: usize) -> f64 {
+fn spread(colors: &[ColorCount], channel: usize) -> f64 {
     let mean = mean(colors, channel);
     let squares = colors.iter().map(|c| weight(c) * (f64::from(c.0[channel]) - mean).powi(2));
     if colors.len() < 2 { 0.0 } else { squares.sum() }

@@ -1,4 +1,4 @@
-//! Tests: files of each form, of each mistake, and hostile ones.
+//! Tests: files of each form, of each error, and hostile ones.
 
 use super::{Colormap, ColormapError};
 use crate::image::Rgba;
@@ -35,7 +35,7 @@ fn three_colours_in_a_row() {
     }
 }
 
-/// The same three at 0, ¼ and 1.
+/// Three colours at 0, ¼ and 1 are read.
 #[test]
 fn uneven_positions() {
     for text in [

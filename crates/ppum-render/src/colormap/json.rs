@@ -2,7 +2,7 @@
 
 use serde_json::{Map, Value};
 
-use super::space::Space;
+use super::space::ColorSpace;
 use super::stops::{ColorFileError, ColorStop, Stops};
 use crate::image::Rgba;
 
@@ -42,8 +42,8 @@ fn fault(text: impl Into<String>) -> ColorFileError {
     ColorFileError::new("the whole file", text)
 }
 
-/// A preset of ParaView: `RGBPoints` holds position, red, green, blue, again and again. What is
-/// about opacity and logarithms is left out, and so is `NanColor`: here pixels without a value lie
+/// A preset of ParaView: `RGBPoints` holds position, red, green, blue, again and again. Keys about
+/// opacity and logarithms are left out, and so is `NanColor`: here pixels without a value lie
 /// outside the domain.
 fn preset(map: &Map<String, Value>, points: &Value, place: &str) -> Result<Stops, ColorFileError> {
     let place = format!("{place}.RGBPoints");
@@ -92,14 +92,14 @@ fn beyond(map: &Map<String, Value>, which: &str) -> Result<Option<Rgba>, ColorFi
     Ok(Some([r, g, b, 255]))
 }
 
-fn space(map: &Map<String, Value>) -> Result<Space, ColorFileError> {
-    let Some(name) = map.get("ColorSpace") else { return Ok(Space::Rgb) };
+fn space(map: &Map<String, Value>) -> Result<ColorSpace, ColorFileError> {
+    let Some(name) = map.get("ColorSpace") else { return Ok(ColorSpace::Rgb) };
     let wraps = map.get("HSVWrap").is_some_and(|wraps| wraps != 0 && wraps != false);
     match name.as_str().unwrap_or_default().to_lowercase().as_str() {
-        "rgb" => Ok(Space::Rgb),
-        "hsv" if !wraps => Ok(Space::Hsv),
-        "lab" => Ok(Space::Lab),
-        "diverging" => Ok(Space::Diverging),
+        "rgb" => Ok(ColorSpace::Rgb),
+        "hsv" if !wraps => Ok(ColorSpace::Hsv),
+        "lab" => Ok(ColorSpace::Lab),
+        "diverging" => Ok(ColorSpace::Diverging),
         "hsv" => Err(ColorFileError::new(
             "HSVWrap",
             "is not supported; export the map with more points in RGB",

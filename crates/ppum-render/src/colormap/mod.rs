@@ -26,7 +26,7 @@ mod table;
 use crate::image::Rgba;
 pub use paint::Rgb;
 use ppum::text::hint;
-use space::Space;
+use space::ColorSpace;
 use stops::{ColorFileError, Stops};
 
 /// Names of the built-in maps.
@@ -85,7 +85,7 @@ pub enum ColormapError {
         name: String,
         /// Line, column or key.
         place: String,
-        /// The mistake, and what to write.
+        /// The error, and what to write.
         mistake: String,
     },
 }
@@ -129,8 +129,8 @@ impl Colormap {
     /// - Text: red, green and blue on each line, with or without a position in front, apart by
     ///   commas, semicolons, tabs or blanks; a first line may name the columns, and `#` begins a
     ///   comment.
-    /// - JSON: a preset of ParaView, in RGB, HSV, Lab or Diverging, with the colours below and above
-    ///   if it uses them. A diverging one has zero in its middle.
+    /// - JSON: a preset of ParaView, in RGB, HSV, Lab or Diverging, with the colours below and
+    ///   above if it uses them. A diverging one has zero in its middle.
     ///
     /// The numbers of colours lie all within 0 to 1 or all within 0 to 255. Positions may be of any
     /// range and uneven, and are scaled to 0 … 1; where two are equal the map jumps. Below and
@@ -152,7 +152,7 @@ impl Colormap {
             name: name.to_owned(),
             below: BLACK,
             above: WHITE,
-            diverging: stops.space == Space::Diverging,
+            diverging: stops.space == ColorSpace::Diverging,
             cyclic: false,
             bands: None,
             classes: Vec::new(),

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_3;
 /// The space in which colours between two given ones are found. Colours are sRGB, 0 to 1,
 /// everywhere else.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Space {
+pub(super) enum ColorSpace {
     Rgb,
     Hsv,
     Lab,
@@ -25,7 +25,7 @@ const MIDDLE: f64 = 88.0;
 /// Saturation below which a colour of Msh counts as grey.
 const GREY: f64 = 0.05;
 
-impl Space {
+impl ColorSpace {
     /// The colour at `share` ∈ \[0, 1\] between two.
     pub(super) fn between(self, a: Color, b: Color, share: f64) -> Color {
         match self {
@@ -153,7 +153,7 @@ mod tests {
     #[test]
     fn the_ends_are_the_given_colours() {
         let colors = [[0.0; 3], [1.0; 3], [0.2, 0.9, 0.4], [0.9, 0.1, 0.3], [0.3, 0.2, 0.95]];
-        for space in [Space::Rgb, Space::Hsv, Space::Lab, Space::Diverging] {
+        for space in [ColorSpace::Rgb, ColorSpace::Hsv, ColorSpace::Lab, ColorSpace::Diverging] {
             for (a, b) in colors.iter().zip(&colors[1..]) {
                 assert_near(space.between(*a, *b, 0.0), *a, 2e-3);
                 assert_near(space.between(*a, *b, 1.0), *b, 2e-3);
@@ -164,10 +164,10 @@ mod tests {
     #[test]
     fn the_middle_of_hsv_and_lab() {
         // from red over yellow to green
-        let middle = Space::Hsv.between([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0.5);
+        let middle = ColorSpace::Hsv.between([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], 0.5);
         assert_near(middle, [1.0, 1.0, 0.0], 1e-12);
         // L* = 50 between black and white is the grey 119 of 255
-        let middle = Space::Lab.between([0.0; 3], [1.0; 3], 0.5);
+        let middle = ColorSpace::Lab.between([0.0; 3], [1.0; 3], 0.5);
         assert_near(middle, [119.0 / 255.0; 3], 2e-3);
     }
 }

@@ -1,6 +1,6 @@
 //! The contents of files of all forms: colours, with positions where the file gives them.
 
-use super::space::Space;
+use super::space::ColorSpace;
 use crate::image::Rgba;
 
 /// Most colours in a file; more are no colour map.
@@ -11,7 +11,7 @@ pub(super) const MOST: usize = 1 << 16;
 const SAMPLES: usize = 1024;
 const LEAST_SAMPLES: usize = 8;
 
-/// A mistake in a file, and its place.
+/// An error in a file, and its place.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct ColorFileError {
     pub(super) place: String,
@@ -37,23 +37,23 @@ pub(super) struct ColorStop {
 #[derive(Clone, Debug)]
 pub(super) struct Stops {
     pub(super) stops: Vec<ColorStop>,
-    pub(super) space: Space,
+    pub(super) space: ColorSpace,
     pub(super) below: Option<Rgba>,
     pub(super) above: Option<Rgba>,
 }
 
 impl From<Vec<ColorStop>> for Stops {
     fn from(stops: Vec<ColorStop>) -> Self {
-        Self { stops, space: Space::Rgb, below: None, above: None }
+        Self { stops, space: ColorSpace::Rgb, below: None, above: None }
     }
 }
 
 /// Positions from 0 to 1, empty if they are even, and sRGB entries, 0 to 255.
-pub(super) type Entries = (Vec<f64>, Vec<[f64; 3]>);
+pub(super) type ColorEntries = (Vec<f64>, Vec<[f64; 3]>);
 
 impl Stops {
     /// Colours and positions, checked and scaled.
-    pub(super) fn entries(&self) -> Result<Entries, ColorFileError> {
+    pub(super) fn entries(&self) -> Result<ColorEntries, ColorFileError> {
         if self.stops.len() < 2 {
             return Err(ColorFileError::new(
                 "the whole file",
@@ -65,7 +65,7 @@ impl Stops {
         }
         let (positions, colors) = (self.positions()?, self.colors());
         Ok(match self.space {
-            Space::Rgb => (positions, colors),
+            ColorSpace::Rgb => (positions, colors),
             space => sampled(space, &positions, &colors),
         })
     }
@@ -103,7 +103,7 @@ pub(super) fn too_many() -> String {
 }
 
 /// Entries so close that linear interpolation between them shows the colours of another space.
-fn sampled(space: Space, positions: &[f64], colors: &[[f64; 3]]) -> Entries {
+fn sampled(space: ColorSpace, positions: &[f64], colors: &[[f64; 3]]) -> ColorEntries {
     let count = colors.len() - 1;
     let steps = SAMPLES.div_ceil(count).max(LEAST_SAMPLES);
     let position = |k: usize| positions.get(k).copied().unwrap_or(k as f64 / count as f64);

@@ -12,9 +12,9 @@ const SEEN: f64 = 0.05;
 /// Columns and rows of points at which displacements are looked at.
 const POINTS: u32 = 65;
 
-/// The factor with which the largest displacement that is seen in a window of the undeformed plate
+/// The factor with which the largest displacement that is seen in a window of the undeformed body
 /// is 5 % of the smaller side of the domain, rounded down to 1, 2 or 5 times a power of ten; of
-/// several fields the same for all, as for the pictures of a series. 1 if nothing moves.
+/// several fields the same for all, as for the images of a series. 1 if nothing moves.
 /// Displacements are looked at in 65 × 65 points and at the vertices of cracks.
 ///
 /// # Errors

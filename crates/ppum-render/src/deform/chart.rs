@@ -10,10 +10,10 @@ use ppum::mesh::ElementField;
 use ppum::vec2::{Vec2, vec2};
 
 use super::DeformedView;
-use super::map::{Chart, DeformationMap, Image, Preimage, gradient, moved};
-use crate::pieces::{ElementCuts, INSET, Piece};
+use super::map::{DeformationChart, DeformationMap, DeformedPoint, Preimage, gradient, moved};
+use crate::pieces::{ConvexPiece, ElementCuts, INSET};
 
-/// A patch of a mesh as a part of the plate.
+/// A patch of a mesh as a part of the body.
 pub(super) struct ElementChart<'m, 'f> {
     local: &'m LocalField<'f>,
     element: ElementField<'m, 'f>,
@@ -50,7 +50,7 @@ impl<'m, 'f> ElementChart<'m, 'f> {
     }
 
     /// The pieces of a part of the reference shape.
-    pub(super) fn pieces(&self, corners: &[Vec2]) -> Vec<Piece> {
+    pub(super) fn pieces(&self, corners: &[Vec2]) -> Vec<ConvexPiece> {
         match self.is_cut() {
             true => self.cuts.pieces(&self.element, corners),
             false => vec![uncut(corners)],
@@ -64,18 +64,18 @@ impl<'m, 'f> ElementChart<'m, 'f> {
 }
 
 /// A part of the reference shape that nothing cuts.
-pub(super) fn uncut(corners: &[Vec2]) -> Piece {
-    Piece { corners: corners.to_vec(), faces: vec![false; corners.len()], inset: INSET }
+pub(super) fn uncut(corners: &[Vec2]) -> ConvexPiece {
+    ConvexPiece { corners: corners.to_vec(), faces: vec![false; corners.len()], inset: INSET }
 }
 
-impl Chart for ElementChart<'_, '_> {
-    fn image(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<Image> {
+impl DeformationChart for ElementChart<'_, '_> {
+    fn image(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<DeformedPoint> {
         let (point, mut jets) = (self.element.point(p), [Jet::constant(0.0); 2]);
         self.element.evaluate::<1>((p, point.offset), Side::Above, &mut jets);
         let at = moved(view, point.offset, jets.map(|jet| jet.v));
-        let world = Image { at, gradient: gradient(view, jets) };
+        let world = DeformedPoint { at, gradient: gradient(view, jets) };
         let gradient = point.columns.map(|column| world.carried(column));
-        at.is_finite().then_some(Image { at, gradient })
+        at.is_finite().then_some(DeformedPoint { at, gradient })
     }
 
     fn place(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<Vec2> {
@@ -93,10 +93,10 @@ impl Chart for ElementChart<'_, '_> {
         let point = self.element.point(found.offset);
         let is_owner = self.local.owner(point.offset, Side::Above) == Some(self.element.patch());
         let [a, b] = point.columns;
-        let shape = Image { at: Vec2::ZERO, gradient: [a, b] };
+        let shape = DeformedPoint { at: Vec2::ZERO, gradient: [a, b] };
         let units = [vec2(1.0, 0.0), vec2(0.0, 1.0)];
         let gradient = units.map(|unit| found.image.carried(shape.pulled_back(unit)));
-        let image = Image { gradient, ..found.image };
+        let image = DeformedPoint { gradient, ..found.image };
         is_owner.then_some(Preimage { offset: point.offset, image })
     }
 }

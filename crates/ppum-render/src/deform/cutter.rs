@@ -1,5 +1,4 @@
-//! What cuts the plate into pieces with nearly affine images: parts that are halved again and
-//! again.
+//! Cutting of the body into pieces with nearly affine images: parts are halved again and again.
 
 use ppum::domain::{Hole, LocalDomain};
 use ppum::function::FunctionKind;
@@ -10,18 +9,18 @@ use ppum_raster::parts::Parts;
 use rayon::prelude::*;
 
 use super::chart::{ElementChart, uncut};
-use super::leaf::Leaf;
-use super::map::{Chart, DeformationMap};
+use super::leaf::DeformedLeaf;
+use super::map::{DeformationChart, DeformationMap};
 use super::{DeformError, DeformedView};
-use crate::pieces::{INSET, Piece, Pieces, quarters};
+use crate::pieces::{ConvexPiece, INSET, Pieces, quarters};
 
 /// Squares are halved that often before it is asked what is seen of them: displacements vary little
 /// enough from one to the next.
 const LEVELS: usize = 5;
-/// The same of elements with polynomials alone of a degree below this one, and of others.
+/// Halvings of elements: of those with only polynomials of a degree below this one, and of others.
 const HIGH: u8 = 5;
 const LEVELS_OF_ELEMENTS: [usize; 2] = [0, 2];
-/// Most pieces in units of the picture's pixels, and at least; and in units of elements.
+/// Most pieces in units of the image's pixels, and at least; and in units of elements.
 const MOST: usize = 16;
 const MOST_AT_LEAST: usize = 1 << 20;
 const MOST_OF_ELEMENTS: usize = 4;
@@ -29,11 +28,11 @@ const MOST_OF_ELEMENTS: usize = 4;
 /// Parts that are looked at before the watcher is asked.
 const BLOCK: usize = 32;
 
-/// All pieces of the plate that may be seen.
+/// All pieces of the body that may be seen.
 pub(super) fn leaves(
     view: &DeformedView<'_>,
     watcher: &dyn Watcher,
-) -> Result<Vec<Leaf>, DeformError> {
+) -> Result<Vec<DeformedLeaf>, DeformError> {
     match view.field().step.partition.mesh() {
         Some(mesh) => halved(view, &ElementCutter { view, mesh, only_cut: false }, watcher),
         None => halved(view, &SquareCutter::new(view), watcher),
@@ -45,11 +44,11 @@ pub(super) fn leaves_of_cuts(
     view: &DeformedView<'_>,
     mesh: &Mesh,
     watcher: &dyn Watcher,
-) -> Result<Vec<Leaf>, DeformError> {
+) -> Result<Vec<DeformedLeaf>, DeformError> {
     halved(view, &ElementCutter { view, mesh, only_cut: true }, watcher)
 }
 
-/// What cuts the plate: first into parts, each of them into pieces, or into four smaller parts.
+/// A way to cut the body: first into parts, each of them into pieces, or into four smaller parts.
 trait Cutter: Sync {
     type Part: Clone + PartialEq + Send + Sync;
 
@@ -66,7 +65,7 @@ fn halved<C: Cutter>(
     view: &DeformedView<'_>,
     cutter: &C,
     watcher: &dyn Watcher,
-) -> Result<Vec<Leaf>, DeformError> {
+) -> Result<Vec<DeformedLeaf>, DeformError> {
     let [columns, rows] = view.view.pixels.map(|n| n as usize);
     let (mut left, mut found) = (cutter.parts(), Vec::new());
     let most = MOST.saturating_mul(columns * rows).max(MOST_AT_LEAST);
@@ -80,12 +79,12 @@ fn halved<C: Cutter>(
                 parts.finish_one().map(|()| seen)
             },
         );
-        let blocks: Vec<Vec<Looked<C::Part>>> = blocks.collect::<Result<_, _>>()?;
+        let blocks: Vec<Vec<PieceResult<C::Part>>> = blocks.collect::<Result<_, _>>()?;
         left.clear();
         for seen in blocks.into_iter().flatten() {
             match seen {
-                Looked::Leaves(leaves) => found.extend(leaves),
-                Looked::Quarters(quarters) => left.extend(quarters),
+                PieceResult::Leaves(leaves) => found.extend(leaves),
+                PieceResult::Quarters(quarters) => left.extend(quarters),
             }
         }
         if found.len() + left.len() > most {
@@ -95,18 +94,18 @@ fn halved<C: Cutter>(
     Ok(found)
 }
 
-/// The pieces of a part of the plate.
+/// The pieces of a part of the body.
 struct CutPart {
-    leaves: Vec<Leaf>,
+    leaves: Vec<DeformedLeaf>,
     /// True if a curve may cut the part in a way that its pieces do not show: it has to be halved,
     /// whatever they are.
     is_coarse: bool,
 }
 
-/// What became of a part.
-enum Looked<P> {
+/// The result of cutting a part.
+enum PieceResult<P> {
     /// All its pieces that may be seen, if any.
-    Leaves(Vec<Leaf>),
+    Leaves(Vec<DeformedLeaf>),
     /// It has to be halved.
     Quarters([P; 4]),
 }
@@ -116,7 +115,7 @@ fn look<C: Cutter>(
     view: &DeformedView<'_>,
     map: &mut DeformationMap<'_>,
     part: &C::Part,
-) -> Looked<C::Part> {
+) -> PieceResult<C::Part> {
     let CutPart { mut leaves, is_coarse } = cutter.cut(map, part);
     leaves.retain(|leaf| leaf.may_be_seen(view));
     // a part that rounding no longer halves is as small as can be
@@ -124,12 +123,12 @@ fn look<C: Cutter>(
     let is_smallest = quarters.contains(part);
     let is_done = || !is_coarse && leaves.iter().all(|leaf| leaf.is_done(view));
     if is_smallest || is_done() {
-        return Looked::Leaves(leaves);
+        return PieceResult::Leaves(leaves);
     }
-    Looked::Quarters(quarters)
+    PieceResult::Quarters(quarters)
 }
 
-/// What cuts squares of offsets from the anchor.
+/// The cutter of squares of offsets from the anchor.
 struct SquareCutter<'a, 'f> {
     view: &'a DeformedView<'f>,
     pieces: Pieces<'f>,
@@ -144,11 +143,11 @@ impl<'a, 'f> SquareCutter<'a, 'f> {
     }
 
     /// A square that nothing cuts, unless it lies in a hole.
-    fn whole(&self, square: &Rect) -> Option<Piece> {
+    fn whole(&self, square: &Rect) -> Option<ConvexPiece> {
         let (min, max) = (square.min, square.max);
         let corners = vec![min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
         let is_inside = self.domain.contains(square.center());
-        is_inside.then(|| Piece { corners, faces: vec![false; 4], inset: INSET })
+        is_inside.then(|| ConvexPiece { corners, faces: vec![false; 4], inset: INSET })
     }
 }
 
@@ -165,12 +164,13 @@ impl Cutter for SquareCutter<'_, '_> {
 
     fn cut(&self, map: &mut DeformationMap<'_>, square: &Rect) -> CutPart {
         if !self.pieces.may_cut(square) {
-            let leaf = self.whole(square).and_then(|piece| Leaf::new(self.view, map, &piece));
+            let leaf =
+                self.whole(square).and_then(|piece| DeformedLeaf::new(self.view, map, &piece));
             return CutPart { leaves: leaf.into_iter().collect(), is_coarse: false };
         }
-        let leaf = |piece: &Piece| {
-            let leaf = Leaf::new(self.view, map, piece)?;
-            Some(Leaf { at_rim: beside_round_rim(self.view, piece), ..leaf })
+        let leaf = |piece: &ConvexPiece| {
+            let leaf = DeformedLeaf::new(self.view, map, piece)?;
+            Some(DeformedLeaf { at_rim: beside_round_rim(self.view, piece), ..leaf })
         };
         let leaves = self.pieces.of(square).iter().filter_map(leaf).collect();
         CutPart { leaves, is_coarse: false }
@@ -182,7 +182,7 @@ impl Cutter for SquareCutter<'_, '_> {
 }
 
 /// True if a corner of a piece comes near the rim of a round hole.
-fn beside_round_rim(view: &DeformedView<'_>, piece: &Piece) -> bool {
+fn beside_round_rim(view: &DeformedView<'_>, piece: &ConvexPiece) -> bool {
     let size = (piece.corners[0] - piece.center()).length();
     let center = view.anchor + piece.center();
     view.field()
@@ -197,7 +197,7 @@ fn beside_round_rim(view: &DeformedView<'_>, piece: &Piece) -> bool {
 fn faces(
     view: &DeformedView<'_>,
     chart: &mut ElementChart<'_, '_>,
-    piece: &Piece,
+    piece: &ConvexPiece,
 ) -> Vec<[Vec2; 2]> {
     let (center, corners) = (piece.center(), &piece.corners);
     // as near to the curve as is on the piece's side of it
@@ -211,7 +211,7 @@ fn faces(
     faces.filter_map(|k| Some([place(k)?, place(k + 1)?])).collect()
 }
 
-/// What cuts elements of a mesh by their own coordinates.
+/// The cutter of the elements of a mesh in their own coordinates.
 struct ElementCutter<'a, 'f> {
     view: &'a DeformedView<'f>,
     mesh: &'a Mesh,
@@ -221,7 +221,7 @@ struct ElementCutter<'a, 'f> {
 
 /// A part of an element's reference shape: a triangle or a square.
 #[derive(Clone, Debug, PartialEq)]
-struct ElementPart {
+struct ShapePart {
     patch: u32,
     /// Counter-clockwise.
     corners: Vec<Vec2>,
@@ -242,14 +242,14 @@ impl ElementCutter<'_, '_> {
 }
 
 impl Cutter for ElementCutter<'_, '_> {
-    type Part = ElementPart;
+    type Part = ShapePart;
 
-    fn parts(&self) -> Vec<ElementPart> {
+    fn parts(&self) -> Vec<ShapePart> {
         let map = DeformationMap::new(self.view.field(), self.view.anchor);
         let of_patch = |patch: u32| {
             let chart = ElementChart::new(&map, patch);
             let chart = chart.filter(|chart| !self.only_cut || chart.is_cut());
-            let whole = chart.map(|chart| ElementPart { patch, corners: chart.corners() });
+            let whole = chart.map(|chart| ShapePart { patch, corners: chart.corners() });
             let mut parts: Vec<_> = whole.into_iter().collect();
             for _ in 0..self.levels(patch as usize) {
                 parts = parts.iter().flat_map(Self::quarters).collect();
@@ -259,26 +259,26 @@ impl Cutter for ElementCutter<'_, '_> {
         (0..self.mesh.len() as u32).flat_map(of_patch).collect()
     }
 
-    fn cut(&self, map: &mut DeformationMap<'_>, part: &ElementPart) -> CutPart {
-        let ElementPart { patch, corners } = part;
+    fn cut(&self, map: &mut DeformationMap<'_>, part: &ShapePart) -> CutPart {
+        let ShapePart { patch, corners } = part;
         let Some(mut chart) = ElementChart::new(map, *patch) else {
             return CutPart { leaves: Vec::new(), is_coarse: false };
         };
         let may_bend = chart.may_bend(corners);
         let is_coarse = may_bend
-            && Leaf::new(self.view, &mut chart, &uncut(corners))
+            && DeformedLeaf::new(self.view, &mut chart, &uncut(corners))
                 .is_some_and(|whole| whole.may_be_seen(self.view) && whole.is_coarse(self.view));
         let pieces = chart.pieces(corners);
-        let leaf = |piece: &Piece| {
-            let leaf = Leaf::new(self.view, &mut chart, piece)?;
+        let leaf = |piece: &ConvexPiece| {
+            let leaf = DeformedLeaf::new(self.view, &mut chart, piece)?;
             let faces = faces(self.view, &mut chart, piece);
             let at_rim = may_bend || piece.inset > INSET;
-            Some(Leaf { patch: *patch, at_rim, faces, ..leaf })
+            Some(DeformedLeaf { patch: *patch, at_rim, faces, ..leaf })
         };
         CutPart { leaves: pieces.iter().filter_map(leaf).collect(), is_coarse }
     }
 
-    fn quarters(part: &ElementPart) -> [ElementPart; 4] {
+    fn quarters(part: &ShapePart) -> [ShapePart; 4] {
         let corners = &part.corners;
         let middle = |k: usize| (corners[k] + corners[(k + 1) % corners.len()]) * 0.5;
         let quarters = match corners[..] {
@@ -291,6 +291,6 @@ impl Cutter for ElementCutter<'_, '_> {
                 [0, 1, 2, 3].map(|k| vec![corners[k], middle(k), center, middle((k + 3) % 4)])
             }
         };
-        quarters.map(|corners| ElementPart { patch: part.patch, corners })
+        quarters.map(|corners| ShapePart { patch: part.patch, corners })
     }
 }

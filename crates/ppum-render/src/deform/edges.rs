@@ -8,8 +8,8 @@ use rayon::prelude::*;
 use super::DeformedView;
 use super::chart::{ElementChart, uncut};
 use super::cutter::leaves_of_cuts;
-use super::leaf::Leaf;
-use super::map::{Chart, DeformationMap};
+use super::leaf::DeformedLeaf;
+use super::map::{DeformationChart, DeformationMap};
 use super::path::Paths;
 
 /// Way beyond an edge at which the neighbour is looked for, in parts of the element: more than
@@ -30,7 +30,7 @@ impl DeformedView<'_> {
         self.edges(|edge, t| edge.place(t))
     }
 
-    /// The images of the edges of elements where the plate ends or has come apart.
+    /// The images of the edges of elements where the body ends or has come apart.
     pub(super) fn element_borders(&self) -> Paths {
         self.edges(|edge, t| {
             let place = edge.place(t)?;
@@ -39,7 +39,7 @@ impl DeformedView<'_> {
     }
 
     /// A box around the images of some points of every element of a mesh, wherever the view is;
-    /// none of boxes. It nearly holds the plate.
+    /// none of boxes. It nearly holds the body.
     #[must_use]
     pub fn element_bounds(&self) -> Option<Rect> {
         let count = self.field().step.partition.mesh()?.len() as u32;
@@ -75,7 +75,7 @@ impl DeformedView<'_> {
             let [own, other] = maps;
             let Some(mut chart) = ElementChart::new(own, patch) else { return Paths::new() };
             let corners = chart.corners();
-            let leaf = Leaf::new(self, &mut chart, &uncut(&corners));
+            let leaf = DeformedLeaf::new(self, &mut chart, &uncut(&corners));
             if leaf.is_some_and(|leaf| !leaf.may_be_seen(self)) {
                 return Paths::new();
             }
@@ -95,7 +95,7 @@ impl DeformedView<'_> {
 struct ElementEdge<'a, 'm, 'f> {
     view: &'a DeformedView<'a>,
     chart: ElementChart<'m, 'f>,
-    /// The plate, for what lies beyond the edge.
+    /// The body, for what lies beyond the edge.
     other: &'a mut DeformationMap<'f>,
     /// Counter-clockwise about the element.
     ends: [Vec2; 2],

@@ -1,15 +1,15 @@
-//! The reasons why plates are not drawn deformed.
+//! The reasons why bodies are not drawn deformed.
 
 use ppum::field::Field;
 use ppum::progress::Cancelled;
 use ppum::quantity::QuantityError;
 use ppum_raster::view::ViewError;
 
-/// Largest factor: squares of what it magnifies must stay finite. From 10⁶ on pictures hardly
+/// Largest factor: squares of what it magnifies must stay finite. From 10⁶ on images hardly
 /// change with it.
 pub const LARGEST_FACTOR: f64 = 1e100;
 
-/// The reason why a plate is not drawn deformed.
+/// The reason why a body is not drawn deformed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DeformError {
@@ -21,7 +21,7 @@ pub enum DeformError {
         "the displacement's factor is {0:?}; give a number of at most {LARGEST_FACTOR:?} in size"
     )]
     Factor(f64),
-    /// The plate folds too often for the picture.
+    /// The body folds too often for the image.
     #[error(
         "magnified {0} times the plate lies over itself too often to be drawn; choose a smaller factor"
     )]

@@ -1,16 +1,16 @@
-//! From a place in the deformed plane to the point of the plate.
+//! From a place in the deformed plane to the point of the body.
 
 use ppum::segment::{closest_point, sides};
 use ppum::vec2::{Rect, Vec2};
 
-use super::leaf::Leaf;
-use super::map::{Chart, Preimage};
+use super::leaf::DeformedLeaf;
+use super::map::{DeformationChart, Preimage};
 use super::{DeformedView, TOLERANCE};
 
 /// Most steps of Newton's method, and most halvings of one.
 const STEPS: usize = 40;
 const HALVINGS: usize = 8;
-/// Where det F is smaller than this part of |F|² the plate may fold inside a leaf.
+/// Where det F is smaller than this part of |F|² the body may fold inside a leaf.
 const THIN: f64 = 0.1;
 /// Between leaves, as seen from inside, there is less than this part of a pixel.
 const GAP: f64 = 1e-3;
@@ -19,12 +19,12 @@ const GAP: f64 = 1e-3;
 const BEHIND: f64 = 0.3;
 
 /// The inverse of a deformation on one leaf.
-pub(super) struct Inverse<'a, 'f> {
+pub(super) struct LeafInverse<'a, 'f> {
     pub(super) view: &'a DeformedView<'f>,
-    pub(super) leaf: &'a Leaf,
+    pub(super) leaf: &'a DeformedLeaf,
 }
 
-impl Inverse<'_, '_> {
+impl LeafInverse<'_, '_> {
     /// The place, widened by what the image is bent, in which images of the leaf lie.
     pub(super) fn reach(&self) -> Rect {
         let margin = self.margin();
@@ -52,17 +52,17 @@ impl Inverse<'_, '_> {
         })
     }
 
-    /// The point that moves to a place, if it lies in the leaf. Where the plate folds Newton's
+    /// The point that moves to a place, if it lies in the leaf. Where the body folds Newton's
     /// method is started at the corners too.
-    pub(super) fn find<C: Chart>(&self, map: &mut C, place: Vec2) -> Option<Preimage> {
-        let Leaf { corners, center, image, .. } = self.leaf;
+    pub(super) fn find<C: DeformationChart>(&self, map: &mut C, place: Vec2) -> Option<Preimage> {
+        let DeformedLeaf { corners, center, image, .. } = self.leaf;
         let start = image.pulled_back(place - image.at);
         let start = if start.is_finite() { *center + start } else { *center };
         let more = corners.iter().filter(|_| self.is_thin());
         std::iter::once(&start).chain(more).find_map(|start| self.newton(map, *start, place))
     }
 
-    /// True if the plate may fold inside the leaf.
+    /// True if the body may fold inside the leaf.
     fn is_thin(&self) -> bool {
         let [a, b] = self.leaf.image.gradient;
         self.leaf.image.determinant().abs() < THIN * (a.dot(a) + b.dot(b))
@@ -73,7 +73,12 @@ impl Inverse<'_, '_> {
         (part * self.view.view.pixel_size()).max(self.view.rounding())
     }
 
-    fn newton<C: Chart>(&self, map: &mut C, start: Vec2, place: Vec2) -> Option<Preimage> {
+    fn newton<C: DeformationChart>(
+        &self,
+        map: &mut C,
+        start: Vec2,
+        place: Vec2,
+    ) -> Option<Preimage> {
         let mut here = self.image(map, nearest(&self.leaf.corners, start))?;
         for _ in 0..STEPS {
             let miss = place - here.image.at;
@@ -101,7 +106,7 @@ impl Inverse<'_, '_> {
 
     /// A step of Newton's method inside the leaf, shortened until it leads nearer to the place;
     /// none if it cannot.
-    fn step<C: Chart>(
+    fn step<C: DeformationChart>(
         &self,
         map: &mut C,
         here: Preimage,
@@ -122,9 +127,9 @@ impl Inverse<'_, '_> {
         None
     }
 
-    /// A point of the plate between a piece's side and the round rim, or curved cut, that it
+    /// A point of the body between a piece's side and the round rim, or curved cut, that it
     /// stands for.
-    fn behind_rim<C: Chart>(
+    fn behind_rim<C: DeformationChart>(
         &self,
         map: &mut C,
         mut here: Preimage,
@@ -147,7 +152,7 @@ impl Inverse<'_, '_> {
         None
     }
 
-    fn image<C: Chart>(&self, map: &mut C, offset: Vec2) -> Option<Preimage> {
+    fn image<C: DeformationChart>(&self, map: &mut C, offset: Vec2) -> Option<Preimage> {
         Some(Preimage { offset, image: map.image(self.view, offset)? })
     }
 }

@@ -1,23 +1,23 @@
-//! Pieces of the plate with nearly affine images.
+//! Pieces of the body with nearly affine images.
 
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::DeformedView;
-use super::map::{Chart, Image};
-use crate::pieces::Piece;
+use super::map::{DeformationChart, DeformedPoint};
+use crate::pieces::ConvexPiece;
 
 /// Largest image of a piece \[pixels\].
 const LARGEST: f64 = 16.0;
-/// The same of one beside a round rim or a curved cut, which pieces follow to a hundredth.
+/// The limit for pieces beside a round rim or a curved cut, which they follow to a hundredth.
 const LARGEST_AT_RIM: f64 = 2.0;
 /// Largest deviation of a piece's image from an affine one \[pixels\] …
 const BENT: f64 = 0.25;
 /// … unless the whole image is smaller than this: at a tip F grows without bound.
 const TINY: f64 = 0.5;
 
-/// A convex piece of the plate on one side of every crack, and its image.
+/// A convex piece of the body on one side of every crack, and its image.
 #[derive(Debug)]
-pub(super) struct Leaf {
+pub(super) struct DeformedLeaf {
     /// The patch of a mesh whose coordinate the points are given by; 0 of boxes, where they are
     /// offsets from the anchor.
     pub(super) patch: u32,
@@ -25,27 +25,27 @@ pub(super) struct Leaf {
     pub(super) corners: Vec<Vec2>,
     /// The mean of the corners, and its image.
     pub(super) center: Vec2,
-    pub(super) image: Image,
+    pub(super) image: DeformedPoint,
     /// Images of the corners.
     pub(super) images: Vec<Vec2>,
     /// The box of the images of corners and middles of sides.
     pub(super) bounds: Rect,
     /// Deviation of these images from affine ones, a length.
     pub(super) bent: f64,
-    /// True beside a round rim or a curved cut: the plate goes on behind the piece's side, a
+    /// True beside a round rim or a curved cut: the body goes on behind the piece's side, a
     /// little.
     pub(super) at_rim: bool,
     /// Images of the sides that are faces of cuts of elements.
     pub(super) faces: Vec<[Vec2; 2]>,
 }
 
-impl Leaf {
+impl DeformedLeaf {
     /// A piece that is neither of an element nor beside a rim; nothing where the field has no
     /// values.
-    pub(super) fn new<C: Chart>(
+    pub(super) fn new<C: DeformationChart>(
         view: &DeformedView<'_>,
         map: &mut C,
-        piece: &Piece,
+        piece: &ConvexPiece,
     ) -> Option<Self> {
         let center = piece.center();
         let corners: Vec<Vec2> = piece.corners.iter().map(|&c| piece.seen_from_inside(c)).collect();
@@ -90,7 +90,7 @@ impl Leaf {
         size > LARGEST_AT_RIM * view.view.pixel_size()
     }
 
-    /// False if the image lies far from the picture.
+    /// False if the image lies far from the image.
     pub(super) fn may_be_seen(&self, view: &DeformedView<'_>) -> bool {
         let size = self.bounds.size();
         let reach = size.x.max(size.y) + 2.0 * view.view.pixel_size();

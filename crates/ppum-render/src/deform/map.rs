@@ -9,14 +9,14 @@ use super::DeformedView;
 
 /// A place in the deformed plane with the deformation gradient there.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Image {
+pub(super) struct DeformedPoint {
     /// Offset from the view's centre.
     pub(super) at: Vec2,
     /// The columns of F: images of the unit vectors.
     pub(super) gradient: [Vec2; 2],
 }
 
-impl Image {
+impl DeformedPoint {
     /// det F
     pub(super) fn determinant(&self) -> f64 {
         self.gradient[0].cross(self.gradient[1])
@@ -34,26 +34,26 @@ impl Image {
     }
 }
 
-/// A point of the plate that moves to a given place.
+/// A point of the body that moves to a given place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Preimage {
-    /// By the coordinates of its part of the plate; offset from the anchor in the end.
+    /// By the coordinates of its part of the body; offset from the anchor in the end.
     pub(super) offset: Vec2,
-    pub(super) image: Image,
+    pub(super) image: DeformedPoint,
 }
 
-/// A part of the plate by its own coordinates, and the places that its points move to.
-pub(super) trait Chart {
+/// A part of the body by its own coordinates, and the places that its points move to.
+pub(super) trait DeformationChart {
     /// The image of a point, with its derivatives by the coordinates.
-    fn image(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<Image>;
+    fn image(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<DeformedPoint>;
 
     /// The image of a point without its gradient; nothing where the field is not finite.
     fn place(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<Vec2>;
 
-    /// True if the plate goes on from a point to another that lies just behind a side of its leaf.
+    /// True if the body goes on from a point to another that lies just behind a side of its leaf.
     fn goes_on(&mut self, from: Vec2, to: Vec2) -> bool;
 
-    /// A point by its offset from the anchor; nothing if it belongs to another part of the plate.
+    /// A point by its offset from the anchor; nothing if it belongs to another part of the body.
     fn material(&mut self, found: Preimage) -> Option<Preimage>;
 }
 
@@ -88,13 +88,13 @@ impl<'f> DeformationMap<'f> {
     }
 
     /// The image of a point.
-    pub(super) fn image(&mut self, view: &DeformedView<'_>, offset: Vec2) -> Option<Image> {
+    pub(super) fn image(&mut self, view: &DeformedView<'_>, offset: Vec2) -> Option<DeformedPoint> {
         if !self.evaluate::<1>(offset, Side::Above) {
             return None;
         }
         let jets = [self.jets[0], self.jets[1]];
         let at = moved(view, offset, jets.map(|jet| jet.v));
-        Some(Image { at, gradient: gradient(view, jets) })
+        Some(DeformedPoint { at, gradient: gradient(view, jets) })
     }
 
     /// The field as it is evaluated.
@@ -102,7 +102,7 @@ impl<'f> DeformationMap<'f> {
         &self.local
     }
 
-    /// True if the plate has a point.
+    /// True if the body has a point.
     pub(super) fn contains(&self, offset: Vec2) -> bool {
         self.local.contains(offset)
     }
@@ -118,8 +118,8 @@ impl<'f> DeformationMap<'f> {
     }
 }
 
-impl Chart for DeformationMap<'_> {
-    fn image(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<Image> {
+impl DeformationChart for DeformationMap<'_> {
+    fn image(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<DeformedPoint> {
         Self::image(self, view, p)
     }
 

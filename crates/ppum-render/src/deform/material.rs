@@ -1,13 +1,13 @@
-//! The part of the undeformed plate that a picture of the deformed one shows.
+//! The part of the undeformed body that an image of the deformed one shows.
 
 use ppum::vec2::Rect;
 use ppum_raster::view::View;
 
 use super::DeformedPoints;
 
-/// Most pixels of such a view, in pixels of the picture.
+/// Most pixels of such a view, in pixels of the image.
 const MOST: f64 = 4.0;
-/// The part of neighbouring pixels whose points of the plate may lie nearer than the view's pixels.
+/// The part of neighbouring pixels whose points of the body may lie nearer than the view's pixels.
 const STRETCHED: f64 = 0.05;
 
 impl DeformedPoints<'_> {
@@ -19,13 +19,14 @@ impl DeformedPoints<'_> {
         boxes.reduce(|a, b| a.union(&b))
     }
 
-    /// A view of the undeformed plate that holds all points that are seen, in the middle the
-    /// anchor; its pixels as small as the picture's are on the plate, where that needs no more than
+    /// A view of the undeformed body that holds all points that are seen, in the middle the
+    /// anchor; its pixels as small as the image's are on the body, where that needs no more than
     /// four times as many. None if nothing is seen.
     ///
-    /// What is found in it, isolines say, [`paths`](super::DeformedView::paths) carries over. About
-    /// a tip it may be finer than [`View::new`] allows: that what is seen about a tip in 10⁻¹² of
-    /// the domain is 10⁻²⁰ wide is no rounding.
+    /// Lines that are found in it, isolines for example, are carried over by
+    /// [`paths`](super::DeformedView::paths). About a tip it may be finer than [`View::new`]
+    /// allows: the part of the body that is seen about a tip in 10⁻¹² of the domain may indeed be
+    /// 10⁻²⁰ wide.
     #[must_use]
     pub fn material_view(&self) -> Option<View> {
         let half = self.material_box().map(|rect| rect.max.max(-rect.min))?;
@@ -41,8 +42,8 @@ impl DeformedPoints<'_> {
         Some(view).filter(|view| view.pixel_size().is_normal())
     }
 
-    /// How far apart the points of neighbouring pixels lie on the plate where it is stretched most,
-    /// but for a few.
+    /// How far apart the points of neighbouring pixels lie on the body where it is stretched most,
+    /// except for a few.
     fn step(&self) -> Option<f64> {
         let [columns, rows] = self.view.view.pixels;
         let first = |i, j| self.at(i, j).first().map(|p| p.offset);

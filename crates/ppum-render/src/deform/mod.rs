@@ -1,4 +1,4 @@
-//! The deformed plate: every point X drawn where its displacement, magnified, brings it.
+//! The deformed body: every point X drawn where its displacement, magnified, brings it.
 //!
 //! ```text
 //! x = X + s u(X)        F = ∂x/∂X = I + s ∇u
@@ -6,18 +6,18 @@
 //!
 //! A [`Deformation`] is a displacement with its factor s. A [`DeformedView`] shows part of the
 //! deformed plane on pixels; [`DeformedView::points`] finds for each pixel's centre the points of
-//! the plate that lie there, to [`TOLERANCE`] of a pixel: none outside the plate and in opened
-//! cracks and holes, one in the plate, several where faces that have closed lie over each other or
-//! the plate folds. Each is known with the side of the crack that it belongs to.
+//! the body that lie there, to [`TOLERANCE`] of a pixel: none outside the body and in opened
+//! cracks and holes, one in the body, several where faces that have closed lie over each other or
+//! the body folds. Each is known with the side of the crack that it belongs to.
 //! [`DeformedPoints::raster`] evaluates any quantity there; [`DeformedView::path`] and its like
 //! carry lines over.
 //!
-//! Pieces of the plate on one side of each crack (module [`pieces`](crate::pieces)) are halved
+//! Pieces of the body on one side of each crack (module [`pieces`](crate::pieces)) are halved
 //! until their images are nearly affine; a pixel in the image of a piece starts from the affine
 //! inverse and is found by Newton's method on the field itself, which does not leave the piece. So
 //! displacements like √r at a tip are as good as any others.
 //!
-//! Of a mesh the pieces are parts of the elements' reference shapes, cut by the level fields that
+//! For a mesh, the pieces are parts of the elements' reference shapes, cut by the level fields that
 //! cut the elements, and Newton's method stays on the polynomials of one element (module `chart`).
 //! So curved edges are exact, and elements that come apart leave gaps.
 //!
@@ -29,7 +29,7 @@
 //!
 //! The first bracket is formed once, and is zero if the view is made
 //! [`around`](Deformation::around) a material point: a tip can be looked at in a view 10⁻⁹ of the
-//! domain wide, where the plate that is seen lies within 10⁻¹⁶ of the tip.
+//! domain wide, where the body that is seen lies within 10⁻¹⁶ of the tip.
 
 mod automatic;
 mod chart;
@@ -60,7 +60,7 @@ pub use points::{DeformedPoints, DeformedRaster, MaterialPoint};
 pub use view::{Deformation, DeformedView, TOLERANCE};
 
 impl<'f> Deformation<'f> {
-    /// The plate with `factor` times its displacement; a negative one turns it round.
+    /// The body with `factor` times its displacement; a negative one turns it round.
     ///
     /// # Errors
     /// A field of an equation without displacements; a factor that is not finite, or larger
@@ -79,8 +79,8 @@ impl<'f> Deformation<'f> {
         self.factor
     }
 
-    /// What a view of the deformed plane shows. The anchor is a tip that is seen, else the point of
-    /// the plate that is seen in the middle.
+    /// Returns the visible part of the deformed plane in a view. The anchor is a tip that is seen,
+    /// else the point of the body that is seen in the middle.
     #[must_use]
     pub fn seen(&self, view: &View) -> DeformedView<'f> {
         let tip = self.nearest_tip(view);
@@ -91,7 +91,7 @@ impl<'f> Deformation<'f> {
         DeformedView { deformation, view: *view, anchor: found, shift, reference, is_exact }
     }
 
-    /// The view of a width around the place to which a point of the plate moves.
+    /// The view of a width around the place to which a point of the body moves.
     ///
     /// # Errors
     /// As [`View::new`].
@@ -107,23 +107,23 @@ impl<'f> Deformation<'f> {
         Ok(DeformedView { deformation, view, anchor: point, shift, reference, is_exact: true })
     }
 
-    /// The place to which a point of the plate moves, above if it lies on a crack.
+    /// The place to which a point of the body moves, above if it lies on a crack.
     #[must_use]
     pub fn place(&self, point: Vec2) -> Vec2 {
         self.place_by(&mut DeformationMap::new(self.field, point), point, point)
     }
 
-    /// The same by a map that is anchored elsewhere.
+    /// Returns the deformed point by a map that is anchored elsewhere.
     fn place_by(&self, map: &mut DeformationMap<'_>, anchor: Vec2, point: Vec2) -> Vec2 {
         point + Vec2::from(finite(map.displacement(point - anchor, Side::Above))) * self.factor
     }
 
-    /// The displacement at a point; zero far outside the plate.
+    /// The displacement at a point; zero far outside the body.
     fn displacement(&self, point: Vec2) -> [f64; 2] {
         finite(DeformationMap::new(self.field, point).displacement(Vec2::ZERO, Side::Above))
     }
 
-    /// The tip that is seen nearest to the middle, if one is seen or lies just beside the picture.
+    /// The tip that is seen nearest to the middle, if one is seen or lies just beside the image.
     fn nearest_tip(&self, view: &View) -> Option<Vec2> {
         let (cracks, mut map) =
             (&self.field.step.cracks, DeformationMap::new(self.field, view.center));
@@ -134,7 +134,7 @@ impl<'f> Deformation<'f> {
         near.filter(|(distance, _)| *distance <= 2.0 * view.half().length()).map(|(_, tip)| tip)
     }
 
-    /// A point of the plate near the one that moves to a place: by steps against what is missed.
+    /// A point of the body near the one that moves to a place: by steps against what is missed.
     fn material(&self, place: Vec2) -> Vec2 {
         let bounds = &self.field.domain.bounds;
         let within = |p: Vec2| p.max(bounds.min).min(bounds.max);

@@ -1,4 +1,4 @@
-//! Lines of the plate in the deformed plane.
+//! Lines of the body in the deformed plane.
 
 use ppum::border::{is_mirrored_side, touch};
 use ppum::crack::{Crack, CrackEnd, Side};
@@ -11,7 +11,7 @@ use super::map::DeformationMap;
 /// Largest distance of a path from the curve that it stands for \[pixels\].
 const CHORD: f64 = 0.1;
 /// Parts of a curve that are looked at, however straight it seems; fewer of one that is short in
-/// the picture.
+/// the image.
 const PARTS: usize = 16;
 /// Least length of such a part in pixels.
 const PART: f64 = 8.0;
@@ -20,17 +20,17 @@ const HALVINGS: usize = 200;
 /// Most points of a part: no curve that a screen shows has as many, but one that jumps
 /// everywhere would.
 const MOST: usize = 1 << 14;
-/// Way from a border into the plate, in parts of the plate's size, that decides whether the border
+/// Way from a border into the body, in parts of the body's size, that decides whether the border
 /// belongs to it.
 const INWARD: f64 = 1e-9;
 
-/// Polylines, as offsets from the view's centre. They end where the plate does and where it has
+/// Polylines, as offsets from the view's centre. They end where the body does and where it has
 /// come apart.
 pub type Paths = Vec<Vec<Vec2>>;
 
 impl DeformedView<'_> {
     /// The image of a polyline of offsets from the anchor, to a tenth of a pixel; what is far
-    /// outside the picture is coarser. It is interrupted outside the plate and where it crosses a
+    /// outside the image is coarser. It is interrupted outside the body and where it crosses a
     /// crack that has opened.
     #[must_use]
     pub fn path(&self, points: &[Vec2]) -> Paths {
@@ -44,7 +44,7 @@ impl DeformedView<'_> {
         let mut map = DeformationMap::new(self.field(), self.anchor);
         let mut all = Vec::new();
         for points in polylines {
-            let mut paths = Joined::new(self);
+            let mut paths = JoinedPaths::new(self);
             for line in points.as_ref().windows(2) {
                 let mut place =
                     |o: Vec2| domain.contains(o).then(|| map.place(self, o, Side::Above)).flatten();
@@ -74,11 +74,11 @@ impl DeformedView<'_> {
         let (mut map, domain) =
             (DeformationMap::new(self.field(), self.anchor), self.field().domain.at(self.anchor));
         let mut face = |crack: &Crack, side: Side| {
-            let mut paths = Joined::new(self);
+            let mut paths = JoinedPaths::new(self);
             let body = self.field().domain;
             let is_inside =
                 |k: usize| body.outer_side([crack.points[k], crack.points[k + 1]]) != Some(side);
-            let faces = Face::on_side(crack, side, self.anchor).enumerate();
+            let faces = FacePath::on_side(crack, side, self.anchor).enumerate();
             for (_, face) in faces.filter(|(segment, _)| is_inside(*segment)) {
                 let mut place = |o: Vec2| {
                     let is_plate = domain.contains(o);
@@ -92,22 +92,22 @@ impl DeformedView<'_> {
         cracks.map(|crack| [Side::Above, Side::Below].map(|side| face(crack, side))).collect()
     }
 
-    /// The image of the plate's border: of the box and of the rims of holes, where they bound
-    /// the plate; of a mesh of the edges of elements without a neighbour, or that have come apart
-    /// from it by half a pixel.
+    /// The image of the body's border: of the box and of the rims of holes, where they bound the
+    /// body; of a mesh of the edges of elements without a neighbour, or that have come apart from
+    /// it by half a pixel.
     #[must_use]
     pub fn outline(&self) -> Paths {
         self.outline_beside([None; 2])
     }
 
-    /// The image of the plate's border without the sides on lines x = a and y = b, at which it is
-    /// mirrored. Of a mesh these are drawn.
+    /// The image of the body's border without the sides on lines x = a and y = b, at which it is
+    /// mirrored. For a mesh, these are drawn.
     #[must_use]
     pub fn outline_beside(&self, mirrors: [Option<f64>; 2]) -> Paths {
         if self.field().step.partition.mesh().is_some() {
             return self.element_borders();
         }
-        let (mut border, bounds) = (Border::new(self), &self.field().domain.bounds);
+        let (mut border, bounds) = (BoundaryPath::new(self), &self.field().domain.bounds);
         let is_drawn = |a: Vec2, b: Vec2| !is_mirrored_side([a, b], mirrors, touch(bounds));
         let mut all = border.sides(&bounds.corners(), 1.0, is_drawn);
         for hole in &self.field().domain.holes {
@@ -137,7 +137,7 @@ impl DeformedView<'_> {
         while parts.len() < least {
             parts = parts.iter().flat_map(|&[a, b]| [[a, half(a, b)], [half(a, b), b]]).collect();
         }
-        let mut paths = Joined::new(self);
+        let mut paths = JoinedPaths::new(self);
         for ends in parts {
             let places = ends.map(&mut *place);
             let (mut stack, mut looked_at) = (vec![(ends, places, 0)], 0);
@@ -176,7 +176,7 @@ impl DeformedView<'_> {
 }
 
 /// One side of one segment of a crack; offsets from the anchor.
-struct Face {
+struct FacePath {
     ends: [Vec2; 2],
     /// True for ends that are tips.
     tips: [bool; 2],
@@ -184,7 +184,7 @@ struct Face {
     away: Vec2,
 }
 
-impl Face {
+impl FacePath {
     /// The faces of a side of a crack, in order.
     fn on_side(crack: &Crack, side: Side, anchor: Vec2) -> impl Iterator<Item = Self> {
         let sign = if side == Side::Above { 1.0 } else { -1.0 };
@@ -213,16 +213,16 @@ impl Face {
 /// Enough for rounding not to choose the side, and nothing to be seen.
 const BESIDE: f64 = 1e-9;
 
-/// Longest part of a path in the picture \[pixels\]: what bends within it would be seen.
+/// Longest part of a path in the image \[pixels\]: what bends within it would be seen.
 const LONGEST: f64 = 40.0;
 
 /// Paths that are joined where one begins at the end of the other.
-struct Joined {
+struct JoinedPaths {
     all: Paths,
     same: f64,
 }
 
-impl Joined {
+impl JoinedPaths {
     fn new(view: &DeformedView<'_>) -> Self {
         Self { all: Vec::new(), same: CHORD * view.view.pixel_size() }
     }
@@ -242,29 +242,29 @@ fn is_near(last: &[Vec2], next: &[Vec2], same: f64) -> bool {
     matches!((last.last(), next.first()), (Some(a), Some(b)) if (*a - *b).length() <= same)
 }
 
-/// The border of the plate.
-struct Border<'a, 'f> {
+/// The border of the body.
+struct BoundaryPath<'a, 'f> {
     view: &'a DeformedView<'f>,
     map: DeformationMap<'f>,
     domain: LocalDomain,
-    /// Way into the plate.
+    /// Way into the body.
     inward: f64,
 }
 
-impl<'a, 'f> Border<'a, 'f> {
+impl<'a, 'f> BoundaryPath<'a, 'f> {
     fn new(view: &'a DeformedView<'f>) -> Self {
         let (field, size) = (view.field(), view.field().domain.bounds.size());
         let (map, domain) = (DeformationMap::new(field, view.anchor), field.domain.at(view.anchor));
         Self { view, map, domain, inward: INWARD * size.x.min(size.y) }
     }
 
-    /// The image of a point of the border, if the plate lies in a direction from it.
+    /// The image of a point of the border, if the body lies in a direction from it.
     fn place(&mut self, offset: Vec2, inward: Vec2) -> Option<Vec2> {
         let is_border = self.domain.contains(offset + inward * self.inward);
         is_border.then(|| self.map.place(self.view, offset, Side::Above)).flatten()
     }
 
-    /// Some of the sides of a polygon; the plate lies on the left of them, or on the right if
+    /// Some of the sides of a polygon; the body lies on the left of them, or on the right if
     /// `left` is −1.
     fn sides(
         &mut self,
@@ -272,7 +272,7 @@ impl<'a, 'f> Border<'a, 'f> {
         left: f64,
         is_drawn: impl Fn(Vec2, Vec2) -> bool,
     ) -> Paths {
-        let (view, mut paths) = (self.view, Joined::new(self.view));
+        let (view, mut paths) = (self.view, JoinedPaths::new(self.view));
         for (k, &a) in corners.iter().enumerate() {
             let b = corners[(k + 1) % corners.len()];
             if !is_drawn(a, b) {
@@ -285,7 +285,7 @@ impl<'a, 'f> Border<'a, 'f> {
         paths.all
     }
 
-    /// A circle with the plate around it. Angles are counted from the direction of the anchor, near
+    /// A circle with the body around it. Angles are counted from the direction of the anchor, near
     /// which points differ from the nearest one by little.
     fn circle(&mut self, center: Vec2, radius: f64) -> Paths {
         let away = self.view.anchor - center;
@@ -297,7 +297,7 @@ impl<'a, 'f> Border<'a, 'f> {
             let beside = toward.left() * angle.sin() - toward * (2.0 * (0.5 * angle).sin().powi(2));
             self.place(toward * (radius - far) + beside * radius, normal)
         };
-        let mut paths = Joined::new(view);
+        let mut paths = JoinedPaths::new(view);
         for ends in [[-std::f64::consts::PI, 0.0], [0.0, std::f64::consts::PI]] {
             paths.add(view.trace(ends, PARTS, |a, b| 0.5 * (a + b), &mut place));
         }

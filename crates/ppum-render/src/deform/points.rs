@@ -1,4 +1,4 @@
-//! The points of the plate at the pixels of a view, and what is to be seen there.
+//! The points of the body at the pixels of a view, and what is to be seen there.
 
 use ppum::box_tree::BoxTree;
 use ppum::crack::Side;
@@ -11,9 +11,9 @@ use rayon::prelude::*;
 
 use super::chart::ElementChart;
 use super::cutter::leaves;
-use super::inverse::Inverse;
-use super::leaf::Leaf;
-use super::map::{Chart, DeformationMap, Preimage};
+use super::inverse::LeafInverse;
+use super::leaf::DeformedLeaf;
+use super::map::{DeformationChart, DeformationMap, Preimage};
 use super::{DeformError, DeformedView};
 
 /// Rows of pixels that are worked on at once: what is found there is kept until it is sorted.
@@ -23,19 +23,19 @@ const BLOCK: usize = 32;
 /// Two points are one if their images are nearer than this part of a pixel by the gradient at one
 /// of them.
 const SAME: f64 = 0.05;
-/// Rounding of places, in parts of the plate.
+/// Rounding of places, in parts of the body.
 const ROUNDING: f64 = 1e-14;
 
-/// A point of the plate that is seen at a pixel.
+/// A point of the body that is seen at a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MaterialPoint {
     /// Its offset from the view's anchor, off any crack by 10⁻⁶ of a few pixels at least.
     pub offset: Vec2,
-    /// True if the plate lies there with its back up: det F < 0.
+    /// True if the body lies there with its back up: det F < 0.
     pub folded: bool,
 }
 
-/// The points of the plate that lie at the centres of a view's pixels.
+/// The points of the body that lie at the centres of a view's pixels.
 #[derive(Clone, Debug)]
 pub struct DeformedPoints<'f> {
     /// The view.
@@ -46,22 +46,22 @@ pub struct DeformedPoints<'f> {
     pub(super) points: Vec<MaterialPoint>,
 }
 
-/// A picture of a quantity on the deformed plate.
+/// An image of a quantity on the deformed body.
 #[derive(Clone, Debug)]
 pub struct DeformedRaster {
-    /// The values, each that of the first of the pixel's points; NaN where the plate is not.
+    /// The values, each that of the first of the pixel's points; NaN where the body is not.
     pub values: Raster,
-    /// True where several points of the plate lie: faces that have closed, folds.
+    /// True where several points of the body lie: faces that have closed, folds.
     pub overlap: Vec<bool>,
 }
 
 impl<'f> DeformedView<'f> {
-    /// The points of the plate at the centres of all pixels, on the threads of the pool that calls.
+    /// The points of the body at the centres of all pixels, on the threads of the pool that calls.
     /// Where there are several, the first is one with its face up if there is one, and among these
     /// the one that lies highest, so that what covers what does not change from pixel to pixel.
     ///
     /// # Errors
-    /// [`DeformError::TooFolded`] if millions of pieces of the plate lie in the picture,
+    /// [`DeformError::TooFolded`] if millions of pieces of the body lie in the image,
     /// [`DeformError::TooFine`], [`DeformError::Cancelled`].
     pub fn points(&self, watcher: &dyn Watcher) -> Result<DeformedPoints<'f>, DeformError> {
         if !self.is_known() {
@@ -85,10 +85,10 @@ impl<'f> DeformedView<'f> {
         Ok(all)
     }
 
-    /// What is found in some rows, by pixel.
+    /// Finds the points in some rows, by pixel.
     fn band(
         &self,
-        leaves: &[Leaf],
+        leaves: &[DeformedLeaf],
         band: [u32; 2],
         parts: &Parts<'_>,
     ) -> Result<Vec<(u32, Preimage)>, DeformError> {
@@ -97,7 +97,7 @@ impl<'f> DeformedView<'f> {
             |map, block| {
                 let mut found = Vec::new();
                 for leaf in block {
-                    let inverse = Inverse { view: self, leaf };
+                    let inverse = LeafInverse { view: self, leaf };
                     if let Some(mut chart) = ElementChart::new(map, leaf.patch) {
                         inverse.pixels(&mut chart, band, &mut found);
                         continue;
@@ -122,7 +122,7 @@ impl<'f> DeformedView<'f> {
             let at = self.view.offset(i, j);
             let found = Preimage {
                 offset: at - self.shift,
-                image: super::map::Image { at, gradient: unit },
+                image: super::map::DeformedPoint { at, gradient: unit },
             };
             map.contains(found.offset).then_some((j * columns + i, found))
         };
@@ -139,9 +139,9 @@ fn first(a: &Preimage, b: &Preimage) -> std::cmp::Ordering {
     is_folded(a).cmp(&is_folded(b)).then(height(b).total_cmp(&height(a)))
 }
 
-impl Inverse<'_, '_> {
+impl LeafInverse<'_, '_> {
     /// Appends the points of the leaf at the pixels of some rows.
-    fn pixels<C: Chart>(
+    fn pixels<C: DeformationChart>(
         &self,
         map: &mut C,
         [from, to]: [u32; 2],
@@ -201,7 +201,7 @@ impl<'f> DeformedPoints<'f> {
         Ok(())
     }
 
-    /// The points at a pixel: none where the plate is not.
+    /// The points at a pixel: none where the body is not.
     ///
     /// # Panics
     /// If there is no such pixel.
@@ -247,7 +247,7 @@ impl<'f> DeformedPoints<'f> {
         Ok(self.with_overlap(values))
     }
 
-    /// The picture of one value per patch: each pixel has that of the cell in which its point lies,
+    /// The image of one value per patch: each pixel has that of the cell in which its point lies,
     /// NaN where there is no cell. Borders belong to the right and upper cell. Without cells the
     /// patch with the largest φ takes the place of the cell.
     ///
@@ -283,7 +283,7 @@ impl<'f> DeformedPoints<'f> {
         self.with_overlap(self.starts.par_windows(2).map_init(Vec::new, of_pixel).collect())
     }
 
-    /// The picture of one value per element, or per patch without a cell.
+    /// The image of one value per element, or per patch without a cell.
     fn owners(&self, values: &[f64]) -> DeformedRaster {
         let field = self.view.field();
         assert_eq!(values.len(), field.step.partition.len(), "one value per patch");
@@ -296,7 +296,7 @@ impl<'f> DeformedPoints<'f> {
         self.with_overlap(self.starts.par_windows(2).map(of_pixel).collect())
     }
 
-    /// The picture of one value per pixel.
+    /// The image of one value per pixel.
     fn with_overlap(&self, values: Vec<f64>) -> DeformedRaster {
         let overlap = self.starts.windows(2).map(|pair| pair[1] - pair[0] > 1).collect();
         DeformedRaster { values: Raster::new(self.view.view.pixels, values), overlap }

@@ -44,13 +44,13 @@ fn by_formulas(texts: [&str; 2], crack: Option<[Vec2; 2]>) -> Dataset {
 
 /// The crack of half length 0.8 about a point under all-round tension, where faces move along their
 /// normals: opened it is an ellipse.
-struct Opened {
+struct OpenCrackField {
     exact: CrackInPlane,
     center: Vec2,
     direction: Vec2,
 }
 
-impl Opened {
+impl OpenCrackField {
     const HALF: f64 = 0.8;
 
     fn new(center: Vec2, direction: Vec2) -> Self {
@@ -264,7 +264,7 @@ fn an_opened_crack_is_an_empty_ellipse() {
         } else {
             random.point(&Rect::new(vec2(-0.3, -0.3), vec2(0.3, 0.3)))
         };
-        let opened = Opened::new(center, direction);
+        let opened = OpenCrackField::new(center, direction);
         let dataset = opened.dataset();
         let field = Field::new(&dataset, 0).unwrap();
         let factor = random.between(1.0, 5.0);
@@ -291,7 +291,7 @@ fn an_opened_crack_is_an_empty_ellipse() {
 #[test]
 fn the_rounded_end_of_an_opened_crack_at_any_zoom() {
     for direction in [vec2(1.0, 0.0), vec2(0.6, 0.8)] {
-        let opened = Opened::new(vec2(0.1, -0.2), direction);
+        let opened = OpenCrackField::new(vec2(0.1, -0.2), direction);
         let dataset = opened.dataset();
         let field = Field::new(&dataset, 0).unwrap();
         let tip = field.step.cracks[0].points[1];
@@ -305,8 +305,8 @@ fn the_rounded_end_of_an_opened_crack_at_any_zoom() {
                 let place = view.view.offset(i, j);
                 let (ahead, beside) = (direction.dot(place), direction.cross(place));
                 // ellipse about the tip: ahead = −a (1 − √(1 − (n/b)²))
-                let b = factor * Opened::slope() * Opened::HALF;
-                let end = -Opened::HALF * (beside / b).powi(2)
+                let b = factor * OpenCrackField::slope() * OpenCrackField::HALF;
+                let end = -OpenCrackField::HALF * (beside / b).powi(2)
                     / (1.0 + (1.0 - (beside / b).powi(2)).sqrt());
                 // displacements near the tip in f64: 10⁻¹⁶ of the plate's
                 let margin = 0.03 * view.view.pixel_size() + 4e-16;
@@ -326,7 +326,7 @@ fn the_rounded_end_of_an_opened_crack_at_any_zoom() {
 /// Closed beyond touching, the faces lie over each other exactly inside the same ellipse.
 #[test]
 fn closed_faces_overlap_in_the_ellipse() {
-    let opened = Opened::new(vec2(0.05, 0.1), vec2(0.8, -0.6));
+    let opened = OpenCrackField::new(vec2(0.05, 0.1), vec2(0.8, -0.6));
     let dataset = opened.dataset();
     let field = Field::new(&dataset, 0).unwrap();
     let view = View::new(opened.center, 1.5, [120, 120]).unwrap();
@@ -338,7 +338,7 @@ fn closed_faces_overlap_in_the_ellipse() {
         let [level, distance] = opened.level(-1.0, place);
         let along = opened.direction.dot(place - opened.center).abs();
         // near the tips the plate folds ahead of the crack too
-        if distance < 0.1 * view.pixel_size() || along > 0.75 * Opened::HALF {
+        if distance < 0.1 * view.pixel_size() || along > 0.75 * OpenCrackField::HALF {
             continue;
         }
         let found = points.at(i, j);
@@ -549,7 +549,7 @@ fn automatic_factors_are_round_and_seen() {
 /// The field that the pictures of opened cracks are made of is that of the closed form.
 #[test]
 fn the_crack_is_that_in_the_plane() {
-    let opened = Opened::new(vec2(0.1, -0.2), vec2(0.6, 0.8));
+    let opened = OpenCrackField::new(vec2(0.1, -0.2), vec2(0.6, 0.8));
     let dataset = opened.dataset();
     let field = Field::new(&dataset, 0).unwrap();
     let mut random = Random(4);
@@ -570,7 +570,7 @@ fn the_crack_is_that_in_the_plane() {
 /// Faces are the halves of the ellipse, to a tenth of a pixel, without gaps.
 #[test]
 fn faces_are_drawn_as_the_ellipse() {
-    let opened = Opened::new(vec2(-0.1, 0.2), vec2(0.6, 0.8));
+    let opened = OpenCrackField::new(vec2(-0.1, 0.2), vec2(0.6, 0.8));
     let dataset = opened.dataset();
     let field = Field::new(&dataset, 0).unwrap();
     let view = View::new(opened.center, 2.0, [400, 400]).unwrap();
@@ -585,7 +585,7 @@ fn faces_are_drawn_as_the_ellipse() {
                 let side = opened.direction.cross(place - opened.center) * sign;
                 // next to the tips the distance is not that of the level's slope
                 let along = opened.direction.dot(place - opened.center).abs();
-                if along < 0.999 * Opened::HALF {
+                if along < 0.999 * OpenCrackField::HALF {
                     assert!(distance < 0.1 * view.pixel_size(), "{place:?} {distance}");
                     assert!(side > 0.0);
                 }
@@ -594,8 +594,8 @@ fn faces_are_drawn_as_the_ellipse() {
         let ends = [path[0], path[path.len() - 1]]
             .map(|p| opened.direction.dot(view.center + p - opened.center));
         assert!(
-            (ends[0] + Opened::HALF).abs() < 0.1 * view.pixel_size()
-                && (ends[1] - Opened::HALF).abs() < 0.1 * view.pixel_size()
+            (ends[0] + OpenCrackField::HALF).abs() < 0.1 * view.pixel_size()
+                && (ends[1] - OpenCrackField::HALF).abs() < 0.1 * view.pixel_size()
         );
     }
 }
@@ -603,7 +603,7 @@ fn faces_are_drawn_as_the_ellipse() {
 /// A line across an opened crack comes apart there; the border goes once around.
 #[test]
 fn paths_end_where_the_plate_has_come_apart() {
-    let opened = Opened::new(Vec2::ZERO, vec2(1.0, 0.0));
+    let opened = OpenCrackField::new(Vec2::ZERO, vec2(1.0, 0.0));
     let mut dataset = opened.dataset();
     dataset.domain.holes.push(Hole::Circle { center: vec2(0.0, 1.5), radius: 0.3 });
     dataset.domain.holes.push(Hole::Circle { center: vec2(2.0, -2.0), radius: 0.5 });
@@ -614,7 +614,7 @@ fn paths_end_where_the_plate_has_come_apart() {
     let across = seen.path(&[from(0.1, -1.9), from(0.1, 0.9)]);
     assert_eq!(across.len(), 2);
     let gap = (across[1][0] - across[0][across[0].len() - 1]).length();
-    let opening = 2.0 * 2.0 * Opened::slope() * (0.8f64.powi(2) - 0.01).sqrt();
+    let opening = 2.0 * 2.0 * OpenCrackField::slope() * (0.8f64.powi(2) - 0.01).sqrt();
     assert!((gap / opening - 1.0).abs() < 0.01, "{gap} {opening}");
     assert_eq!(seen.path(&[from(0.9, -1.9), from(0.9, 0.9)]).len(), 1);
     // through the hole

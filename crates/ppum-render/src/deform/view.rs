@@ -49,7 +49,7 @@ impl<'f> DeformedView<'f> {
         self.view.pixel_size() > 4.0 * self.rounding()
     }
 
-    /// What a place may be off by rounding: of s u, and of A + s u(A) unless the view is made
+    /// The possible rounding error of a place: of s u, and of A + s u(A) unless the view is made
     /// around that, whatever it is rounded to.
     pub(super) fn rounding(&self) -> f64 {
         let anchor = if self.is_exact { 0.0 } else { self.anchor.length() };
@@ -57,7 +57,7 @@ impl<'f> DeformedView<'f> {
         2.0 * f64::EPSILON * (anchor + moved)
     }
 
-    /// A rectangle of offsets from the anchor that holds the plate, symmetric about the anchor.
+    /// A rectangle of offsets from the anchor that holds the body, symmetric about the anchor.
     pub(super) fn root(&self) -> Rect {
         let Rect { min, max } = self.field().domain.bounds;
         let reach = [

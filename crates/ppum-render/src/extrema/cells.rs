@@ -7,7 +7,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 
 use super::curves::best_first;
-use super::{Promise, STARTS, Search, climb};
+use super::{ExtremumSearch, Promise, STARTS, climb};
 
 /// Cells wider than so many pixels have enough of them.
 const WIDTH: f64 = 2.0;
@@ -21,7 +21,7 @@ const PLACES: [f64; 3] = [-0.4, 0.03, 0.4];
 /// A place and the scale of the steps from it.
 type ClimbStart = (Vec2, f64);
 
-impl Search<'_, '_> {
+impl ExtremumSearch<'_, '_> {
     /// The best place of each small cell, the most promising cells first.
     pub(super) fn in_small_cells(&self, sign: f64) -> Vec<Promise<ClimbStart>> {
         let cells = self.field.step.partition.cells();

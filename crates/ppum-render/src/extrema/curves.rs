@@ -8,7 +8,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::{PI, TAU};
 
 use super::bent::Bent;
-use super::on::On;
+use super::site::ExtremumSite;
 
 /// Fewest and most samples that a curve should have.
 const SAMPLES: [usize; 2] = [32, 1 << 14];
@@ -30,19 +30,19 @@ pub(super) struct BoundaryCurve {
     shape: CurveShape,
     /// Unit vector to the side from which it is seen, of straight ones; zero if it is exact.
     toward: Vec2,
-    pub(super) on: On,
+    pub(super) on: ExtremumSite,
 }
 
 enum CurveShape {
     Straight([Vec2; 2]),
-    Arc(Arc),
+    Arc(RimArc),
     Bent(Bent),
 }
 
 /// A part of a rim: the point at the angle ψ from the direction e to the anchor, at the distance a
 /// from the centre, is, relative to the anchor, e (r − a − 2 r sin² ψ/2) + e⊥ r sin ψ, without
 /// cancellation where ψ is small.
-struct Arc {
+struct RimArc {
     direction: Vec2,
     radius: f64,
     /// r − a
@@ -51,11 +51,11 @@ struct Arc {
 }
 
 impl BoundaryCurve {
-    fn straight(ends: [Vec2; 2], toward: Vec2, on: On) -> Self {
+    fn straight(ends: [Vec2; 2], toward: Vec2, on: ExtremumSite) -> Self {
         Self { shape: CurveShape::Straight(ends), toward, on }
     }
 
-    pub(super) fn bent(bent: Bent, on: On) -> Self {
+    pub(super) fn bent(bent: Bent, on: ExtremumSite) -> Self {
         Self { shape: CurveShape::Bent(bent), toward: Vec2::ZERO, on }
     }
 
@@ -75,11 +75,11 @@ impl BoundaryCurve {
 
     /// The segment of a crack that it is a face of.
     pub(super) fn segment(&self) -> Option<SegmentId> {
-        if let On::Face(segment, _) = self.on { Some(segment) } else { None }
+        if let ExtremumSite::Face(segment, _) = self.on { Some(segment) } else { None }
     }
 
     pub(super) fn side(&self) -> Side {
-        if let On::Face(_, side) = self.on { side } else { Side::Above }
+        if let ExtremumSite::Face(_, side) = self.on { side } else { Side::Above }
     }
 
     /// Number of samples that it should have: one a pixel.
@@ -93,7 +93,7 @@ impl BoundaryCurve {
     }
 }
 
-impl Arc {
+impl RimArc {
     fn at(&self, t: f64, beside: f64) -> Vec2 {
         let angle = self.angles[0] + (self.angles[1] - self.angles[0]) * t;
         let (sin, cos) = angle.sin_cos();
@@ -115,8 +115,9 @@ pub(super) fn boundary_curves(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> V
             let id = SegmentId { crack: index, segment };
             let normal = s.tangent.left();
             let faces = |ends| {
-                [(Side::Above, normal), (Side::Below, -normal)]
-                    .map(|(side, toward)| BoundaryCurve::straight(ends, toward, On::Face(id, side)))
+                [(Side::Above, normal), (Side::Below, -normal)].map(|(side, toward)| {
+                    BoundaryCurve::straight(ends, toward, ExtremumSite::Face(id, side))
+                })
             };
             curves.extend(line.clipped(rect, range).into_iter().flat_map(faces));
         }
@@ -129,13 +130,13 @@ pub(super) fn boundary_curves(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> V
 }
 
 fn borders(rect: &Rect) -> Vec<BoundaryCurve> {
-    let side = |ends| BoundaryCurve::straight(ends, Vec2::ZERO, On::Border);
+    let side = |ends| BoundaryCurve::straight(ends, Vec2::ZERO, ExtremumSite::Border);
     rect.sides().map(side).into()
 }
 
 fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Vec<BoundaryCurve>) {
     let local = hole.at(anchor);
-    let on = if hole.is_outside() { On::Border } else { On::Rim(index) };
+    let on = if hole.is_outside() { ExtremumSite::Border } else { ExtremumSite::Rim(index) };
     match (hole, local.rim()) {
         (Hole::Circle { radius, .. }, LocalRim::Circle { d, excess }) => {
             let (shape, toward) =
@@ -161,7 +162,7 @@ fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Ve
 
 /// The part of a rim near a rectangle; all of it if the rectangle surrounds the centre or is no
 /// smaller than the hole.
-fn arc(radius: f64, d: Vec2, excess: f64, rect: &Rect) -> Option<Arc> {
+fn arc(radius: f64, d: Vec2, excess: f64, rect: &Rect) -> Option<RimArc> {
     let away = d.length();
     let direction = if away > 0.0 { d / away } else { vec2(1.0, 0.0) };
     let (inward, center) = (-excess / (away + radius), -d);
@@ -171,7 +172,7 @@ fn arc(radius: f64, d: Vec2, excess: f64, rect: &Rect) -> Option<Arc> {
     }
     let size = rect.size();
     if rect.contains(center) || size.x.max(size.y) > radius {
-        return Some(Arc { direction, radius, inward, angles: [-PI, PI] });
+        return Some(RimArc { direction, radius, inward, angles: [-PI, PI] });
     }
     let (min, max) = (rect.min, rect.max);
     let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
@@ -187,7 +188,7 @@ fn arc(radius: f64, d: Vec2, excess: f64, rect: &Rect) -> Option<Arc> {
         }
     });
     let range = turns.iter().fold([0.0f64; 2], |[a, b], &t| [a.min(t), b.max(t)]);
-    Some(Arc { direction, radius, inward, angles: range.map(|turn| angles[0] + turn) })
+    Some(RimArc { direction, radius, inward, angles: range.map(|turn| angles[0] + turn) })
 }
 
 /// Both sides of the straight lines on which the material's formulas are not smooth.
@@ -199,7 +200,8 @@ fn add_interfaces(field: &Field<'_>, anchor: Vec2, rect: &Rect, curves: &mut Vec
         let (normal, everywhere) = (line.along.left(), [f64::NEG_INFINITY, f64::INFINITY]);
         let ends = line.clipped(rect, everywhere);
         let both = |ends| {
-            [normal, -normal].map(|toward| BoundaryCurve::straight(ends, toward, On::Interface))
+            [normal, -normal]
+                .map(|toward| BoundaryCurve::straight(ends, toward, ExtremumSite::Interface))
         };
         curves.extend(ends.into_iter().flat_map(both));
     }
@@ -209,7 +211,7 @@ impl BoundaryCurve {
     /// Parts of a straight face that begins or ends at a point, between distances from it that are
     /// multiplied by a factor each time.
     pub(super) fn parts_from(&self, point: Vec2, [first, factor, last]: [f64; 3]) -> Vec<Self> {
-        let (CurveShape::Straight([a, b]), On::Face(..)) = (&self.shape, self.on) else {
+        let (CurveShape::Straight([a, b]), ExtremumSite::Face(..)) = (&self.shape, self.on) else {
             return Vec::new();
         };
         let (near, far) =

@@ -1,10 +1,10 @@
-//! Quantities that have one value all over the plate, but for rounding.
+//! Quantities that have one value all over the body, except for rounding.
 //!
 //! σ_xx of a bar in tension is zero, and what a file holds of it is what its digits leave: drawn
 //! over the whole colour map it looks like a field. A quantity q of the values u and gradients ∇u
 //! has parts (∂q/∂u) |u| and (∂q/∂∇u) |∇u|, with the mean sizes of u and ∇u in the body; they
 //! cancel down to [`BORNE`] times the relative rounding error that the solver tells of its
-//! stresses. What differs by less differs by nothing.
+//! stresses. Smaller differences do not count.
 //!
 //! The gradient of a body that only moves is rounding itself: of terms of the size |u|/L, with the
 //! size L of the body. With these in place of |∇u| the parts cancel to [`BORNE`] times the rounding
@@ -23,7 +23,7 @@ const CELLS: usize = 64;
 const PLACES: [Vec2; 3] = [vec2(0.05, -0.02), vec2(-0.37, 0.29), vec2(0.31, 0.41)];
 
 /// Error of the solution of the linear system, in units of the rounding of its evaluation: a
-/// condition of fine covers of high order. Measured on a plate in tension: 4·10³ at level 4 and
+/// condition of fine covers of high order. Measured on a body in tension: 4·10³ at level 4 and
 /// order 2, 10⁵ at level 6 and order 3.
 const BORNE: f64 = 1e6;
 
@@ -37,9 +37,9 @@ const STEP: f64 = 1e-6;
 /// Part of its parts by which a quantity may differ somewhere that has one value elsewhere.
 const PART: f64 = 1e-3;
 
-/// The one value of a quantity, zero if it is that but for rounding, and by how much it may differ
-/// from it somewhere; none of a quantity that varies, or does not depend on the field, and of those
-/// of the partition or of errors, which are looked at for their last digits.
+/// The one value of a quantity, zero if it is that except for rounding, and by how much it may
+/// differ from it somewhere; none of a quantity that varies, or does not depend on the field, and
+/// of those of the partition or of errors, which are looked at for their last digits.
 pub(super) fn value(field: &Field<'_>, quantity: &Quantity) -> Option<[f64; 2]> {
     if !matches!(quantity.source(), Source::Values | Source::Gradient) {
         return None;
@@ -67,7 +67,7 @@ pub(super) fn value(field: &Field<'_>, quantity: &Quantity) -> Option<[f64; 2]> 
         .then(|| [value, motion.max(PART * parts[0])])
 }
 
-/// The field at places all over the plate.
+/// The field at places all over the body.
 fn samples(field: &Field<'_>) -> Vec<(Vec2, Vec<Jet<f64>>)> {
     let cells = field.step.partition.cells();
     let mut found = Vec::new();

@@ -6,21 +6,21 @@
 //! shows. A search begins at the places of a grid that depends on the region alone, and in cells
 //! that are smaller than its squares: Newton's method on the exact [gradient](QuantityGradient)
 //! where the quantity is smooth, with a Hessian by differences of it, and a search in turning
-//! directions where it is not. What is largest on a boundary is found there: on the border of the
-//! region and of the domain, on the rims of holes, on both faces of cracks, on both sides of
+//! directions where it is not. The largest values on boundaries are found there: on the border of
+//! the region and of the domain, on the rims of holes, on both faces of cracks, on both sides of
 //! interfaces, each sampled once a square of the grid and refined. Peaks and valleys narrower than
 //! that are not seen but next to singular points: around these it is looked at on rings, and on
 //! faces of cracks that end there, down to a thousandth of a square, as long as there are not
-//! dozens of such points. A valley that is narrower than the 7° between two places of a ring may
-//! be missed, or not followed to its end.
+//! dozens of such points. A valley that is narrower than the 7° between two places of a ring may be
+//! missed, or not followed to its end.
 //!
 //! Only places are refined that may still hold the extremum by what their neighbours say, and
-//! boundaries have so many samples together that their evaluation is affordable: many
-//! boundaries are sampled less densely, and of 32,768 and more some are passed over. Of a
-//! formula whose derivatives are too large the places of the grid decide, [`On::Pixel`].
+//! boundaries have so many samples together that their evaluation is affordable: many boundaries
+//! are sampled less densely, and of 32,768 and more some are passed over. For a formula whose
+//! derivatives are too large, the points of the grid decide, [`ExtremumSite::Pixel`].
 //!
-//! A quantity that has one value all over the body, but for rounding, has it
-//! everywhere, [`On::Everywhere`].
+//! A quantity that has one value all over the body, except for rounding, has it everywhere,
+//! [`ExtremumSite::Everywhere`].
 //!
 //! A quantity may be infinite at the points where functions of the field are singular, which are
 //! known: tips, singular corners, points of forces, what functions declare. Whether it is, and
@@ -35,11 +35,11 @@ mod cells;
 mod climb;
 mod curves;
 mod even;
-mod on;
 mod poles;
 mod region;
 mod rings;
 mod singular;
+mod site;
 
 use std::fmt;
 
@@ -48,17 +48,17 @@ use ppum::function::Slot;
 use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, QuantityGradient};
 use ppum::vec2::{Rect, Vec2};
-use ppum_raster::RenderError;
+use ppum_raster::RasterError;
 use ppum_raster::parts::Parts;
-use ppum_raster::raster::{Raster, Sample};
+use ppum_raster::raster::{Raster, RasterValue};
 use ppum_raster::view::View;
 use rayon::prelude::*;
 
 use climb::Climber;
 use curves::{BoundaryCurve, Promise};
-pub use on::On;
 pub use region::BodyRegion;
-pub use singular::{Singular, SingularKind};
+pub use singular::{SingularKind, SingularPoint};
+pub use site::ExtremumSite;
 
 /// Pixels and samples of boundaries from which the search begins, at most, and how many of them
 /// before the rest is looked at again: the most promising ones first.
@@ -76,7 +76,7 @@ const OPERATIONS: usize = 1 << 28;
 const FEWEST_PIXELS: usize = 1 << 10;
 const PIXELS: usize = 1 << 18;
 
-/// Segments of cracks that take as long as a sample: on each face all of them are seen anew.
+/// Segments of cracks that take as long as a sample: on each face all of them are seen again.
 const SEGMENTS: usize = 64;
 
 /// Boundaries that are looked at, at most, where those of cracks with many segments count more.
@@ -98,14 +98,14 @@ pub struct Extremum {
     pub value: f64,
     /// Its place, as an offset from [`Extrema::center`].
     pub offset: Vec2,
-    /// What the place lies on.
-    pub on: On,
+    /// The feature that the place lies on.
+    pub on: ExtremumSite,
 }
 
 /// Minimum and maximum of a quantity over a part of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extrema {
-    /// The point of the undeformed body from which places are counted, whichever picture shows
+    /// The point of the undeformed body from which places are counted, whichever image shows
     /// them.
     pub center: Vec2,
     /// The smallest value.
@@ -113,7 +113,7 @@ pub struct Extrema {
     /// The largest value.
     pub max: Extremum,
     /// The points at which the quantity is infinite because a function of the field is singular.
-    pub singular: Vec<Singular>,
+    pub singular: Vec<SingularPoint>,
 }
 
 impl fmt::Display for Extrema {
@@ -131,7 +131,7 @@ impl Extrema {
     /// The smallest and the largest value at the pixels of a view, infinite ones too; `None` if
     /// there are none.
     #[must_use]
-    pub fn of_pixels<T: Sample>(raster: &Raster<T>, view: &View) -> Option<Self> {
+    pub fn of_pixels<T: RasterValue>(raster: &Raster<T>, view: &View) -> Option<Self> {
         let values = || raster.values.iter().map(|&value| value.into()).enumerate();
         let known = || values().filter(|(_, value): &(usize, f64)| !value.is_nan());
         let (least, most) = (
@@ -142,7 +142,7 @@ impl Extrema {
         let columns = raster.size[0] as usize;
         let place = |(k, value): (usize, f64)| {
             let offset = view.offset((k % columns) as u32, (k / columns) as u32);
-            Extremum { value, offset, on: On::Pixel }
+            Extremum { value, offset, on: ExtremumSite::Pixel }
         };
         let (center, singular) = (view.center, Vec::new());
         Some(Self { center, min: place(least), max: place(most), singular })
@@ -154,12 +154,12 @@ impl Extrema {
         self.min.value.is_infinite() || self.max.value.is_infinite()
     }
 
-    /// The same with places counted from another point.
+    /// Returns the extrema with places relative to another point.
     #[must_use]
     pub fn seen_from(self, center: Vec2) -> Self {
         let away = self.center - center;
         let moved = |e: Extremum| Extremum { offset: e.offset + away, ..e };
-        let point = |p: Singular| Singular { offset: p.offset + away, ..p };
+        let point = |p: SingularPoint| SingularPoint { offset: p.offset + away, ..p };
         let (min, max) = (moved(self.min), moved(self.max));
         Self { center, min, max, singular: self.singular.into_iter().map(point).collect() }
     }
@@ -173,7 +173,9 @@ impl Extrema {
         let max = if other.max.value > self.max.value { other.max } else { self.max };
         // what is constant in each of two parts need not be so in both
         let place = |extremum: Extremum| match extremum.on {
-            On::Everywhere if min.value != max.value => Extremum { on: On::Inside, ..extremum },
+            ExtremumSite::Everywhere if min.value != max.value => {
+                Extremum { on: ExtremumSite::Inside, ..extremum }
+            }
             _ => extremum,
         };
         let mut singular = self.singular;
@@ -182,17 +184,17 @@ impl Extrema {
         Self { center: self.center, min: place(min), max: place(max), singular }
     }
 
-    /// The value of a quantity that has one all over the plate, but for rounding.
+    /// The value of a quantity that has one all over the body, except for rounding.
     #[must_use]
     pub fn constant(&self) -> Option<f64> {
-        let ([min, max], on) = ([self.min, self.max], On::Everywhere);
+        let ([min, max], on) = ([self.min, self.max], ExtremumSite::Everywhere);
         (min.on == on && max.on == on && min.value == max.value).then_some(max.value)
     }
 
     /// True if between the centres of pixels nothing was looked at.
     #[must_use]
     pub fn is_of_pixels(&self) -> bool {
-        self.max.on == On::Pixel
+        self.max.on == ExtremumSite::Pixel
     }
 }
 
@@ -206,7 +208,7 @@ pub fn extrema(
     region: &BodyRegion,
     quantity: &Quantity,
     watcher: &dyn Watcher,
-) -> Result<Option<Extrema>, RenderError> {
+) -> Result<Option<Extrema>, RasterError> {
     quantity.check(field)?;
     let Some(grid) = region.grid(pixels(field)) else { return Ok(None) };
     let raster = f64::render(field, &grid, quantity, watcher)?;
@@ -226,7 +228,7 @@ pub fn extrema(
     samples.resize(curves.len(), curves::LEAST);
     let parts = Parts::start(watcher, curves.len() + 4 * STARTS.div_ceil(ROUND) + 2)?;
     let (region, pixel) = (*region, grid.pixel_size());
-    let search = Search { field, region, pixel, slope: &slope, hidden, curves, parts };
+    let search = ExtremumSearch { field, region, pixel, slope: &slope, hidden, curves, parts };
     let sampled = search.sampled(&samples)?;
     let best = |sign: f64| match infinite(&singular, sign) {
         None => search.extremum(&sampled, (&raster, &grid), sign),
@@ -235,12 +237,12 @@ pub fn extrema(
     let [Some(min), Some(max)] = [best(-1.0)?, best(1.0)?] else {
         return Ok(Extrema::of_pixels(&raster, &grid));
     };
-    let grows = |point: &Singular| point.max_infinite || point.min_infinite;
+    let grows = |point: &SingularPoint| point.max_infinite || point.min_infinite;
     let singular = singular.into_iter().filter(grows).collect();
     Ok(Some(Extrema { center: region.anchor, min, max, singular }))
 }
 
-/// The extrema of a quantity that has one value all over the body, but for rounding: what is
+/// The extrema of a quantity that has one value all over the body, except for rounding: what is
 /// constant or zero within the digits that the file bears.
 fn constant(
     field: &Field<'_>,
@@ -255,7 +257,7 @@ fn constant(
         return None;
     }
     let offset = Vec2::ZERO.max(region.rect.min).min(region.rect.max);
-    let one = Extremum { value, offset, on: On::Everywhere };
+    let one = Extremum { value, offset, on: ExtremumSite::Everywhere };
     Some(Extrema { center: region.anchor, min: one, max: one, singular: Vec::new() })
 }
 
@@ -264,9 +266,9 @@ fn boundaries(field: &Field<'_>, region: &BodyRegion, pixel: f64) -> Vec<Boundar
     let BodyRegion { anchor, rect } = region;
     let mut curves = curves::boundary_curves(field, *anchor, rect);
     let bent = bent::bent_interfaces(field, *anchor, rect, pixel);
-    curves.extend(bent.into_iter().map(|bent| BoundaryCurve::bent(bent, On::Interface)));
+    curves.extend(bent.into_iter().map(|bent| BoundaryCurve::bent(bent, ExtremumSite::Interface)));
     let segments: usize = field.step.cracks.iter().map(|crack| crack.points.len()).sum();
-    let is_face = |curve: &&BoundaryCurve| matches!(curve.on, On::Face(..));
+    let is_face = |curve: &&BoundaryCurve| matches!(curve.on, ExtremumSite::Face(..));
     let costs = curves.len() + curves.iter().filter(is_face).count() * (segments / SEGMENTS);
     curves.into_iter().step_by(costs.div_ceil(CURVES).max(1)).collect()
 }
@@ -301,8 +303,8 @@ fn operations(field: &Field<'_>) -> usize {
     1 + all / field.step.partition.len() + material
 }
 
-/// What a search needs.
-struct Search<'a, 'f> {
+/// The data of a search.
+struct ExtremumSearch<'a, 'f> {
     field: &'a Field<'f>,
     region: BodyRegion,
     /// The side of the squares of the grid.
@@ -314,7 +316,7 @@ struct Search<'a, 'f> {
     parts: Parts<'a>,
 }
 
-impl Search<'_, '_> {
+impl ExtremumSearch<'_, '_> {
     /// The extremum beside singular points, largest for the sign 1 and smallest for −1; infinite if
     /// a value of the grid is, or at a pole.
     fn extremum(
@@ -322,7 +324,7 @@ impl Search<'_, '_> {
         sampled: &[Vec<f64>],
         (raster, grid): (&Raster, &View),
         sign: f64,
-    ) -> Result<Option<Extremum>, RenderError> {
+    ) -> Result<Option<Extremum>, RasterError> {
         let (value, away) = (sign * f64::INFINITY, grid.center - self.region.anchor);
         let columns = grid.pixels[0] as usize;
         let place = |k: usize| grid.offset((k % columns) as u32, (k / columns) as u32) + away;
@@ -331,7 +333,7 @@ impl Search<'_, '_> {
             .map(place)
             .find(|&at| !self.is_hidden(at));
         if let Some(offset) = infinite {
-            return Ok(Some(Extremum { value, offset, on: On::Inside }));
+            return Ok(Some(Extremum { value, offset, on: ExtremumSite::Inside }));
         }
         let starts = climb::starts(raster, sign, STARTS).into_iter();
         let starts = starts.map(|(promise, [i, j])| (promise, grid.offset(i, j) + away)).collect();
@@ -340,7 +342,7 @@ impl Search<'_, '_> {
     }
 
     /// The quantity along each curve.
-    fn sampled(&self, samples: &[usize]) -> Result<Vec<Vec<f64>>, RenderError> {
+    fn sampled(&self, samples: &[usize]) -> Result<Vec<Vec<f64>>, RasterError> {
         let anchor = self.region.anchor;
         let along = |local: &mut LocalField<'_>, (curve, &samples): (&BoundaryCurve, &usize)| {
             self.parts.finish_one()?;
@@ -364,7 +366,7 @@ impl Search<'_, '_> {
         sampled: &[Vec<f64>],
         starts: Vec<Promise<Vec2>>,
         sign: f64,
-    ) -> Result<Option<Extremum>, RenderError> {
+    ) -> Result<Option<Extremum>, RasterError> {
         let tops = curves::tops(sampled, sign, STARTS);
         let on_curve = |&[curve, sample]: &[usize; 2]| {
             Some(self.refined(&self.curves[curve], &sampled[curve], sample, sign))
@@ -384,7 +386,7 @@ impl Search<'_, '_> {
         places: &[Promise<P>],
         sign: f64,
         look: impl Fn(&P) -> Option<Extremum> + Sync,
-    ) -> Result<Option<Extremum>, RenderError> {
+    ) -> Result<Option<Extremum>, RasterError> {
         for round in places.chunks(ROUND) {
             self.parts.finish_one()?;
             let known = best.map_or(f64::NEG_INFINITY, |best| sign * best.value);
@@ -431,10 +433,14 @@ impl Search<'_, '_> {
         let Rect { min, max } = rect;
         let is_end = |v: f64, [a, b]: [f64; 2]| v == a || v == b;
         let on_border = is_end(offset.x, [min.x, max.x]) || is_end(offset.y, [min.y, max.y]);
-        Some(Extremum { value, offset, on: if on_border { On::Border } else { On::Inside } })
+        Some(Extremum {
+            value,
+            offset,
+            on: if on_border { ExtremumSite::Border } else { ExtremumSite::Inside },
+        })
     }
 
-    /// True within the region, but for rounding.
+    /// True within the region, except for rounding.
     fn is_seen(&self, at: Vec2) -> bool {
         let nearest = at.max(self.region.rect.min).min(self.region.rect.max);
         (at - nearest).length() <= 1e-6 * self.pixel
@@ -451,7 +457,7 @@ impl Search<'_, '_> {
 /// to exceed others by more than rounding, so that what lies on a boundary is not found beside it.
 fn largest(all: impl Iterator<Item = Extremum>, sign: f64) -> Option<Extremum> {
     let exceeds = |a: &Extremum, b: &Extremum| {
-        let least = if a.on == On::Inside { EQUAL * b.value.abs() } else { 0.0 };
+        let least = if a.on == ExtremumSite::Inside { EQUAL * b.value.abs() } else { 0.0 };
         sign * a.value > sign * b.value && (a.value - b.value).abs() > least
     };
     let known = all.filter(|found| !found.value.is_nan());
@@ -459,13 +465,13 @@ fn largest(all: impl Iterator<Item = Extremum>, sign: f64) -> Option<Extremum> {
 }
 
 /// The first singular point where the quantity grows (falls for the sign −1) without bound.
-fn infinite(singular: &[Singular], sign: f64) -> Option<Extremum> {
+fn infinite(singular: &[SingularPoint], sign: f64) -> Option<Extremum> {
     let grows =
-        |point: &&Singular| if sign > 0.0 { point.max_infinite } else { point.min_infinite };
+        |point: &&SingularPoint| if sign > 0.0 { point.max_infinite } else { point.min_infinite };
     singular.iter().find(grows).map(|point| Extremum {
         value: sign * f64::INFINITY,
         offset: point.offset,
-        on: On::Singular(point.kind),
+        on: ExtremumSite::Singular(point.kind),
     })
 }
 

@@ -4,7 +4,7 @@ use ppum::crack::Side;
 use ppum::vec2::{Vec2, vec2};
 
 use super::region::smallest_patch;
-use super::{Extremum, Search};
+use super::{Extremum, ExtremumSearch};
 
 /// Radii of circles around a place, in parts of a pixel or of the smallest patch there.
 const RADII: [f64; 5] = [1e-1, 1e-2, 1e-3, 1e-4, 1e-5];
@@ -15,7 +15,7 @@ const GROWTH: f64 = 1.1;
 /// Directions in which it is looked at.
 const DIRECTIONS: u32 = 8;
 
-impl Search<'_, '_> {
+impl ExtremumSearch<'_, '_> {
     /// True if values grow ever on towards an extremum. It is the value in the middle of each
     /// circle that has to: not even the half of a peak that a border or a crack leaves grows below
     /// the peak's width, and of a line of poles two points of a circle lie on the line.

@@ -5,7 +5,7 @@ use ppum::vec2::{Vec2, vec2};
 use rayon::prelude::*;
 
 use super::curves::{BoundaryCurve, best_first};
-use super::{HIDDEN, Promise, ROUND, Search, climb};
+use super::{ExtremumSearch, HIDDEN, Promise, ROUND, climb};
 
 /// Rings around a point, the radius of the least in units of what is hidden there, and how much
 /// larger each is than that before: to two pixels.
@@ -34,7 +34,7 @@ pub(super) fn faces(curves: &[BoundaryCurve], hidden: &[Vec2], pixel: f64) -> Ve
     pairs.flat_map(|(point, curve)| curve.parts_from(*point, distances)).collect()
 }
 
-impl Search<'_, '_> {
+impl ExtremumSearch<'_, '_> {
     /// Places beside singular points from which a search may begin, each with the scale of its
     /// steps, the most promising first; none if there are too many such points.
     pub(super) fn beside_singular(&self, sign: f64) -> Vec<Promise<(Vec2, f64)>> {

@@ -24,7 +24,7 @@ const DIRECTIONS: u32 = 48;
 
 /// A point where a quantity may be infinite.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Singular {
+pub struct SingularPoint {
     /// Its offset from [`Extrema::center`](super::Extrema::center).
     pub offset: Vec2,
     /// The kind of point.
@@ -49,13 +49,13 @@ pub enum SingularKind {
 }
 
 /// The points in a region in which a quantity is not finite because a function of the field is
-/// singular there; those towards which it does not grow, with a factor that is zero but for
+/// singular there; those towards which it does not grow, with a factor that is zero except for
 /// rounding, too.
 pub(super) fn singular_points(
     field: &Field<'_>,
     region: &BodyRegion,
     quantity: &Quantity,
-) -> Vec<Singular> {
+) -> Vec<SingularPoint> {
     let BodyRegion { anchor, rect } = *region;
     let points: Vec<_> = known_points(field).into_iter().collect();
     let looked = points.into_par_iter().filter_map(|p| {
@@ -68,7 +68,7 @@ pub(super) fn singular_points(
         is_singular.then(|| {
             let rect = Rect::new(rect.min - offset, rect.max - offset);
             let [min_infinite, max_infinite] = grows(field, p, &rect, quantity);
-            Singular { offset, kind: kind(field, p), max_infinite, min_infinite }
+            SingularPoint { offset, kind: kind(field, p), max_infinite, min_infinite }
         })
     });
     looked.collect()
@@ -98,7 +98,7 @@ fn known_points(field: &Field<'_>) -> Vec<Vec2> {
     all
 }
 
-/// What a singular point is.
+/// Returns the kind of a singular point.
 fn kind(field: &Field<'_>, p: Vec2) -> SingularKind {
     let cracks = &field.step.cracks;
     let is_tip = |id: &TipId| cracks[id.crack as usize].end_point(id.end) == p;

@@ -45,7 +45,7 @@ fn a_peak_inside_and_a_corner() {
     let view = View::fit(bounds, [37, 31]).expect("a view");
     let all = extrema_of(&field, &view, "ux");
     assert!((all.max.value - 2.0).abs() < 1e-13, "{all:?}");
-    assert!((all.max.offset - vec2(a, b)).length() < 1e-6 && all.max.on == On::Inside);
+    assert!((all.max.offset - vec2(a, b)).length() < 1e-6 && all.max.on == ExtremumSite::Inside);
     // concave: least at a corner
     let half = bounds.size() * 0.5;
     let at = |x: f64, y: f64| {
@@ -54,7 +54,10 @@ fn a_peak_inside_and_a_corner() {
     };
     let corners = [at(-1.0, -1.0), at(1.0, -1.0), at(1.0, 1.0), at(-1.0, 1.0)];
     let least = corners.into_iter().fold(f64::INFINITY, f64::min);
-    assert!((all.min.value - least).abs() < 1e-12 && all.min.on == On::Border, "{all:?} {least}");
+    assert!(
+        (all.min.value - least).abs() < 1e-12 && all.min.on == ExtremumSite::Border,
+        "{all:?} {least}"
+    );
     assert!(all.singular.is_empty());
     // outside there is nothing
     let outside = View::new(vec2(9.0, 9.0), 1.0, [8, 8]).expect("a view");
@@ -102,7 +105,8 @@ fn random_fields_against_brute_force() {
                 let beyond = sign * (value(p) - at.value);
                 assert!(beyond.is_nan() || beyond <= slack, "{seed} {text} {all:?} {beyond:e}");
             }
-            for extremum in [all.min, all.max].into_iter().filter(|e| e.on == On::Inside) {
+            for extremum in [all.min, all.max].into_iter().filter(|e| e.on == ExtremumSite::Inside)
+            {
                 assert_eq!(value(extremum.offset), extremum.value);
             }
         }
@@ -173,7 +177,10 @@ fn on_the_faces_of_a_crack() {
     let segment = SegmentId { crack: 0, segment: 0 };
     assert!((high.value / expected - 1.0).abs() < 1e-9, "{high:?} {expected}");
     assert!((low.value / -expected - 1.0).abs() < 1e-9, "{low:?} {expected}");
-    assert_eq!((high.on, low.on), (On::Face(segment, Side::Above), On::Face(segment, Side::Below)));
+    assert_eq!(
+        (high.on, low.on),
+        (ExtremumSite::Face(segment, Side::Above), ExtremumSite::Face(segment, Side::Below))
+    );
     assert!(d.cross(high.offset + (view.center - tip)).abs() < 1e-15);
 }
 
@@ -197,7 +204,7 @@ fn on_the_rim_of_a_hole() {
     for view in &views {
         let all = extrema_of(&field, view, &syy);
         assert!((all.max.value - 3.0).abs() < 1e-6, "{all:?}");
-        assert_eq!(all.max.on, On::Rim(0));
+        assert_eq!(all.max.on, ExtremumSite::Rim(0));
         let place = view.center + all.max.offset - center;
         assert!(
             place.y.abs() < 1e-3 * radius && (place.x.abs() - radius).abs() < 1e-7 * radius,
@@ -205,10 +212,11 @@ fn on_the_rim_of_a_hole() {
         );
     }
     let all = extrema_of(&field, &views[0], &sxx);
-    assert!((all.min.value + 1.0).abs() < 1e-6 && all.min.on == On::Rim(0), "{all:?}");
+    assert!((all.min.value + 1.0).abs() < 1e-6 && all.min.on == ExtremumSite::Rim(0), "{all:?}");
 }
 
-/// Of a rim that leaves the view only what is seen counts: on it σ_yy = (1 + 2 cos 2θ) cos² θ.
+/// For a rim that leaves the view, only the visible part counts: on it σ_yy = (1 + 2 cos 2θ) cos²
+/// θ.
 #[test]
 fn rims_end_with_the_view() {
     let (center, radius) = (vec2(0.8, 0.2), 0.07);
@@ -237,9 +245,9 @@ fn infinite_at_a_tip() {
     for width in [1.0, 1e-9] {
         let view = View::new(tip + vec2(0.1, 0.05) * width, width, [33, 31]).expect("a view");
         let mises = extrema_of(&field, &view, "von-mises");
-        assert_eq!((mises.max.value, mises.max.on), (f64::INFINITY, On::Singular(kind)));
+        assert_eq!((mises.max.value, mises.max.on), (f64::INFINITY, ExtremumSite::Singular(kind)));
         assert!((mises.max.offset + view.center - tip).length() < 1e-16);
-        assert!(mises.min.value > 0.0 && mises.min.on == On::Border, "{mises:?}");
+        assert!(mises.min.value > 0.0 && mises.min.on == ExtremumSite::Border, "{mises:?}");
         let shear = extrema_of(&field, &view, "sxy");
         assert_eq!((shear.min.value, shear.max.value), (f64::NEG_INFINITY, f64::INFINITY));
         // rounding next to the tip is no minimum
@@ -350,7 +358,10 @@ fn at_an_interface_and_at_corners() {
     let field = Field::new(&dataset, 0).expect("a field");
     let view = View::fit(dataset.domain.bounds, [64, 51]).expect("a view");
     let all = extrema_of(&field, &view, "sxx");
-    assert!((all.max.value - 2.7123).abs() < 1e-6 && all.max.on == On::Interface, "{all:?}");
+    assert!(
+        (all.max.value - 2.7123).abs() < 1e-6 && all.max.on == ExtremumSite::Interface,
+        "{all:?}"
+    );
     assert!((all.max.offset + view.center - vec2(0.7123, 0.1)).length() < 1e-4);
     assert!((all.min.value - 1.0).abs() < 1e-12);
     assert!(all.singular.is_empty(), "no function is singular at a corner of the hole");
@@ -375,7 +386,10 @@ fn at_a_round_interface() {
     let view = View::fit(dataset.domain.bounds, [91, 72]).expect("a view");
     let all = extrema_of(&field, &view, "sxx");
     let expected = 2.0 + 0.5 * 0.21 * 0.21;
-    assert!((all.max.value - expected).abs() < 1e-8 && all.max.on == On::Interface, "{all:?}");
+    assert!(
+        (all.max.value - expected).abs() < 1e-8 && all.max.on == ExtremumSite::Interface,
+        "{all:?}"
+    );
     let far = all.max.offset.length() - 0.21;
     assert!(far.abs() < 1e-9 && (all.max.offset.x - all.max.offset.y).abs() < 1e-3, "{all:?}");
 }
@@ -407,7 +421,7 @@ fn extremes_along_curves() {
     }
 }
 
-/// What grows without end between pixels, at one of them or everywhere is infinite.
+/// Values that grow without bound between pixels, at one of them or everywhere are infinite.
 #[test]
 fn poles_are_infinite() {
     let dataset = Recipe { cracks: vec![], ..Recipe::default() }.dataset();

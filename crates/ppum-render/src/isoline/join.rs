@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use ppum::vec2::Vec2;
 
 use super::Isoline;
-use super::march::Segment;
+use super::march::LineSegment;
 
 /// Ends on sides that two squares do not have in common, as where one of them is cut finer, are
 /// joined up to this distance, pixels.
@@ -15,8 +15,8 @@ const NEAR: f64 = 0.02;
 type EdgeKey = [u64; 4];
 
 /// The lines of segments, level by level, each from its first segment on.
-pub(super) fn lines(segments: Vec<Segment>, levels: &[f64], pixel: f64) -> Vec<Isoline> {
-    let mut of_level: Vec<Vec<Segment>> = levels.iter().map(|_| Vec::new()).collect();
+pub(super) fn lines(segments: Vec<LineSegment>, levels: &[f64], pixel: f64) -> Vec<Isoline> {
+    let mut of_level: Vec<Vec<LineSegment>> = levels.iter().map(|_| Vec::new()).collect();
     for segment in segments {
         of_level[segment.level].push(segment);
     }
@@ -24,7 +24,7 @@ pub(super) fn lines(segments: Vec<Segment>, levels: &[f64], pixel: f64) -> Vec<I
     all.flat_map(|(segments, &level)| of_one_level(segments, level, NEAR * pixel)).collect()
 }
 
-fn of_one_level(segments: &[Segment], level: f64, near: f64) -> Vec<Isoline> {
+fn of_one_level(segments: &[LineSegment], level: f64, near: f64) -> Vec<Isoline> {
     let next = links(segments, near);
     let mut has_previous = vec![false; segments.len()];
     next.iter().flatten().for_each(|&k| has_previous[k] = true);
@@ -53,7 +53,7 @@ fn of_one_level(segments: &[Segment], level: f64, near: f64) -> Vec<Isoline> {
 }
 
 /// For each segment the one that goes on at its end.
-fn links(segments: &[Segment], near: f64) -> Vec<Option<usize>> {
+fn links(segments: &[LineSegment], near: f64) -> Vec<Option<usize>> {
     let mut next = vec![None; segments.len()];
     let mut begins: BTreeMap<EdgeKey, Vec<usize>> = BTreeMap::new();
     for (k, segment) in segments.iter().enumerate().filter(|(_, s)| !s.ends[0].is_final) {
@@ -74,7 +74,12 @@ fn links(segments: &[Segment], near: f64) -> Vec<Option<usize>> {
 }
 
 /// Pairs of ends and beginnings within a distance, nearest first, each used once.
-fn nearest(segments: &[Segment], ends: &[usize], begins: &[usize], near: f64) -> Vec<[usize; 2]> {
+fn nearest(
+    segments: &[LineSegment],
+    ends: &[usize],
+    begins: &[usize],
+    near: f64,
+) -> Vec<[usize; 2]> {
     let begin_at = |k: usize| segments[k].points[0];
     let mut sorted = begins.to_vec();
     sorted.sort_by(|&a, &b| begin_at(a).x.total_cmp(&begin_at(b).x).then(a.cmp(&b)));

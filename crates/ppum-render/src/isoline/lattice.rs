@@ -1,7 +1,7 @@
-//! The lattice of pixel centres and the picture's border.
+//! The lattice of pixel centres and the image's border.
 
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_raster::raster::{Raster, Sample};
+use ppum_raster::raster::{Raster, RasterValue};
 use ppum_raster::view::View;
 use rayon::prelude::*;
 
@@ -11,17 +11,17 @@ use crate::pieces::Pieces;
 pub(super) type Cell = [u32; 2];
 
 /// Values of a raster in f32 may be wrong by this part of the largest around; of f64 by next to
-/// nothing. More is no mistake: it makes squares that are looked at.
+/// nothing. More does no harm: it only adds squares that are searched.
 const DOUBT: f64 = 100.0;
 
 /// Offsets of the lattice's columns and rows from the view's centre, rising: the pixel centres and
-/// the picture's border.
-pub(super) struct Lattice {
+/// the image's border.
+pub(super) struct SampleLattice {
     x: Vec<f64>,
     y: Vec<f64>,
 }
 
-impl Lattice {
+impl SampleLattice {
     pub(super) fn new(view: &View) -> Self {
         let ([columns, rows], half) = (view.pixels, view.half());
         let x = (0..columns).map(|i| view.column_offset(i));
@@ -50,7 +50,7 @@ impl Lattice {
 
     /// The squares that lines may pass through, sorted: those whose values lie on both sides of a
     /// level as far as the raster tells, those it knows nothing of, and those that something cuts.
-    pub(super) fn candidates<T: Sample>(
+    pub(super) fn candidates<T: RasterValue>(
         &self,
         raster: &Raster<T>,
         levels: &[f64],
@@ -70,7 +70,7 @@ impl Lattice {
         all
     }
 
-    fn may_pass<T: Sample>(&self, raster: &Raster<T>, levels: &[f64], [j, i]: Cell) -> bool {
+    fn may_pass<T: RasterValue>(&self, raster: &Raster<T>, levels: &[f64], [j, i]: Cell) -> bool {
         let [columns, rows] = raster.size;
         if i == 0 || j == 0 || i == columns || j == rows {
             return true;
@@ -117,7 +117,7 @@ impl Lattice {
     }
 
     /// The square on the other side of a side of a square; `None` inside the square and on the
-    /// picture's border.
+    /// image's border.
     pub(super) fn neighbour(&self, [j, i]: Cell, [a, b]: [Vec2; 2]) -> Option<Cell> {
         let ([columns, rows], rect) = (self.size(), self.rect([j, i]));
         let on = |of: fn(Vec2) -> f64, at: f64| of(a) == at && of(b) == at;
@@ -137,7 +137,7 @@ impl Lattice {
         (j < rows && i < columns).then_some([j, i])
     }
 
-    /// True if a side lies on the picture's border.
+    /// True if a side lies on the image's border.
     pub(super) fn is_border(&self, [a, b]: [Vec2; 2]) -> bool {
         let ends = |list: &[f64]| [list[0], list[list.len() - 1]];
         ends(&self.x).iter().any(|&x| a.x == x && b.x == x)

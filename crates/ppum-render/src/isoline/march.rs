@@ -3,12 +3,12 @@
 use ppum::crack::Side;
 use ppum::field::LocalField;
 use ppum::jet::Jet;
-use ppum::quantity::{QuantityGradient, Slope, Source};
+use ppum::quantity::{QuantityGradient, Source, ValueWithGradient};
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::lattice::{Cell, Lattice};
+use super::lattice::{Cell, SampleLattice};
 use super::root::root;
-use crate::pieces::{INSET, Piece, Pieces};
+use crate::pieces::{ConvexPiece, INSET, Pieces};
 
 /// Distance of chords from the curve up to which no point is put between, pixels.
 pub const CHORD: f64 = 0.02;
@@ -27,18 +27,18 @@ const HALVINGS: usize = 4;
 const PULLS: usize = 6;
 
 /// A part of a line in one square or piece.
-pub(super) struct Segment {
+pub(super) struct LineSegment {
     /// Index of the level.
     pub(super) level: usize,
     /// Larger values are on the left.
     pub(super) points: Vec<Vec2>,
     /// Its beginning and its end.
-    pub(super) ends: [End; 2],
+    pub(super) ends: [SegmentEnd; 2],
 }
 
 /// An end of a segment, on a side of a square or piece.
 #[derive(Clone, Copy)]
-pub(super) struct End {
+pub(super) struct SegmentEnd {
     /// The two ends of the side, in an order that does not depend on the square.
     pub(super) side: [Vec2; 2],
     /// True if no line goes on there.
@@ -52,13 +52,13 @@ pub(super) struct Marcher<'a, 'f> {
     slope: &'a QuantityGradient,
     local: LocalField<'f>,
     pixel: f64,
-    lattice: &'a Lattice,
+    lattice: &'a SampleLattice,
 }
 
 /// A square or a piece of it.
-struct Tile {
+struct MarchingTile {
     cell: Cell,
-    piece: Piece,
+    piece: ConvexPiece,
     /// True if nothing cuts the square.
     is_whole: bool,
     /// The values at the two ends of each side. Where something cuts the square the two of a corner
@@ -68,16 +68,16 @@ struct Tile {
 
 /// A place on the way around a tile where it passes a level.
 #[derive(Clone, Copy)]
-enum Pass {
+enum TileCrossing {
     Corner(usize),
     Side(usize),
 }
 
 /// A place on a side where a level is passed.
 #[derive(Clone, Copy)]
-struct Crossing {
+struct SideCrossing {
     at: Vec2,
-    end: End,
+    end: SegmentEnd,
     /// True if the quantity jumps there though the field does not.
     jumps: bool,
 }
@@ -87,7 +87,7 @@ impl<'a, 'f> Marcher<'a, 'f> {
         slope: &'a QuantityGradient,
         local: LocalField<'f>,
         pixel: f64,
-        lattice: &'a Lattice,
+        lattice: &'a SampleLattice,
     ) -> Self {
         Self { slope, local, pixel, lattice }
     }
@@ -98,14 +98,14 @@ impl<'a, 'f> Marcher<'a, 'f> {
         cell: Cell,
         levels: &[f64],
         cuts: &Pieces<'_>,
-    ) -> Vec<Segment> {
+    ) -> Vec<LineSegment> {
         let rect = self.lattice.rect(cell);
         let is_whole = !cuts.may_cut(&rect);
         let pieces = if is_whole { vec![whole(&rect)] } else { cuts.of(&rect) };
         let beside = self.beside(cell, cuts);
         let mut segments = Vec::new();
         for piece in pieces.into_iter().map(|piece| with_corners(piece, &beside)) {
-            let mut tile = Tile { cell, piece, is_whole, values: Vec::new() };
+            let mut tile = MarchingTile { cell, piece, is_whole, values: Vec::new() };
             tile.values = self.values(&tile);
             for (index, &level) in levels.iter().enumerate() {
                 self.of_level(&tile, index, level, &mut segments);
@@ -122,7 +122,13 @@ impl<'a, 'f> Marcher<'a, 'f> {
         cut.flat_map(|rect| cuts.of(&rect)).flat_map(|piece| piece.corners).collect()
     }
 
-    fn of_level(&mut self, tile: &Tile, index: usize, level: f64, out: &mut Vec<Segment>) {
+    fn of_level(
+        &mut self,
+        tile: &MarchingTile,
+        index: usize,
+        level: f64,
+        out: &mut Vec<LineSegment>,
+    ) {
         let passes = tile.passes(level);
         if passes.is_empty() {
             return;
@@ -141,7 +147,7 @@ impl<'a, 'f> Marcher<'a, 'f> {
                 let mut points = vec![from.at];
                 self.pull(tile, level, [from.at, to.at], HALVINGS, &mut points);
                 points.push(to.at);
-                out.push(Segment { level: index, points, ends: [from.end, to.end] });
+                out.push(LineSegment { level: index, points, ends: [from.end, to.end] });
             }
         }
     }
@@ -150,12 +156,12 @@ impl<'a, 'f> Marcher<'a, 'f> {
         self.slope.quantity().at(&mut self.local, at, Side::Above)
     }
 
-    fn slope(&mut self, at: Vec2) -> Slope {
+    fn slope(&mut self, at: Vec2) -> ValueWithGradient {
         self.slope.at(&mut self.local, at, Side::Above)
     }
 
     /// The values at the ends of all sides; near the ends where something cuts the square.
-    fn values(&mut self, tile: &Tile) -> Vec<[f64; 2]> {
+    fn values(&mut self, tile: &MarchingTile) -> Vec<[f64; 2]> {
         let n = tile.piece.corners.len();
         if tile.is_whole {
             let corners: Vec<f64> = tile.piece.corners.iter().map(|&c| self.value(c)).collect();
@@ -166,10 +172,10 @@ impl<'a, 'f> Marcher<'a, 'f> {
 
     /// The place on a side where a level is passed, by Newton's method in a bracket; the same from
     /// both sides.
-    fn crossing(&mut self, tile: &Tile, pass: Pass, level: f64) -> Crossing {
+    fn crossing(&mut self, tile: &MarchingTile, pass: TileCrossing, level: f64) -> SideCrossing {
         let k = match pass {
-            Pass::Corner(k) => return tile.at_corner(k),
-            Pass::Side(k) => k,
+            TileCrossing::Corner(k) => return tile.at_corner(k),
+            TileCrossing::Side(k) => k,
         };
         let [a, b] = [tile.piece.corners[k], tile.next(k)];
         let values = tile.values[k].map(|value| value - level);
@@ -179,18 +185,18 @@ impl<'a, 'f> Marcher<'a, 'f> {
         let is_face = tile.piece.faces[k];
         let mut along = |t: f64| {
             let seen = tile.side_point(k, if is_turned { 1.0 - t } else { t });
-            let Slope { value, gradient } = self.slope(seen);
+            let ValueWithGradient { value, gradient } = self.slope(seen);
             (value - level, gradient.dot(b - a))
         };
         let root = root(values, &mut along);
-        let end = End {
+        let end = SegmentEnd {
             side: [a, b],
             is_final: is_face || self.lattice.is_border([a, b]),
             neighbour: if is_face { None } else { self.lattice.neighbour(tile.cell, [a, b]) },
         };
         let sides = root.jump.map(|sides| sides.map(|t| a + (b - a) * t));
         let jumps = sides.is_some_and(|sides| !self.field_jumps(sides));
-        Crossing { at: a + (b - a) * root.at, end, jumps }
+        SideCrossing { at: a + (b - a) * root.at, end, jumps }
     }
 
     /// True if derivatives of the field differ between two near points, as they may on borders of
@@ -214,7 +220,7 @@ impl<'a, 'f> Marcher<'a, 'f> {
     /// Puts points between two of a curve until chords are near it.
     fn pull(
         &mut self,
-        tile: &Tile,
+        tile: &MarchingTile,
         level: f64,
         [a, b]: [Vec2; 2],
         depth: usize,
@@ -240,11 +246,11 @@ impl<'a, 'f> Marcher<'a, 'f> {
 
     /// The point of the curve near a point, along gradients; none if there is none near, or it is
     /// outside the piece.
-    fn pulled(&mut self, tile: &Tile, level: f64, from: Vec2, reach: f64) -> Option<Vec2> {
+    fn pulled(&mut self, tile: &MarchingTile, level: f64, from: Vec2, reach: f64) -> Option<Vec2> {
         let mut at = from;
         for _ in 0..PULLS {
             let seen = if tile.is_whole { at } else { tile.piece.seen_from_inside(at) };
-            let Slope { value, gradient } = self.slope(seen);
+            let ValueWithGradient { value, gradient } = self.slope(seen);
             let length = gradient.length();
             let step = (gradient / length) * ((level - value) / length);
             at = at + step;
@@ -260,17 +266,17 @@ impl<'a, 'f> Marcher<'a, 'f> {
     }
 }
 
-impl Tile {
+impl MarchingTile {
     /// Where a level is passed on the way around, and whether values are above it from there on;
     /// nothing where some are not defined.
-    fn passes(&self, level: f64) -> Vec<(Pass, bool)> {
+    fn passes(&self, level: f64) -> Vec<(TileCrossing, bool)> {
         let mut passes = Vec::new();
         if self.values.as_flattened().iter().any(|value| value.is_nan()) {
             return passes;
         }
         let mut is_above = self.values[self.values.len() - 1][1] > level;
         for (k, ends) in self.values.iter().enumerate() {
-            for (value, pass) in ends.iter().zip([Pass::Corner(k), Pass::Side(k)]) {
+            for (value, pass) in ends.iter().zip([TileCrossing::Corner(k), TileCrossing::Side(k)]) {
                 if (*value > level) != is_above {
                     is_above = !is_above;
                     passes.push((pass, is_above));
@@ -293,10 +299,14 @@ impl Tile {
     }
 
     /// A line that ends in a corner.
-    fn at_corner(&self, k: usize) -> Crossing {
+    fn at_corner(&self, k: usize) -> SideCrossing {
         let (at, n) = (self.piece.corners[k], self.piece.corners.len());
         let is_final = self.piece.faces[k] || self.piece.faces[(k + n - 1) % n];
-        Crossing { at, end: End { side: [at, at], is_final, neighbour: None }, jumps: false }
+        SideCrossing {
+            at,
+            end: SegmentEnd { side: [at, at], is_final, neighbour: None },
+            jumps: false,
+        }
     }
 
     /// True if a point lies in the convex piece.
@@ -308,14 +318,14 @@ impl Tile {
 }
 
 /// A square that nothing cuts.
-fn whole(rect: &Rect) -> Piece {
+fn whole(rect: &Rect) -> ConvexPiece {
     let (min, max) = (rect.min, rect.max);
     let corners = vec![min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
-    Piece { corners, faces: vec![false; 4], inset: 0.0 }
+    ConvexPiece { corners, faces: vec![false; 4], inset: 0.0 }
 }
 
 /// The piece with those of some points as corners that lie on its sides along the lattice.
-fn with_corners(piece: Piece, points: &[Vec2]) -> Piece {
+fn with_corners(piece: ConvexPiece, points: &[Vec2]) -> ConvexPiece {
     if points.is_empty() {
         return piece;
     }
@@ -330,7 +340,7 @@ fn with_corners(piece: Piece, points: &[Vec2]) -> Piece {
         corners.extend([a].into_iter().chain(inserted));
         faces.resize(corners.len(), face);
     }
-    Piece { corners, faces, ..piece }
+    ConvexPiece { corners, faces, ..piece }
 }
 
 /// The part of the way along a side of the lattice at which a point lies; `None` if it does not, or

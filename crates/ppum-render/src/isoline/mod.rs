@@ -26,20 +26,20 @@ use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, QuantityGradient, Source};
 use ppum::vec2::Vec2;
-use ppum_raster::RenderError;
+use ppum_raster::RasterError;
 use ppum_raster::parts::Parts;
-use ppum_raster::raster::{Raster, Sample};
+use ppum_raster::raster::{Raster, RasterValue};
 use ppum_raster::view::View;
 use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::pieces::Pieces;
-use lattice::{Cell, Lattice};
+use lattice::{Cell, SampleLattice};
 pub use march::CHORD;
-use march::{Marcher, Segment};
+use march::{LineSegment, Marcher};
 
-/// Most points of all lines of a picture. A picture of 8000 × 6000 pixels with thirty lines across
+/// Most points of all lines of an image. An image of 8000 × 6000 pixels with thirty lines across
 /// has a third as many.
 pub const MOST_POINTS: usize = 1 << 21;
 
@@ -83,52 +83,52 @@ impl Isoline {
 ///
 /// # Panics
 /// If the raster and the view differ in size.
-pub fn isolines<T: Sample>(
+pub fn isolines<T: RasterValue>(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
     levels: &[f64],
     raster: &Raster<T>,
     watcher: &dyn Watcher,
-) -> Result<Vec<Isoline>, RenderError> {
+) -> Result<Vec<Isoline>, RasterError> {
     assert_eq!(raster.size, view.pixels, "a raster of the view");
     let pieces = match (quantity, quantity.source()) {
         (Quantity::Formula(_), _) | (_, Source::Gradient) => Pieces::new(field, view.center),
         _ => Pieces::of_values(field, view.center),
     };
     let slope = QuantityGradient::new(quantity, field)?;
-    let lattice = Lattice::new(view);
+    let lattice = SampleLattice::new(view);
     let search =
-        Search { field, view, slope, levels, pieces, lattice, points: AtomicUsize::new(0) };
+        MarchingData { field, view, slope, levels, pieces, lattice, points: AtomicUsize::new(0) };
     let segments = search.segments(raster, watcher)?;
     Ok(join::lines(segments, levels, view.pixel_size()))
 }
 
 /// The data of marching squares.
-struct Search<'a, 'f> {
+struct MarchingData<'a, 'f> {
     field: &'a Field<'f>,
     view: &'a View,
     slope: QuantityGradient,
     levels: &'a [f64],
     pieces: Pieces<'f>,
-    lattice: Lattice,
+    lattice: SampleLattice,
     /// The number of points so far.
     points: AtomicUsize,
 }
 
-impl Search<'_, '_> {
+impl MarchingData<'_, '_> {
     /// All segments of all lines, in the order of their squares.
-    fn segments<T: Sample>(
+    fn segments<T: RasterValue>(
         &self,
         raster: &Raster<T>,
         watcher: &dyn Watcher,
-    ) -> Result<Vec<Segment>, RenderError> {
+    ) -> Result<Vec<LineSegment>, RasterError> {
         let mut new: Vec<Cell> = self.lattice.candidates(raster, self.levels, &self.pieces);
         let mut known: BTreeSet<Cell> = new.iter().copied().collect();
-        let mut all: BTreeMap<Cell, Vec<Segment>> = BTreeMap::new();
+        let mut all: BTreeMap<Cell, Vec<LineSegment>> = BTreeMap::new();
         while !new.is_empty() {
             let parts = Parts::start(watcher, new.len().div_ceil(TASK))?;
-            let marched: Result<Vec<_>, RenderError> =
+            let marched: Result<Vec<_>, RasterError> =
                 new.par_chunks(TASK).map(|cells| self.march(cells, &parts)).collect();
             all.extend(new.iter().copied().zip(marched?.into_iter().flatten()));
             // lines continue into squares that the raster did not select
@@ -139,16 +139,20 @@ impl Search<'_, '_> {
         Ok(all.into_values().flatten().collect())
     }
 
-    fn march(&self, cells: &[Cell], parts: &Parts<'_>) -> Result<Vec<Vec<Segment>>, RenderError> {
+    fn march(
+        &self,
+        cells: &[Cell],
+        parts: &Parts<'_>,
+    ) -> Result<Vec<Vec<LineSegment>>, RasterError> {
         let local = self.field.at(self.view.center);
         let mut marcher = Marcher::new(&self.slope, local, self.view.pixel_size(), &self.lattice);
-        let found: Vec<Vec<Segment>> =
+        let found: Vec<Vec<LineSegment>> =
             cells.iter().map(|&cell| marcher.segments(cell, self.levels, &self.pieces)).collect();
         parts.finish_one()?;
         let points = found.iter().flatten().map(|segment| segment.points.len()).sum();
         let before = self.points.fetch_add(points, Ordering::Relaxed);
         let is_too_many = before + points > MOST_POINTS;
-        if is_too_many { Err(RenderError::TooManyLines(MOST_POINTS)) } else { Ok(found) }
+        if is_too_many { Err(RasterError::TooManyLines(MOST_POINTS)) } else { Ok(found) }
     }
 }
 

@@ -10,7 +10,7 @@ const STEPS: usize = 100;
 const JUMP: f64 = 10.0;
 
 /// A change of sign on \[0, 1\].
-pub(super) struct Root {
+pub(super) struct SignChange {
     pub(super) at: f64,
     /// Where the function jumps, or runs through infinity: the places on both sides.
     pub(super) jump: Option<[f64; 2]>,
@@ -18,7 +18,7 @@ pub(super) struct Root {
 
 /// Where a function with values of different signs at 0 and 1 changes its sign. `f` gives value and
 /// slope.
-pub(super) fn root([at_0, at_1]: [f64; 2], f: &mut impl FnMut(f64) -> (f64, f64)) -> Root {
+pub(super) fn root([at_0, at_1]: [f64; 2], f: &mut impl FnMut(f64) -> (f64, f64)) -> SignChange {
     let (mut lo, mut hi) = ((0.0, at_0), (1.0, at_1));
     let mut t = at_0 / (at_0 - at_1);
     let (mut steepest, mut last) = (0.0f64, 1.0);
@@ -40,18 +40,18 @@ pub(super) fn root([at_0, at_1]: [f64; 2], f: &mut impl FnMut(f64) -> (f64, f64)
         // where it is zero and level it changes its sign elsewhere
         if step.abs() <= ROOT || value == 0.0 && slope != 0.0 {
             let is_pole = is_turned && value.abs() > at_0.abs().min(at_1.abs());
-            return Root { at: t, jump: is_pole.then_some([t - ROOT, t + ROOT]) };
+            return SignChange { at: t, jump: is_pole.then_some([t - ROOT, t + ROOT]) };
         }
         if hi.0 - lo.0 <= ROOT {
             let jumps = is_turned || (hi.1 - lo.1).abs() > JUMP * steepest;
-            return Root { at: t, jump: jumps.then_some([lo.0, hi.0]) };
+            return SignChange { at: t, jump: jumps.then_some([lo.0, hi.0]) };
         }
         // Newton's step, if it is at most half of the last one
         let is_good = step.abs() <= 0.5 * last && t + step > lo.0 && t + step < hi.0;
         last = if is_good { step.abs() } else { 0.5 * (hi.0 - lo.0) };
         t = if is_good { t + step } else { 0.5 * (lo.0 + hi.0) };
     }
-    Root { at: t, jump: None }
+    SignChange { at: t, jump: None }
 }
 
 #[cfg(test)]
@@ -60,7 +60,7 @@ mod tests {
     use std::f64::consts::{FRAC_PI_4, TAU};
 
     /// A root of `f` with its derivative, and the number of evaluations.
-    fn root_and_count(f: impl Fn(f64) -> (f64, f64)) -> (Root, usize) {
+    fn root_and_count(f: impl Fn(f64) -> (f64, f64)) -> (SignChange, usize) {
         let mut count = 0;
         let mut counted = |t| {
             count += 1;

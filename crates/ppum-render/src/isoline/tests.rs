@@ -415,7 +415,7 @@ fn the_outside_costs_nothing() {
     let quantity = Quantity::parse("ux", &field).expect("a quantity");
     let raster = reference(&field, &view, &quantity, unwatched()).expect("a raster");
     let pieces = Pieces::new(&field, center);
-    let looked = Lattice::new(&view).candidates(&raster, &[0.1, 0.5], &pieces);
+    let looked = SampleLattice::new(&view).candidates(&raster, &[0.1, 0.5], &pieces);
     // the picture's border, and the domain with what is beside it
     let domain = (4.0 / 3.0 / 0.08 + 3.0) * (1.0 / 0.08 + 3.0);
     assert!(looked.len() < 2 * 901 + domain as usize, "{}", looked.len());
@@ -430,7 +430,7 @@ fn it_can_be_stopped() {
     let raster = reference(&field, &view, &quantity, unwatched()).expect("a raster");
     let stop = |_: ppum::progress::Progress| ppum::progress::Verdict::Stop;
     let found = isolines(&field, &view, &quantity, &[0.1], &raster, &stop);
-    assert!(matches!(found, Err(RenderError::Cancelled(_))));
+    assert!(matches!(found, Err(RasterError::Cancelled(_))));
 }
 
 /// A quantity that passes thousands of levels in each pixel is refused before its lines take memory
@@ -446,7 +446,7 @@ fn too_many_lines_are_refused() {
     let levels: Vec<f64> = (0..100_000).map(|k| f64::from(k) * 1.8e-5).collect();
     let found = isolines(&field, &view, &quantity, &levels, &raster, unwatched());
     assert!(
-        matches!(found, Err(RenderError::TooManyLines(MOST_POINTS))),
+        matches!(found, Err(RasterError::TooManyLines(MOST_POINTS))),
         "{:?}",
         found.map(|l| l.len())
     );

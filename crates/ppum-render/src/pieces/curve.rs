@@ -1,6 +1,6 @@
 //! Curved interfaces: chords between the places where a level function changes its sign.
 
-use super::cut::{Polygon, PolygonCut};
+use super::cut::{AnchoredPolygon, PolygonCut};
 use super::{SAGITTA, centroid};
 use ppum::formula::Formula;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -19,7 +19,7 @@ const DEPTH: usize = 4;
 const TOUCHING: f64 = 1e-9;
 
 /// A function whose zeros are a curve.
-pub(super) trait LevelFunction {
+pub(super) trait CurveFunction {
     fn value(&self, p: Vec2) -> f64;
 
     /// True if the field may jump or end on a chord with a middle.
@@ -35,15 +35,15 @@ pub(super) struct FormulaLevel {
     pub(super) anchor: Vec2,
 }
 
-impl LevelFunction for FormulaLevel {
+impl CurveFunction for FormulaLevel {
     fn value(&self, offset: Vec2) -> f64 {
         let p = self.anchor + offset;
         self.formula.evaluate(&[p.x, p.y])
     }
 }
 
-/// The zeros of a function. What shows no change of sign on corners, middles of sides and centroid
-/// of a polygon is not seen.
+/// The zeros of a function. They are missed where the function does not change its sign between the
+/// corners, the middles of the sides and the centroid of a polygon.
 #[derive(Debug)]
 pub(super) struct LevelCurve<L> {
     pub(super) level: L,
@@ -69,19 +69,25 @@ impl LevelCurve<FormulaLevel> {
     }
 }
 
-impl<L: LevelFunction> LevelCurve<L> {
+impl<L: CurveFunction> LevelCurve<L> {
     fn is_positive(&self, p: Vec2) -> bool {
         self.level.value(p) > 0.0
     }
 
     /// The parts of a polygon on both sides.
-    pub(super) fn split(&self, polygon: Polygon, least: f64) -> Vec<Polygon> {
+    pub(super) fn split(&self, polygon: AnchoredPolygon, least: f64) -> Vec<AnchoredPolygon> {
         let mut parts = Vec::new();
         self.divide(polygon, least, DEPTH, &mut parts);
         parts
     }
 
-    fn divide(&self, polygon: Polygon, least: f64, depth: usize, parts: &mut Vec<Polygon>) {
+    fn divide(
+        &self,
+        polygon: AnchoredPolygon,
+        least: f64,
+        depth: usize,
+        parts: &mut Vec<AnchoredPolygon>,
+    ) {
         let crossings = self.crossings(&polygon);
         let inside = self.is_positive(centroid(&polygon.corners));
         let unseen = crossings.is_empty() && inside == self.is_positive(polygon.corners[0]);
@@ -114,7 +120,7 @@ impl<L: LevelFunction> LevelCurve<L> {
     }
 
     /// The places on a polygon's sides where the sign changes.
-    fn crossings(&self, polygon: &Polygon) -> Vec<Vec2> {
+    fn crossings(&self, polygon: &AnchoredPolygon) -> Vec<Vec2> {
         let halves = (0..polygon.corners.len()).flat_map(|k| {
             let (a, middle, b) = (polygon.corners[k], polygon.middle(k), polygon.next(k));
             [[a, middle], [middle, b]]
@@ -146,7 +152,7 @@ impl<L: LevelFunction> LevelCurve<L> {
     }
 }
 
-fn size(polygon: &Polygon) -> f64 {
+fn size(polygon: &AnchoredPolygon) -> f64 {
     let first = polygon.corners[0];
     polygon.corners.iter().fold(0.0, |a: f64, &corner| a.max((corner - first).length()))
 }

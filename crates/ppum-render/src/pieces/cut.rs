@@ -36,7 +36,7 @@ pub(super) struct PolygonCut {
 
 /// A convex polygon; points are offsets from the anchor.
 #[derive(Clone, Debug)]
-pub(super) struct Polygon {
+pub(super) struct AnchoredPolygon {
     /// Counter-clockwise.
     pub(super) corners: Vec<Vec2>,
     /// For the side from each corner to the next the line it was cut along.
@@ -112,7 +112,7 @@ impl PolygonCut {
     }
 }
 
-impl Polygon {
+impl AnchoredPolygon {
     pub(super) fn rectangle(rect: &Rect) -> Self {
         let (min, max) = (rect.min, rect.max);
         let corners = vec![min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
@@ -162,7 +162,8 @@ impl Polygon {
         Self { corners, sides }
     }
 
-    /// The same polygon without sides shorter than `shortest`; none if fewer than three are left.
+    /// Returns the polygon without sides shorter than `shortest`; none if fewer than three are
+    /// left.
     pub(super) fn without_short_sides(self, shortest: f64) -> Option<Self> {
         let is_long = |k: &usize| (self.next(*k) - self.corners[*k]).length() >= shortest;
         let long: Vec<usize> = (0..self.corners.len()).filter(is_long).collect();
@@ -174,7 +175,7 @@ impl Polygon {
         (long.len() > 2).then_some(Self { corners, sides })
     }
 
-    /// The same polygon with a corner at each end of a face inside a side: at a tip.
+    /// Returns the polygon with a corner at each end of a face inside a side: at a tip.
     pub(super) fn with_ends(self) -> Self {
         let (mut corners, mut sides) = (Vec::new(), Vec::new());
         for k in 0..self.corners.len() {

@@ -11,11 +11,11 @@ use ppum::mesh::{ElementField, Mesh};
 use ppum::polynomial::PolynomialSpace;
 use ppum::vec2::Vec2;
 
-use super::curve::{LevelCurve, LevelFunction};
-use super::cut::{Polygon, centroid};
-use super::piece::{INSET, Piece, SHORTEST};
+use super::curve::{CurveFunction, LevelCurve};
+use super::cut::{AnchoredPolygon, centroid};
+use super::piece::{ConvexPiece, INSET, SHORTEST};
 
-/// What cuts one patch of a mesh.
+/// The lines that cut one patch of a mesh.
 #[derive(Debug, Default)]
 pub struct ElementCuts(Vec<ElementCut>);
 
@@ -25,7 +25,7 @@ struct ElementCut {
     zero: Zero,
     /// The side that the patch has, if the line clips it: true for values ≥ 0.
     kept: Option<bool>,
-    face: Face,
+    face: FaceLine,
     /// Bound of the change of the value for a change of ξ by 1.
     slope: f64,
     is_straight: bool,
@@ -42,7 +42,7 @@ enum Zero {
 
 /// The part of a line that is drawn as a face.
 #[derive(Clone, Copy, Debug)]
-enum Face {
+enum FaceLine {
     All,
     Nothing,
     /// Where another level field is negative: behind a tip.
@@ -61,17 +61,17 @@ impl ElementCuts {
         let mut cuts = Self::default();
         let patch = element.patch();
         for clip in mesh.clips(patch) {
-            cuts.add_level(field, patch, clip.field, (Some(clip.is_above), Face::All));
+            cuts.add_level(field, patch, clip.field, (Some(clip.is_above), FaceLine::All));
         }
         for block in field.data.blocks(patch) {
             match field.step.functions[field.data.block_function[block] as usize].kind {
                 FunctionKind::Level { field: level } => {
-                    cuts.add_level(field, patch, level, (None, Face::All));
+                    cuts.add_level(field, patch, level, (None, FaceLine::All));
                 }
                 FunctionKind::Formula { frame: Frame::Levels([along, beside]), .. } => {
                     // the tip becomes a corner
-                    cuts.add_level(field, patch, along, (None, Face::Nothing));
-                    cuts.add_level(field, patch, beside, (None, Face::Behind(along as usize)));
+                    cuts.add_level(field, patch, along, (None, FaceLine::Nothing));
+                    cuts.add_level(field, patch, beside, (None, FaceLine::Behind(along as usize)));
                 }
                 _ => {}
             }
@@ -91,7 +91,7 @@ impl ElementCuts {
         field: &Field<'_>,
         patch: usize,
         level: u32,
-        (kept, face): (Option<bool>, Face),
+        (kept, face): (Option<bool>, FaceLine),
     ) {
         let index = level as usize;
         if self.0.iter().any(|cut| matches!(cut.zero, Zero::Level(known) if known == index)) {
@@ -125,18 +125,18 @@ impl ElementCuts {
             let segments = crack.points.windows(2).zip(local.segments());
             let near = segments.filter(|(ends, _)| is_near(ends));
             self.0.extend(near.map(|(_, segment)| {
-                let (zero, face) = (Zero::Line(*segment), Face::Nothing);
+                let (zero, face) = (Zero::Line(*segment), FaceLine::Nothing);
                 ElementCut { zero, kept: None, face, slope, is_straight }
             }));
         }
     }
 
     /// The pieces of a convex part of the reference shape, given by its corners; none where clips
-    /// leave nothing. Sides are faces where the patch ends or the field may jump, but for cracks
+    /// leave nothing. Sides are faces where the patch ends or the field may jump, except for cracks
     /// of the step.
     #[must_use]
-    pub fn pieces(&self, element: &ElementField<'_, '_>, corners: &[Vec2]) -> Vec<Piece> {
-        let whole = Polygon { corners: corners.to_vec(), sides: vec![None; corners.len()] };
+    pub fn pieces(&self, element: &ElementField<'_, '_>, corners: &[Vec2]) -> Vec<ConvexPiece> {
+        let whole = AnchoredPolygon { corners: corners.to_vec(), sides: vec![None; corners.len()] };
         let (center, size) = (centroid(corners), radius(corners));
         let mut all = vec![whole];
         for cut in self.0.iter().filter(|cut| cut.may_meet(element, center, size)) {
@@ -149,9 +149,9 @@ impl ElementCuts {
     fn finished(
         &self,
         element: &ElementField<'_, '_>,
-        polygon: Polygon,
+        polygon: AnchoredPolygon,
         size: f64,
-    ) -> Option<Piece> {
+    ) -> Option<ConvexPiece> {
         let polygon = polygon.without_short_sides(SHORTEST * size)?;
         let center = centroid(&polygon.corners);
         if !self.keep(element, center) {
@@ -160,7 +160,7 @@ impl ElementCuts {
         let is_face =
             |k: usize| polygon.sides[k].as_ref().is_some_and(|side| side.holds(polygon.middle(k)));
         let faces = (0..polygon.corners.len()).map(is_face).collect();
-        Some(Piece { faces, inset: polygon.inset(center, INSET), corners: polygon.corners })
+        Some(ConvexPiece { faces, inset: polygon.inset(center, INSET), corners: polygon.corners })
     }
 
     /// True if the clips of the patch hold at a point, from above where a level is zero.
@@ -213,16 +213,16 @@ struct ElementLevel<'a, 'm, 'f> {
     cut: &'a ElementCut,
 }
 
-impl LevelFunction for ElementLevel<'_, '_, '_> {
+impl CurveFunction for ElementLevel<'_, '_, '_> {
     fn value(&self, p: Vec2) -> f64 {
         self.cut.value(self.element, p)
     }
 
     fn is_face(&self, middle: Vec2) -> bool {
         match self.cut.face {
-            Face::All => true,
-            Face::Nothing => false,
-            Face::Behind(level) => self.element.level(level, middle) < 0.0,
+            FaceLine::All => true,
+            FaceLine::Nothing => false,
+            FaceLine::Behind(level) => self.element.level(level, middle) < 0.0,
         }
     }
 }

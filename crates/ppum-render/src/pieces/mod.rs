@@ -1,7 +1,8 @@
 //! Squares of a lattice cut into convex pieces, each on one side of every crack, interface and rim.
 //!
-//! What follows a field through a square, an isoline or the square's image in the deformed plate,
-//! must not jump on the way. A square that nothing crosses is its own only piece. Others are cut by
+//! Code that follows a field through a square, an isoline or the square's image in the deformed
+//! body, must not cross a jump. A square that nothing crosses is its own only piece. Others are cut
+//! by
 //!
 //! - the lines of the segments of cracks that meet it: their extensions too, which does no harm,
 //! - the sides of polygonal holes and tangents of round ones, which leave the hole by less than
@@ -31,11 +32,11 @@ use ppum::vec2::{Rect, Vec2, vec2};
 
 use curve::{FormulaLevel, LevelCurve};
 pub use cut::SAGITTA;
-use cut::{Polygon, PolygonCut, centroid};
+use cut::{AnchoredPolygon, PolygonCut, centroid};
 pub use element::ElementCuts;
 use piece::SHORTEST;
-pub use piece::{INSET, Piece};
-use round::Round;
+pub use piece::{ConvexPiece, INSET};
+use round::AnchoredCircle;
 
 /// Squares with more lines in them than this are divided into four, again and again, up to
 /// [`DEPTH`] times: the lines of a corner with many sides do not all cut all pieces then.
@@ -46,7 +47,7 @@ const DEPTH: usize = 6;
 /// points could not be told to be inside them.
 const SLIVER: f64 = 1e-5;
 
-/// What a field may jump on, as seen from an anchor, ready to cut squares.
+/// The lines that a field may jump on, relative to an anchor, ready to cut squares.
 #[derive(Debug)]
 pub struct Pieces<'f> {
     equation: &'f Equation,
@@ -57,7 +58,7 @@ pub struct Pieces<'f> {
     /// Segments of cracks and sides of holes, found by their boxes.
     lines: Vec<PolygonCut>,
     tree: BoxTree,
-    rounds: Vec<Round>,
+    rounds: Vec<AnchoredCircle>,
     round_tree: BoxTree,
     /// Straight interfaces, and the others.
     interfaces: Vec<PolygonCut>,
@@ -98,7 +99,7 @@ impl<'f> Pieces<'f> {
             bounds: Rect::new(domain.bounds.min - anchor, domain.bounds.max - anchor),
             lines,
             tree: BoxTree::new(&boxes),
-            rounds: holes.iter().filter_map(|hole| Round::new(hole, anchor)).collect(),
+            rounds: holes.iter().filter_map(|hole| AnchoredCircle::new(hole, anchor)).collect(),
             round_tree: BoxTree::new(&round_boxes),
             interfaces: Vec::new(),
             curves: Vec::new(),
@@ -116,7 +117,7 @@ impl<'f> Pieces<'f> {
     }
 
     /// False if nothing cuts any square of a rectangle of offsets from the anchor; all of it lies
-    /// in the domain then, or all outside. Of curved interfaces samples tell.
+    /// in the domain then, or all outside. Curved interfaces are tested by samples.
     #[must_use]
     pub(crate) fn may_cut(&self, rect: &Rect) -> bool {
         let near = self.bounds.intersection(rect);
@@ -134,13 +135,13 @@ impl<'f> Pieces<'f> {
     /// The pieces of a square, or another rectangle, of offsets from the anchor; none if all of it
     /// lies outside the domain. O(log n) to find what cuts it.
     #[must_use]
-    pub fn of(&self, square: &Rect) -> Vec<Piece> {
+    pub fn of(&self, square: &Rect) -> Vec<ConvexPiece> {
         let mut pieces = Vec::new();
         self.divide(square, DEPTH, &mut pieces);
         pieces
     }
 
-    fn divide(&self, square: &Rect, depth: usize, pieces: &mut Vec<Piece>) {
+    fn divide(&self, square: &Rect, depth: usize, pieces: &mut Vec<ConvexPiece>) {
         let lines = self.lines_in(square);
         if lines.len() > LINES && depth > 0 {
             quarters(square).iter().for_each(|quarter| self.divide(quarter, depth - 1, pieces));
@@ -149,9 +150,9 @@ impl<'f> Pieces<'f> {
         let size = square.size();
         let size = size.x.min(size.y);
         let least = SLIVER * size;
-        let mut all = vec![Polygon::rectangle(square)];
+        let mut all = vec![AnchoredPolygon::rectangle(square)];
         for border in PolygonCut::borders(&self.bounds) {
-            let inside = |polygon: Polygon| {
+            let inside = |polygon: AnchoredPolygon| {
                 let [_, inside] = polygon.split(&border, least);
                 inside
             };
@@ -173,18 +174,18 @@ impl<'f> Pieces<'f> {
 
     /// The piece of a polygon that nothing cuts any more; none outside the domain, or where it has
     /// no area.
-    fn finished(&self, polygon: Polygon, shortest: f64) -> Option<Piece> {
+    fn finished(&self, polygon: AnchoredPolygon, shortest: f64) -> Option<ConvexPiece> {
         let polygon = polygon.without_short_sides(shortest)?.with_ends();
         let center = centroid(&polygon.corners);
         if !self.domain.contains(center) {
             return None;
         }
         let faces = (0..polygon.corners.len()).map(|k| self.is_face(&polygon, k, center)).collect();
-        Some(Piece { faces, inset: polygon.inset(center, INSET), corners: polygon.corners })
+        Some(ConvexPiece { faces, inset: polygon.inset(center, INSET), corners: polygon.corners })
     }
 
     /// True if the field may jump on a side, or ends there.
-    fn is_face(&self, polygon: &Polygon, side: usize, center: Vec2) -> bool {
+    fn is_face(&self, polygon: &AnchoredPolygon, side: usize, center: Vec2) -> bool {
         let middle = polygon.middle(side);
         polygon.sides[side].as_ref().is_some_and(|cut| {
             cut.holds(middle) && (!cut.is_interface || self.material_jumps(cut, middle, center))
@@ -210,7 +211,7 @@ impl<'f> Pieces<'f> {
         found.iter().map(|&k| &self.lines[k as usize]).filter(|cut| cut.meets(square)).collect()
     }
 
-    fn rounds_in(&self, square: &Rect) -> impl Iterator<Item = &Round> {
+    fn rounds_in(&self, square: &Rect) -> impl Iterator<Item = &AnchoredCircle> {
         let mut found = Vec::new();
         self.round_tree.query_box(&self.in_world(square), &mut found);
         let square = *square;

@@ -13,7 +13,7 @@ pub(super) const SHORTEST: f64 = 1e-9;
 
 /// A convex part of a square, wholly on one side of everything that a field jumps on.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Piece {
+pub struct ConvexPiece {
     /// Offsets from the anchor, counter-clockwise; three or more. Some may lie between their
     /// neighbours: a tip is a corner.
     pub corners: Vec<Vec2>,
@@ -26,7 +26,7 @@ pub struct Piece {
     pub inset: f64,
 }
 
-impl Piece {
+impl ConvexPiece {
     /// The mean of the corners: inside, and well away from all sides.
     #[must_use]
     pub fn center(&self) -> Vec2 {

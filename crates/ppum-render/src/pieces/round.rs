@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use super::SAGITTA;
-use super::cut::{Polygon, PolygonCut};
+use super::cut::{AnchoredPolygon, PolygonCut};
 use ppum::domain::{Hole, LocalRim};
 use ppum::vec2::{Rect, Vec2, vec2};
 
@@ -12,7 +12,7 @@ const LEAST: f64 = 12.0;
 
 /// A round hole seen from the anchor.
 #[derive(Debug)]
-pub(super) struct Round {
+pub(super) struct AnchoredCircle {
     /// Anchor minus centre: its length and its direction.
     away: f64,
     direction: Vec2,
@@ -21,7 +21,7 @@ pub(super) struct Round {
     radius: f64,
 }
 
-impl Round {
+impl AnchoredCircle {
     /// `None` for polygons.
     pub(super) fn new(hole: &Hole, anchor: Vec2) -> Option<Self> {
         let local = hole.at(anchor);
@@ -44,11 +44,16 @@ impl Round {
         let center = self.direction * -self.away;
         let nearest = center.max(rect.min).min(rect.max);
         self.power(nearest) < 0.0
-            && !Polygon::rectangle(rect).corners.iter().all(|&p| self.power(p) < 0.0)
+            && !AnchoredPolygon::rectangle(rect).corners.iter().all(|&p| self.power(p) < 0.0)
     }
 
     /// The parts of a polygon outside tangents of the rim, in a square of a size.
-    pub(super) fn outside(&self, polygon: Polygon, size: f64, least: f64) -> Vec<Polygon> {
+    pub(super) fn outside(
+        &self,
+        polygon: AnchoredPolygon,
+        size: f64,
+        least: f64,
+    ) -> Vec<AnchoredPolygon> {
         if polygon.corners.iter().all(|&p| self.power(p) < 0.0) {
             return Vec::new();
         }

@@ -52,7 +52,7 @@ fn places(dataset: &Dataset, random: &mut Random) -> Vec<(Vec2, Rect)> {
     all
 }
 
-fn random_point(piece: &Piece, random: &mut Random) -> Vec2 {
+fn random_point(piece: &ConvexPiece, random: &mut Random) -> Vec2 {
     let weights: Vec<f64> = piece.corners.iter().map(|_| random.unit()).collect();
     let sum: f64 = weights.iter().sum();
     let origin = piece.corners[0];
@@ -61,7 +61,7 @@ fn random_point(piece: &Piece, random: &mut Random) -> Vec2 {
 }
 
 /// The area of a piece.
-fn area(piece: &Piece) -> f64 {
+fn area(piece: &ConvexPiece) -> f64 {
     let next = piece.corners.iter().cycle().skip(1);
     let origin = piece.corners[0];
     let twice = piece.corners.iter().zip(next).map(|(a, b)| (*a - origin).cross(*b - origin));
@@ -158,7 +158,7 @@ fn components_do_not_jump_in_pieces() {
     assert_eq!(pieces_of_several, 16);
 }
 
-/// What no piece covers is outside the domain, or beside a round rim.
+/// Points in no piece are outside the domain, or beside a round rim.
 #[test]
 fn pieces_fill_the_square_but_for_holes() {
     for seed in 0..5 {
@@ -169,7 +169,7 @@ fn pieces_fill_the_square_but_for_holes() {
             let domain = dataset.domain.at(anchor);
             let pieces = Pieces::new(&field, anchor).of(&square);
             let size = square.size().x;
-            let holds = |piece: &Piece, p: Vec2| {
+            let holds = |piece: &ConvexPiece, p: Vec2| {
                 let next = piece.corners.iter().cycle().skip(1);
                 piece
                     .corners

@@ -12,9 +12,9 @@
 //! - a logarithmic scale begins where the robust range does: zeros are peaks of the logarithm;
 //! - values that are nowhere negative and come near zero get a range from zero;
 //! - for a diverging colour map a range that was found is made symmetric if zero lies inside;
-//! - one value c everywhere, but for rounding, in the pixels or [all over the
-//!   plate](crate::extrema::On::Everywhere), gets c ± |c|/2, zero gets −1/2 to 1/2; no usable value
-//!   at all gets 0 to 1 (on a logarithmic scale 0.1 to 1).
+//! - one value c everywhere, except for rounding, in the pixels or [all over the
+//!   body](crate::extrema::ExtremumSite::Everywhere), gets c ± |c|/2, zero gets −1/2 to 1/2; no
+//!   usable value at all gets 0 to 1 (on a logarithmic scale 0.1 to 1).
 //!
 //! The *full range* spans all finite values: to the extrema, and to the pixels' largest value where
 //! the quantity is infinite. *Percentiles* are those of the pixels' finite values (on a logarithmic
@@ -25,14 +25,14 @@ use std::fmt;
 use std::str::FromStr;
 
 use ppum::text::exact;
-use ppum_raster::raster::{Raster, Sample};
+use ppum_raster::raster::{Raster, RasterValue};
 
 use crate::extrema::Extrema;
 use crate::scale::{Normalization, Scale};
 
 /// The range of values that the colours should span.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub enum Range {
+pub enum RangeChoice {
     /// All values; robust against peaks that are infinite, see the [module](self).
     #[default]
     Auto,
@@ -72,7 +72,7 @@ pub enum RangeError {
     LogOfNonPositive(f64),
 }
 
-impl FromStr for Range {
+impl FromStr for RangeChoice {
     type Err = RangeError;
     fn from_str(text: &str) -> Result<Self, RangeError> {
         let number = |part: &str| part.trim().parse::<f64>().ok();
@@ -98,7 +98,7 @@ impl FromStr for Range {
     }
 }
 
-impl fmt::Display for Range {
+impl fmt::Display for RangeChoice {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Auto => f.write_str("auto"),
@@ -118,14 +118,14 @@ fn check(min: f64, max: f64) -> Result<(), RangeError> {
     }
 }
 
-fn percentiles(p: f64, q: f64) -> Result<Range, RangeError> {
+fn percentiles(p: f64, q: f64) -> Result<RangeChoice, RangeError> {
     let is_range = 0.0 <= p && p < q && q <= 100.0;
-    if is_range { Ok(Range::Percentiles(p, q)) } else { Err(RangeError::Percentiles(p, q)) }
+    if is_range { Ok(RangeChoice::Percentiles(p, q)) } else { Err(RangeError::Percentiles(p, q)) }
 }
 
 /// A range that was found or given, and what is known of the values.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ValueSpan {
+pub struct ColorRange {
     /// The value at the lower end of the colours.
     pub min: f64,
     /// The value at the upper end.
@@ -164,7 +164,7 @@ impl fmt::Display for Basis {
     }
 }
 
-impl ValueSpan {
+impl ColorRange {
     /// The scale on it.
     ///
     /// # Errors
@@ -185,7 +185,7 @@ impl ValueSpan {
         [(min < self.min).then_some(min), (max > self.max).then_some(max)]
     }
 
-    /// One range for several pictures, which holds theirs; `symmetric` as for one. None for none.
+    /// One range for several images, which holds theirs; `symmetric` as for one. None for none.
     #[must_use]
     pub fn shared(spans: &[Self], symmetric: bool) -> Option<Self> {
         let (first, rest) = spans.split_first()?;
@@ -199,7 +199,7 @@ impl ValueSpan {
     fn with(self, other: &Self) -> Self {
         let values = match (self.values, &other.values) {
             (Some(a), Some(b)) => Some(a.united(b)),
-            // the extrema of some pictures are not those of all
+            // the extrema of some images are not those of all
             _ => None,
         };
         let is_same = self.basis == other.basis;
@@ -212,7 +212,7 @@ impl ValueSpan {
     }
 }
 
-impl Range {
+impl RangeChoice {
     /// True if it is found from the values, whose extrema should be looked for then.
     #[must_use]
     pub fn is_found(&self) -> bool {
@@ -224,7 +224,7 @@ impl Range {
     ///
     /// # Errors
     /// A fixed range that is empty or, on a logarithmic scale, not positive.
-    pub fn normalization<T: Sample>(
+    pub fn normalization<T: RasterValue>(
         &self,
         scale: Scale,
         symmetric: bool,
@@ -236,20 +236,20 @@ impl Range {
     /// The range of a raster's values; `values` are the extrema of what is seen where they are
     /// known, and `symmetric` asks for a range around zero where one that is found contains zero.
     #[must_use]
-    pub fn span<T: Sample>(
+    pub fn span<T: RasterValue>(
         &self,
         scale: Scale,
         symmetric: bool,
         raster: &Raster<T>,
         values: Option<Extrema>,
-    ) -> ValueSpan {
+    ) -> ColorRange {
         let seen = RangeInput { raster, is_log: scale == Scale::Log, values: values.as_ref() };
         let constant = values.as_ref().and_then(Extrema::constant).filter(|v| seen.is_usable(*v));
         let (basis, found) = match *self {
             _ if self.is_found() && constant.is_some() => (Basis::All, constant.map(|v| (v, v))),
             Self::Auto => seen.automatic(),
             Self::Full => seen.full(),
-            Self::Fixed(min, max) => return ValueSpan { min, max, basis: Basis::Given, values },
+            Self::Fixed(min, max) => return ColorRange { min, max, basis: Basis::Given, values },
             Self::Percentiles(p, q) => (Basis::Percentiles(p, q), seen.percentiles([p, q])),
         };
         let (min, max) = match found {
@@ -263,12 +263,12 @@ impl Range {
                 None => (min, max),
             },
         };
-        ValueSpan { min, max, basis, values }
+        ColorRange { min, max, basis, values }
     }
 }
 
 /// Share of the values on each side that may be a peak: a disc around a tip of a twelfth of a
-/// square picture's width.
+/// square image's width.
 const TAIL: f64 = 0.005;
 /// Distance from the quantiles, in parts of their span, up to which an extreme value still bounds
 /// the range. Smooth fields stay below it (a quadratic: 0.01), a tip's r^(−1/2) is far above.
@@ -288,10 +288,10 @@ struct RangeInput<'a, T> {
     values: Option<&'a Extrema>,
 }
 
-type Bounds = Option<(f64, f64)>;
+type ValueBounds = Option<(f64, f64)>;
 
-impl<T: Sample> RangeInput<'_, T> {
-    fn automatic(&self) -> (Basis, Bounds) {
+impl<T: RasterValue> RangeInput<'_, T> {
+    fn automatic(&self) -> (Basis, ValueBounds) {
         if let Some(value) = self.raster.one_value().filter(|v| self.is_usable(*v)) {
             return (Basis::All, Some((value, value)));
         }
@@ -304,14 +304,14 @@ impl<T: Sample> RangeInput<'_, T> {
 
     /// Between extrema on a logarithmic scale, where zeros are peaks as poles are: errors are
     /// zero somewhere.
-    fn to_zero(&self, min: f64, max: f64) -> (Basis, Bounds) {
+    fn to_zero(&self, min: f64, max: f64) -> (Basis, ValueBounds) {
         let bounds = self.robust().map(|(low, high)| (low, max.max(high)));
         let is_whole = bounds.is_some_and(|(low, _)| low <= min);
         (if is_whole { Basis::All } else { Basis::Robust }, bounds)
     }
 
     /// The quantiles, moved out to the extremes where these are near on the scale.
-    fn robust(&self) -> Bounds {
+    fn robust(&self) -> ValueBounds {
         let mut values = self.usable();
         let last = values.len().checked_sub(1)?;
         let skip = (TAIL * last as f64) as usize;
@@ -338,14 +338,14 @@ impl<T: Sample> RangeInput<'_, T> {
     }
 
     /// The extrema, if they are known and finite: those of the field, whatever a raster of it says.
-    fn extremes(&self) -> Bounds {
+    fn extremes(&self) -> ValueBounds {
         let values =
             self.values.filter(|values| !values.is_of_pixels() && !values.is_infinite())?;
         Some((within(values.min.value), within(values.max.value)))
     }
 
-    fn full(&self) -> (Basis, Bounds) {
-        let pixels = self.usable().into_iter().fold(None, |bounds: Bounds, v| {
+    fn full(&self) -> (Basis, ValueBounds) {
+        let pixels = self.usable().into_iter().fold(None, |bounds: ValueBounds, v| {
             Some(bounds.map_or((v, v), |(min, max)| (min.min(v), max.max(v))))
         });
         let [min, max] = self.usable_extrema();
@@ -354,7 +354,7 @@ impl<T: Sample> RangeInput<'_, T> {
         (basis, bounds)
     }
 
-    fn percentiles(&self, both: [f64; 2]) -> Bounds {
+    fn percentiles(&self, both: [f64; 2]) -> ValueBounds {
         let mut values = self.usable();
         let last = values.len().checked_sub(1)?;
         let [min, max] = both.map(|percent| {

@@ -14,12 +14,12 @@ use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Recipe, opening, polynomial};
 
 use super::*;
-use crate::extrema::{BodyRegion, Extremum, On, SingularKind, extrema};
+use crate::extrema::{BodyRegion, Extremum, ExtremumSite, SingularKind, extrema};
 
 const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 
 fn bounds(scale: Scale, raster: &Raster<f64>) -> (f64, f64) {
-    let norm = Range::Auto.normalization(scale, false, raster).unwrap();
+    let norm = RangeChoice::Auto.normalization(scale, false, raster).unwrap();
     (norm.min(), norm.max())
 }
 
@@ -114,44 +114,53 @@ fn log_ranges_leave_out_what_is_not_positive() {
 #[test]
 fn diverging_ranges_are_symmetric_around_zero() {
     let signed = list(&[-1.0, 0.0, 3.0]);
-    let norm = Range::Auto.normalization(Scale::Linear, true, &signed).unwrap();
+    let norm = RangeChoice::Auto.normalization(Scale::Linear, true, &signed).unwrap();
     assert_eq!((norm.min(), norm.max()), (-3.0, 3.0));
     let positive = list(&[2.0, 3.0]);
-    let norm = Range::Auto.normalization(Scale::Linear, true, &positive).unwrap();
+    let norm = RangeChoice::Auto.normalization(Scale::Linear, true, &positive).unwrap();
     assert_eq!((norm.min(), norm.max()), (2.0, 3.0));
 }
 
 #[test]
 fn fixed_ranges_are_checked() {
-    assert_eq!("auto".parse(), Ok(Range::Auto));
-    assert_eq!("-1, 2e3".parse(), Ok(Range::Fixed(-1.0, 2000.0)));
-    assert_eq!("1,1".parse::<Range>(), Err(RangeError::Empty(1.0, 1.0)));
-    assert_eq!("2,1".parse::<Range>(), Err(RangeError::Empty(2.0, 1.0)));
+    assert_eq!("auto".parse(), Ok(RangeChoice::Auto));
+    assert_eq!("-1, 2e3".parse(), Ok(RangeChoice::Fixed(-1.0, 2000.0)));
+    assert_eq!("1,1".parse::<RangeChoice>(), Err(RangeError::Empty(1.0, 1.0)));
+    assert_eq!("2,1".parse::<RangeChoice>(), Err(RangeError::Empty(2.0, 1.0)));
     for text in ["1,inf", "nan,1", "0,1e400", "-inf,inf"] {
-        assert!(matches!(text.parse::<Range>(), Err(RangeError::Endless(..))), "{text}");
+        assert!(matches!(text.parse::<RangeChoice>(), Err(RangeError::Endless(..))), "{text}");
     }
     for text in ["0,1e-310", "-1.7e308,1.7e308"] {
-        assert!(matches!(text.parse::<Range>(), Err(RangeError::Extreme(..))), "{text}");
+        assert!(matches!(text.parse::<RangeChoice>(), Err(RangeError::Extreme(..))), "{text}");
     }
     for text in ["1..2", "2", "1,2%", "full,", "%", "nan%,5%x"] {
-        assert!(matches!(text.parse::<Range>(), Err(RangeError::Syntax(_))), "{text}");
+        assert!(matches!(text.parse::<RangeChoice>(), Err(RangeError::Syntax(_))), "{text}");
     }
-    assert_eq!("full".parse(), Ok(Range::Full));
-    assert_eq!("1%, 99.5%".parse(), Ok(Range::Percentiles(1.0, 99.5)));
-    assert_eq!("2%".parse(), Ok(Range::Percentiles(2.0, 98.0)));
+    assert_eq!("full".parse(), Ok(RangeChoice::Full));
+    assert_eq!("1%, 99.5%".parse(), Ok(RangeChoice::Percentiles(1.0, 99.5)));
+    assert_eq!("2%".parse(), Ok(RangeChoice::Percentiles(2.0, 98.0)));
     for text in ["50%", "70%", "3%,3%", "9%,3%", "-1%,5%", "5%,101%", "nan%,5%"] {
-        assert!(matches!(text.parse::<Range>(), Err(RangeError::Percentiles(..))), "{text}");
+        assert!(matches!(text.parse::<RangeChoice>(), Err(RangeError::Percentiles(..))), "{text}");
     }
-    for range in [Range::Full, Range::Auto, Range::Percentiles(0.5, 97.0)] {
+    for range in [RangeChoice::Full, RangeChoice::Auto, RangeChoice::Percentiles(0.5, 97.0)] {
         assert_eq!(range.to_string().parse(), Ok(range));
     }
-    let log = Range::Fixed(0.0, 1.0).normalization(Scale::Log, false, &list(&[1.0]));
+    let log = RangeChoice::Fixed(0.0, 1.0).normalization(Scale::Log, false, &list(&[1.0]));
     assert_eq!(log, Err(RangeError::LogOfNonPositive(0.0)));
-    assert_eq!(Range::Fixed(-0.5, 1e-9).to_string().parse(), Ok(Range::Fixed(-0.5, 1e-9)));
+    assert_eq!(
+        RangeChoice::Fixed(-0.5, 1e-9).to_string().parse(),
+        Ok(RangeChoice::Fixed(-0.5, 1e-9))
+    );
 }
 
 /// The range of a field's picture of so many pixels, found with its extrema.
-fn spanned(dataset: &Dataset, view: &View, text: &str, range: Range, scale: Scale) -> ValueSpan {
+fn spanned(
+    dataset: &Dataset,
+    view: &View,
+    text: &str,
+    range: RangeChoice,
+    scale: Scale,
+) -> ColorRange {
     let field = Field::new(dataset, 0).unwrap();
     let quantity = Quantity::parse(text, &field).unwrap();
     let raster = f64::render(&field, view, &quantity, unwatched()).unwrap();
@@ -160,8 +169,8 @@ fn spanned(dataset: &Dataset, view: &View, text: &str, range: Range, scale: Scal
     range.span(scale, false, &raster, values)
 }
 
-fn automatic(dataset: &Dataset, view: &View, text: &str) -> ValueSpan {
-    spanned(dataset, view, text, Range::Auto, Scale::Linear)
+fn automatic(dataset: &Dataset, view: &View, text: &str) -> ColorRange {
+    spanned(dataset, view, text, RangeChoice::Auto, Scale::Linear)
 }
 
 /// u = c − |x − p|² + k: c + k at p, between the pixels of any picture.
@@ -190,7 +199,7 @@ fn peaks_between_pixels_are_in_the_range_whatever_the_size() {
             .fold(top, f64::min);
         for pixels in [[16, 16], [23, 9], [200, 150]] {
             let view = View::fit(bounds, pixels).unwrap();
-            let span = spanned(&dataset, &view, "ux", Range::Full, Scale::Linear);
+            let span = spanned(&dataset, &view, "ux", RangeChoice::Full, Scale::Linear);
             assert_eq!(span.basis, Basis::All);
             let size = top - low;
             assert!(
@@ -220,7 +229,7 @@ fn the_rim_of_a_hole_is_in_the_range() {
         let view = View::fit(dataset.domain.bounds, pixels).unwrap();
         let span = automatic(&dataset, &view, &syy);
         assert!((span.max - 3.0).abs() < 1e-6 && span.basis == Basis::All, "{span:?}");
-        assert_eq!(span.values.as_ref().unwrap().max.on, On::Rim(0));
+        assert_eq!(span.values.as_ref().unwrap().max.on, ExtremumSite::Rim(0));
     }
 }
 
@@ -238,13 +247,14 @@ fn at_a_tip_it_is_robust_and_beside_it_true() {
         assert_eq!(fine.beyond(), [None, Some(f64::INFINITY)]);
         let top = fine.values.unwrap().max;
         assert!(
-            top.on == On::Singular(kind) && (top.offset + (at(256).center - tip)).length() < 1e-16
+            top.on == ExtremumSite::Singular(kind)
+                && (top.offset + (at(256).center - tip)).length() < 1e-16
         );
         // displacements are finite there, and all of them are shown: on the faces, and at
         // the border
         let moved = automatic(&dataset, &at(64), "magnitude");
         assert_eq!((moved.basis, moved.beyond()), (Basis::All, [None; 2]));
-        let full = spanned(&dataset, &at(64), "von-mises", Range::Full, Scale::Linear);
+        let full = spanned(&dataset, &at(64), "von-mises", RangeChoice::Full, Scale::Linear);
         assert!(full.basis == Basis::Pixels && full.max > 2.0 * coarse.max, "{full:?}");
         // beside the tip: σ at the point of the view that is nearest to it, of any number of pixels
         let beside = |pixels: u32| View::new(tip + d * width, 0.8 * width, [pixels; 2]).unwrap();
@@ -260,22 +270,22 @@ fn at_a_tip_it_is_robust_and_beside_it_true() {
 fn logarithmic_scales_take_what_is_positive() {
     let dataset = polynomial(&[0.0, 1.0]);
     let view = View::fit(dataset.domain.bounds, [20, 16]).unwrap();
-    let log = |text: &str, range: Range| spanned(&dataset, &view, text, range, Scale::Log);
+    let log = |text: &str, range: RangeChoice| spanned(&dataset, &view, text, range, Scale::Log);
     let bounds = dataset.domain.bounds;
-    let positive = log("exp(x)", Range::Auto);
+    let positive = log("exp(x)", RangeChoice::Auto);
     let exact = [bounds.min.x.exp(), bounds.max.x.exp()];
     assert!((positive.min / exact[0] - 1.0).abs() < 1e-12 && positive.basis == Basis::All);
     assert!((positive.max / exact[1] - 1.0).abs() < 1e-12);
     // beyond zero it begins where the pixels do
     let middle = bounds.center().x;
     let signed = format!("x - {middle}");
-    for (range, basis) in [(Range::Auto, Basis::Robust), (Range::Full, Basis::Pixels)] {
+    for (range, basis) in [(RangeChoice::Auto, Basis::Robust), (RangeChoice::Full, Basis::Pixels)] {
         let span = log(&signed, range);
         assert!(span.min > 0.0 && span.basis == basis, "{span:?}");
         assert!((span.max - (bounds.max.x - middle)).abs() < 1e-12);
         assert!(span.beyond()[0].is_some_and(|low| low < 0.0) && span.beyond()[1].is_none());
     }
-    let none = log("-1 - x^2", Range::Auto);
+    let none = log("-1 - x^2", RangeChoice::Auto);
     assert_eq!((none.min, none.max), (0.1, 1.0));
 }
 
@@ -305,7 +315,8 @@ fn percentiles_are_those_of_sorted_values() {
                 let (k, part) = (place.floor() as usize, place.fract());
                 values[k] + part * (values[(k + 1).min(n - 1)] - values[k])
             };
-            let span = Range::Percentiles(p, q).span(Scale::Linear, false, &list(&raster), None);
+            let span =
+                RangeChoice::Percentiles(p, q).span(Scale::Linear, false, &list(&raster), None);
             assert_eq!(span.basis, Basis::Percentiles(p, q));
             if n > 1 {
                 assert!(
@@ -314,7 +325,7 @@ fn percentiles_are_those_of_sorted_values() {
                 );
             }
             let symmetric =
-                Range::Percentiles(p, q).span(Scale::Linear, true, &list(&raster), None);
+                RangeChoice::Percentiles(p, q).span(Scale::Linear, true, &list(&raster), None);
             let is_signed = span.min < 0.0 && span.max > 0.0;
             assert_eq!(symmetric.min == -symmetric.max, is_signed);
         }
@@ -327,9 +338,12 @@ fn ranges_of_next_to_nothing() {
     let inf = f64::INFINITY;
     let rasters =
         [vec![], vec![f64::NAN; 4], vec![inf, -inf], vec![3.0], vec![-2.0; 5], vec![0.0, 1e-320]];
-    for (range, scale) in [Range::Auto, Range::Full, Range::Percentiles(2.0, 98.0)]
-        .into_iter()
-        .flat_map(|range| [Scale::Linear, Scale::Log, Scale::SymLog].map(|scale| (range, scale)))
+    for (range, scale) in
+        [RangeChoice::Auto, RangeChoice::Full, RangeChoice::Percentiles(2.0, 98.0)]
+            .into_iter()
+            .flat_map(|range| {
+                [Scale::Linear, Scale::Log, Scale::SymLog].map(|scale| (range, scale))
+            })
     {
         for values in &rasters {
             let norm = range.normalization(scale, true, &list(values));
@@ -341,21 +355,22 @@ fn ranges_of_next_to_nothing() {
 #[test]
 fn shared_ranges_hold_all() {
     let view = View::new(Vec2::ZERO, 1.0, [3, 1]).unwrap();
-    let span = |values: [f64; 3], range: Range| {
+    let span = |values: [f64; 3], range: RangeChoice| {
         let raster = list(&values);
         range.span(Scale::Linear, true, &raster, Extrema::of_pixels(&raster, &view))
     };
-    let (a, b) = (span([2.0, 3.0, 4.0], Range::Full), span([-9.0, -6.0, -5.0], Range::Full));
-    let both = ValueSpan::shared(&[a.clone(), b.clone()], true).unwrap();
+    let (a, b) =
+        (span([2.0, 3.0, 4.0], RangeChoice::Full), span([-9.0, -6.0, -5.0], RangeChoice::Full));
+    let both = ColorRange::shared(&[a.clone(), b.clone()], true).unwrap();
     assert_eq!((both.min, both.max, both.basis), (-9.0, 9.0, Basis::Pixels));
     let values = both.values.unwrap();
     assert_eq!((values.min.value, values.max.value), (-9.0, 4.0));
-    let both = ValueSpan::shared(&[a.clone(), b], false).unwrap();
+    let both = ColorRange::shared(&[a.clone(), b], false).unwrap();
     assert_eq!((both.min, both.max), (-9.0, 4.0));
-    let given = span([0.0; 3], Range::Fixed(-1.0, 4.0));
-    assert_eq!(ValueSpan::shared(&[given.clone(), given.clone()], true), Some(given));
-    assert_eq!(ValueSpan::shared(&[], true), None);
-    assert_eq!(ValueSpan::shared(std::slice::from_ref(&a), true), Some(a));
+    let given = span([0.0; 3], RangeChoice::Fixed(-1.0, 4.0));
+    assert_eq!(ColorRange::shared(&[given.clone(), given.clone()], true), Some(given));
+    assert_eq!(ColorRange::shared(&[], true), None);
+    assert_eq!(ColorRange::shared(std::slice::from_ref(&a), true), Some(a));
 }
 
 /// A zero is a peak of the logarithm: what is near it does not take all colours; a smooth field has
@@ -363,15 +378,15 @@ fn shared_ranges_hold_all() {
 #[test]
 fn zeros_are_peaks_on_logarithmic_scales() {
     let extrema = |min: f64, max: f64| {
-        let extremum = |value| Extremum { value, offset: Vec2::ZERO, on: On::Inside };
+        let extremum = |value| Extremum { value, offset: Vec2::ZERO, on: ExtremumSite::Inside };
         Extrema { center: Vec2::ZERO, min: extremum(min), max: extremum(max), singular: Vec::new() }
     };
     let at = |i: u32| f64::from(i) - 99.7;
     let error = Raster::from_fn([200, 200], |i, j| at(i).hypot(at(j)) * 1e-5 + 1e-12);
-    let span = Range::Auto.span(Scale::Log, false, &error, Some(extrema(1e-12, 1.5e-3)));
+    let span = RangeChoice::Auto.span(Scale::Log, false, &error, Some(extrema(1e-12, 1.5e-3)));
     assert!(span.min > 1e-5 && span.max == 1.5e-3 && span.basis == Basis::Robust, "{span:?}");
     let smooth = Raster::from_fn([200, 200], |i, j| (0.02 * f64::from(i + j)).exp());
     let (min, max) = (0.99, (0.02f64 * 398.0).exp() * 1.01);
-    let span = Range::Auto.span(Scale::Log, false, &smooth, Some(extrema(min, max)));
+    let span = RangeChoice::Auto.span(Scale::Log, false, &smooth, Some(extrema(min, max)));
     assert_eq!((span.min, span.max, span.basis), (min, max, Basis::All));
 }

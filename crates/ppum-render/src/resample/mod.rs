@@ -1,11 +1,12 @@
-//! What other programs do: sampling a field on a grid, and interpolating the samples at the pixels.
+//! The methods of other programs: sampling a field on a grid, and interpolating the samples at the
+//! pixels.
 //!
-//! It is here to be compared with. A [`Grid`] of nx × ny points over a rectangle is given the exact
-//! values of a quantity at its points, without any care for cracks between them, as tools that draw
-//! grids do; a point on a crack has the value above it, points in holes have none.
-//! [`Samples::raster`] finds the values at a picture's pixels by one of three [`Interpolation`]s,
-//! [`cells`] takes one value for each cell of the cover. [`norms`](mod@norms) tells how far they
-//! are from the field, and [`need`] which grid would be near enough.
+//! It is here to be compared with. A [`SampleGrid`] of nx × ny points over a rectangle is given the
+//! exact values of a quantity at its points, without any care for cracks between them, as tools
+//! that draw grids do; a point on a crack has the value above it, points in holes have none.
+//! [`GridSamples::raster`] finds the values at an image's pixels by one of three
+//! [`Interpolation`]s, [`cells`] takes one value for each cell of the cover. [`norms`](mod@norms)
+//! tells how far they are from the field, and [`need`] which grid would be near enough.
 //!
 //! ```text
 //! u_h(x, y) = Σ_i Σ_j w_i(x) w_j(y) u(x_i, y_j)
@@ -25,7 +26,7 @@ use ppum::function::FunctionKind;
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_raster::RenderError;
+use ppum_raster::RasterError;
 use ppum_raster::parts::Parts;
 use ppum_raster::raster::Raster;
 use ppum_raster::view::View;
@@ -53,7 +54,7 @@ pub enum GridError {
 
 /// nx × ny points at equal distances, the border of their rectangle included.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Grid {
+pub struct SampleGrid {
     /// Points are `anchor + offset`.
     pub anchor: Vec2,
     /// The rectangle, as offsets from the anchor.
@@ -62,7 +63,7 @@ pub struct Grid {
     pub size: [u32; 2],
 }
 
-impl Grid {
+impl SampleGrid {
     /// The grid of `size` over a rectangle.
     ///
     /// # Errors
@@ -82,7 +83,7 @@ impl Grid {
     /// The grid over the box of a field's domain.
     ///
     /// # Errors
-    /// As [`Grid::new`].
+    /// As [`SampleGrid::new`].
     pub fn over_domain(field: &Field<'_>, size: [u32; 2]) -> Result<Self, GridError> {
         let (anchor, half) = (field.domain.bounds.center(), field.domain.bounds.size() * 0.5);
         Self::new(anchor, Rect::new(-half, half), size)
@@ -91,15 +92,15 @@ impl Grid {
     /// The grid over what a view shows.
     ///
     /// # Errors
-    /// As [`Grid::new`].
+    /// As [`SampleGrid::new`].
     pub fn over_view(view: &View, size: [u32; 2]) -> Result<Self, GridError> {
         Self::new(view.center, Rect::new(-view.half(), view.half()), size)
     }
 
-    /// The same rectangle with other points.
+    /// Returns the rectangle with other points.
     ///
     /// # Errors
-    /// As [`Grid::new`].
+    /// As [`SampleGrid::new`].
     pub fn with_size(&self, size: [u32; 2]) -> Result<Self, GridError> {
         Self::new(self.anchor, self.bounds, size)
     }
@@ -138,7 +139,7 @@ impl Grid {
         field: &Field<'_>,
         quantity: &Quantity,
         watcher: &dyn Watcher,
-    ) -> Result<Samples, RenderError> {
+    ) -> Result<GridSamples, RasterError> {
         quantity.check(field)?;
         let [columns, rows] = self.size;
         let parts = Parts::start(watcher, rows as usize)?;
@@ -149,7 +150,7 @@ impl Grid {
             line.copy_from_slice(&at_offsets(field, quantity, self.anchor, &offsets));
             parts.finish_one()
         })?;
-        Ok(Samples { grid: self, values })
+        Ok(GridSamples { grid: self, values })
     }
 
     /// The weights of columns and rows at `anchor + offset`; none outside the rectangle.
@@ -171,14 +172,14 @@ fn at_offsets(field: &Field<'_>, quantity: &Quantity, anchor: Vec2, offsets: &[V
 
 /// Values of a quantity at the points of a grid.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Samples {
+pub struct GridSamples {
     /// The points.
-    pub grid: Grid,
+    pub grid: SampleGrid,
     /// Row by row, the lowest first; NaN where nothing is defined.
     pub values: Vec<f64>,
 }
 
-impl Samples {
+impl GridSamples {
     /// The interpolated value at `grid.anchor + offset`: NaN outside the grid's rectangle, and
     /// where a value that counts is none.
     #[must_use]
@@ -188,8 +189,7 @@ impl Samples {
         y.sum(|j| x.sum(|i| self.values[j as usize * columns + i as usize]))
     }
 
-    /// The interpolated values at the pixel centres of a view: the picture that the grid
-    /// would give.
+    /// The interpolated values at the pixel centres of a view: the image that the grid would give.
     #[must_use]
     pub fn raster(&self, interpolation: Interpolation, view: &View) -> Raster {
         let shift = view.center - self.grid.anchor;
@@ -198,7 +198,7 @@ impl Samples {
     }
 }
 
-/// The picture of one value per cell of the cover, that at the cell's centre; NaN outside the
+/// The image of one value per cell of the cover, that at the cell's centre; NaN outside the
 /// cells, and in cells with their centre in a hole. It is made of 8 bytes per cell.
 ///
 /// # Errors
@@ -208,10 +208,10 @@ pub fn cells(
     view: &View,
     quantity: &Quantity,
     watcher: &dyn Watcher,
-) -> Result<Raster, RenderError> {
+) -> Result<Raster, RasterError> {
     quantity.check(field)?;
     if !exist(field) {
-        return Err(RenderError::NoCells);
+        return Err(RasterError::NoCells);
     }
     let (partition, cells) = (&field.step.partition, &field.step.partition.boxes().cell);
     let parts = Parts::start(watcher, partition.len())?;

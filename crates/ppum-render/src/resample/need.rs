@@ -1,12 +1,12 @@
 //! The grid that resampling would need for a given error, measured.
 //!
-//! [`converge`] doubles a grid and measures each time how far its picture is from the field, at
+//! [`converge`] doubles a grid and measures each time how far its image is from the field, at
 //! pixels of the view (at most [`PIXELS`] in each direction, evenly spread). Only the grid's points
 //! that count at these pixels are evaluated, so a fine grid costs no more than a coarse one.
 //!
-//! What is measured at pixels falls for ever, since no pixel's centre lies at a tip or on a crack.
+//! An error measured at pixels falls for ever, since no pixel's centre lies at a tip or on a crack.
 //! The largest error between them does not where the quantity is infinite or jumps:
-//! [`Needed::Never`] says so for L∞.
+//! [`GridNeed::Never`] says so for L∞.
 
 use std::collections::BTreeSet;
 
@@ -16,14 +16,14 @@ use ppum::function::{Frame, FunctionKind};
 use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, Source};
 use ppum::vec2::{Rect, Vec2};
-use ppum_raster::RenderError;
+use ppum_raster::RasterError;
 use ppum_raster::parts::Parts;
 use ppum_raster::view::View;
 use rayon::prelude::*;
 
-use super::norms::{Norms, of_values};
+use super::norms::{DifferenceNorms, of_values};
 use super::stencil::Stencil;
-use super::{Grid, Interpolation, at_offsets};
+use super::{Interpolation, SampleGrid, at_offsets};
 
 /// Most columns and rows of pixels that errors are measured at.
 pub const PIXELS: u32 = 128;
@@ -42,23 +42,23 @@ pub struct ResamplingSetup<'a> {
     /// The quantity.
     pub quantity: &'a Quantity,
     /// The rectangle of the grids, and the ratio of their columns and rows.
-    pub grid: Grid,
-    /// What is done between the points.
+    pub grid: SampleGrid,
+    /// The interpolation between the points.
     pub interpolation: Interpolation,
 }
 
 /// Errors of grids, each with twice the points of the one before in each direction.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Convergence {
+pub struct GridConvergence {
     /// Sizes of the grids and the errors found.
-    pub steps: Vec<([u32; 2], Norms)>,
+    pub steps: Vec<([u32; 2], DifferenceNorms)>,
     /// Why L∞ does not fall, if that is known.
-    pub obstacle: Option<Obstacle>,
+    pub obstacle: Option<ConvergenceObstacle>,
 }
 
 /// The reason why an error does not fall below a bound.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Obstacle {
+pub enum ConvergenceObstacle {
     /// The quantity is infinite at a point of the view: near it the error is larger than any bound.
     Singular,
     /// The quantity jumps across a crack in the view: there the error is half the jump or more.
@@ -69,7 +69,7 @@ pub enum Obstacle {
 
 /// The grid for an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Needed {
+pub enum GridNeed {
     /// The first of the measured grids with no larger error; one of half its points has a
     /// larger one.
     Grid([u32; 2]),
@@ -77,7 +77,7 @@ pub enum Needed {
     /// same power.
     Extrapolated([f64; 2]),
     /// No grid.
-    Never(Obstacle),
+    Never(ConvergenceObstacle),
 }
 
 /// Errors of finer and finer grids, up to the first with relative errors of at most `target` in all
@@ -89,7 +89,7 @@ pub fn converge(
     subject: &ResamplingSetup<'_>,
     target: f64,
     watcher: &dyn Watcher,
-) -> Result<Convergence, RenderError> {
+) -> Result<GridConvergence, RasterError> {
     subject.quantity.check(subject.field)?;
     let pixels = pixels(subject.view);
     let ResamplingSetup { field, view, quantity, .. } = *subject;
@@ -105,31 +105,33 @@ pub fn converge(
             break;
         }
     }
-    let size = steps.last().map_or(0.0, |(_, norms): &(_, Norms)| norms.field[2]);
-    Ok(Convergence { steps, obstacle: obstacle(subject, size) })
+    let size = steps.last().map_or(0.0, |(_, norms): &(_, DifferenceNorms)| norms.field[2]);
+    Ok(GridConvergence { steps, obstacle: obstacle(subject, size) })
 }
 
-impl Convergence {
+impl GridConvergence {
     /// The grid for a relative error of at most `target` in L1 (`norm` 0), L2 (1) or L∞ (2).
     ///
     /// # Panics
     /// If there is no such norm.
     #[must_use]
-    pub fn needed(&self, norm: usize, target: f64) -> Needed {
+    pub fn needed(&self, norm: usize, target: f64) -> GridNeed {
         if let (2, Some(obstacle)) = (norm, self.obstacle) {
-            return Needed::Never(obstacle);
+            return GridNeed::Never(obstacle);
         }
-        let error = |step: &([u32; 2], Norms)| step.1.relative()[norm];
+        let error = |step: &([u32; 2], DifferenceNorms)| step.1.relative()[norm];
         if let Some(reached) = self.steps.iter().find(|step| error(step) <= target) {
-            return Needed::Grid(reached.0);
+            return GridNeed::Grid(reached.0);
         }
-        let [.., before, last] = &self.steps[..] else { return Needed::Never(Obstacle::Stalled) };
+        let [.., before, last] = &self.steps[..] else {
+            return GridNeed::Never(ConvergenceObstacle::Stalled);
+        };
         let order = (error(before) / error(last)).log2();
         if order.is_nan() || order < LEAST_ORDER {
-            return Needed::Never(Obstacle::Stalled);
+            return GridNeed::Never(ConvergenceObstacle::Stalled);
         }
         let finer = (error(last) / target).powf(order.recip());
-        Needed::Extrapolated(last.0.map(|n| f64::from(n) * finer))
+        GridNeed::Extrapolated(last.0.map(|n| f64::from(n) * finer))
     }
 }
 
@@ -158,8 +160,9 @@ fn pixels(view: &View) -> Vec<Vec2> {
     spread(rows).flat_map(|j| spread(columns).map(move |i| view.offset(i, j))).collect()
 }
 
-/// What a grid gives at points `view.center + offset`: samples are taken only where they count.
-fn interpolated(subject: &ResamplingSetup<'_>, grid: &Grid, offsets: &[Vec2]) -> Vec<f64> {
+/// Returns the values of a grid at points `view.center + offset`: samples are taken only where they
+/// count.
+fn interpolated(subject: &ResamplingSetup<'_>, grid: &SampleGrid, offsets: &[Vec2]) -> Vec<f64> {
     let shift = subject.view.center - grid.anchor;
     let stencils: Vec<_> =
         offsets.iter().map(|&o| grid.stencils(subject.interpolation, shift + o)).collect();
@@ -184,8 +187,9 @@ fn points([x, y]: &[Stencil; 2]) -> Vec<(u32, u32)> {
     y.points().flat_map(|(row, _)| x.points().map(move |(column, _)| (row, column))).collect()
 }
 
-/// What keeps the largest error of values up to `size` from falling, if the view shows it.
-fn obstacle(subject: &ResamplingSetup<'_>, size: f64) -> Option<Obstacle> {
+/// Returns the obstacle that keeps the largest error of values up to `size` from falling, if the
+/// view shows it.
+fn obstacle(subject: &ResamplingSetup<'_>, size: f64) -> Option<ConvergenceObstacle> {
     let ResamplingSetup { field, view, quantity, .. } = *subject;
     let cracks = &field.step.cracks;
     let origins = field.step.functions.iter().filter_map(|function| match function.kind {
@@ -197,9 +201,9 @@ fn obstacle(subject: &ResamplingSetup<'_>, size: f64) -> Option<Obstacle> {
     let mut points = tips.chain(origins).filter(|&p| shown.contains(p - view.center));
     let infinite = |p: Vec2| quantity.at(&mut field.at(p), Vec2::ZERO, Side::Above).is_infinite();
     if points.any(infinite) {
-        return Some(Obstacle::Singular);
+        return Some(ConvergenceObstacle::Singular);
     }
-    jumps(subject, SAME * size).then_some(Obstacle::Jump)
+    jumps(subject, SAME * size).then_some(ConvergenceObstacle::Jump)
 }
 
 /// Points of a segment at which its two sides are compared.

@@ -1,15 +1,15 @@
-//! How far a picture is from another: norms over the pixels of a view.
+//! How far an image is from another: norms over the pixels of a view.
 
 use ppum_raster::raster::Raster;
 
-/// Norms of a difference d over the n pixels where both pictures have a value, as means, so that
+/// Norms of a difference d over the n pixels where both images have a value, as means, so that
 /// they do not depend on the size of the view: Σ|d|/n, √(Σd²/n), max |d|.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Norms {
+pub struct DifferenceNorms {
     /// L1, L2 and L∞ of the difference, over the pixels where both values are finite; L∞ is
     /// infinite if one value is and the other is not.
     pub absolute: [f64; 3],
-    /// The same norms of the field itself over the same pixels; L∞ of its finite values.
+    /// The norms of the field itself over the same pixels; L∞ of its finite values.
     pub field: [f64; 3],
     /// Pixels where both have a finite value.
     pub compared: usize,
@@ -17,14 +17,14 @@ pub struct Norms {
     pub infinite: usize,
     /// Pixels with a value of the field and none of the other.
     pub lost: usize,
-    /// Pixels with a value of the other where the field has none: outside the plate, or in a hole.
+    /// Pixels with a value of the other where the field has none: outside the body, or in a hole.
     pub invented: usize,
 }
 
 /// The names of the three norms.
 pub const NAMES: [&str; 3] = ["L1", "L2", "L∞"];
 
-impl Norms {
+impl DifferenceNorms {
     /// L1, L2 and L∞ in parts of those of the field; of a field that is zero, zero or infinite.
     #[must_use]
     pub fn relative(&self) -> [f64; 3] {
@@ -38,16 +38,16 @@ impl Norms {
 /// The norms of `other` − `field`, summed pixel by pixel in order.
 ///
 /// # Panics
-/// If the pictures differ in size.
+/// If the images differ in size.
 #[must_use]
-pub fn norms(field: &Raster, other: &Raster) -> Norms {
+pub fn norms(field: &Raster, other: &Raster) -> DifferenceNorms {
     assert_eq!(field.size, other.size, "pictures of the same pixels are compared");
     of_values(&field.values, &other.values)
 }
 
 /// The norms of the differences of pairs of values.
-pub(super) fn of_values(field: &[f64], other: &[f64]) -> Norms {
-    let (mut found, mut sums) = (Norms::default(), [[0.0; 2]; 2]);
+pub(super) fn of_values(field: &[f64], other: &[f64]) -> DifferenceNorms {
+    let (mut found, mut sums) = (DifferenceNorms::default(), [[0.0; 2]; 2]);
     for (&u, &v) in field.iter().zip(other) {
         match (u.is_nan(), v.is_nan()) {
             (true, true) => {}
@@ -80,7 +80,7 @@ pub(super) fn of_values(field: &[f64], other: &[f64]) -> Norms {
 /// infinite alike.
 ///
 /// # Panics
-/// If the pictures differ in size.
+/// If the images differ in size.
 #[must_use]
 pub fn difference(field: &Raster, other: &Raster) -> Raster {
     assert_eq!(field.size, other.size, "pictures of the same pixels are compared");

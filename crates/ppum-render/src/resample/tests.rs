@@ -7,8 +7,8 @@ use ppum::weight::WeightFunction;
 use ppum_raster::reference::reference;
 use ppum_testkit::random::Random;
 
-use super::need::{Convergence, Needed, Obstacle, ResamplingSetup, converge};
-use super::norms::{Norms, difference, norms};
+use super::need::{ConvergenceObstacle, GridConvergence, GridNeed, ResamplingSetup, converge};
+use super::norms::{DifferenceNorms, difference, norms};
 use super::*;
 use ppum::function::Frame;
 
@@ -49,12 +49,12 @@ fn whole(dataset: &Dataset, pixels: [u32; 2]) -> View {
 fn raster(dataset: &Dataset, view: &View, size: [u32; 2], by: Interpolation) -> [Raster; 2] {
     let field = Field::new(dataset, 0).unwrap();
     let quantity = Quantity::parse("u", &field).unwrap();
-    let grid = Grid::over_domain(&field, size).unwrap();
+    let grid = SampleGrid::over_domain(&field, size).unwrap();
     let samples = grid.sample(&field, &quantity, unwatched()).unwrap();
     [reference(&field, view, &quantity, unwatched()).unwrap(), samples.raster(by, view)]
 }
 
-fn errors(dataset: &Dataset, view: &View, n: u32, by: Interpolation) -> Norms {
+fn errors(dataset: &Dataset, view: &View, n: u32, by: Interpolation) -> DifferenceNorms {
     let [direct, other] = raster(dataset, view, [n + n / 2, n], by);
     norms(&direct, &other)
 }
@@ -118,7 +118,7 @@ fn errors_at_a_tip_fall_as_the_root_of_the_spacing() {
         let error = |width: f64| {
             let view = View::new(tip, width, [120, 120]).unwrap();
             let bounds = Rect::new(vec2(-width, -1.1 * width), vec2(1.2 * width, width));
-            let grid = Grid::new(tip, bounds, [12, 12]).unwrap();
+            let grid = SampleGrid::new(tip, bounds, [12, 12]).unwrap();
             let samples = grid.sample(&field, &quantity, unwatched()).unwrap();
             let direct = reference(&field, &view, &quantity, unwatched()).unwrap();
             norms(&direct, &samples.raster(by, &view)).absolute
@@ -138,7 +138,7 @@ fn errors_at_a_tip_fall_as_the_root_of_the_spacing() {
 fn interpolations_against_their_definitions() {
     let mut random = Random(5);
     let (size, bounds) = ([6u32, 5u32], Rect::new(vec2(-0.4, 0.1), vec2(0.85, 0.9)));
-    let grid = Grid::new(vec2(2.0, -1.0), bounds, size).unwrap();
+    let grid = SampleGrid::new(vec2(2.0, -1.0), bounds, size).unwrap();
     let values: Vec<f64> = (0..30).map(|_| random.between(-1.0, 1.0)).collect();
     let u = |i: i64, j: i64| -> f64 {
         // three points beyond the border make a parabola
@@ -162,7 +162,7 @@ fn interpolations_against_their_definitions() {
             + (3.0 * s * s - 2.0 * s.powi(3)) * p[2]
             + (s.powi(3) - s * s) * slopes[1]
     };
-    let samples = Samples { grid, values: values.clone() };
+    let samples = GridSamples { grid, values: values.clone() };
     for _ in 0..500 {
         let p = random.point(&bounds);
         let t = [(p.x + 0.4) / 0.25, (p.y - 0.1) / 0.2];
@@ -264,7 +264,7 @@ fn memory_is_counted() {
     // vertices; "x"
     let expected = patches * (64 + 13 + 8) + 4 * (patches + 1) + 32 + 1;
     assert_eq!(representation_bytes(&field), expected);
-    let grid = Grid::over_domain(&field, [640, 480]).unwrap();
+    let grid = SampleGrid::over_domain(&field, [640, 480]).unwrap();
     let samples = grid.sample(&field, &Quantity::Component(0), unwatched()).unwrap();
     assert_eq!(grid.bytes(), std::mem::size_of_val(&samples.values[..]) as u64);
 }
@@ -273,18 +273,18 @@ fn memory_is_counted() {
 fn grids_that_cannot_be() {
     let bounds = Rect::new(vec2(0.0, 0.0), vec2(1.0, 2.0));
     for size in [[1, 5], [5, 1], [0, 0], [1 << 15, 1 << 15]] {
-        let refused = Grid::new(Vec2::ZERO, bounds, size);
+        let refused = SampleGrid::new(Vec2::ZERO, bounds, size);
         assert_eq!(refused, Err(GridError::Points(size[0], size[1])));
     }
-    let flat = Grid::new(Vec2::ZERO, Rect::new(bounds.max, bounds.min), [2, 2]);
+    let flat = SampleGrid::new(Vec2::ZERO, Rect::new(bounds.max, bounds.min), [2, 2]);
     assert!(matches!(flat, Err(GridError::Empty(_))));
     assert!("cubic".parse::<Interpolation>().unwrap_err().to_string().contains("bicubic"));
 }
 
-fn convergence(dataset: &Dataset, view: &View, name: &str, target: f64) -> Convergence {
+fn convergence(dataset: &Dataset, view: &View, name: &str, target: f64) -> GridConvergence {
     let field = Field::new(dataset, 0).unwrap();
     let quantity = Quantity::parse(name, &field).unwrap();
-    let grid = Grid::over_domain(&field, [3, 2]).unwrap();
+    let grid = SampleGrid::over_domain(&field, [3, 2]).unwrap();
     let interpolation = Interpolation::Bilinear;
     let subject = ResamplingSetup { field: &field, view, quantity: &quantity, grid, interpolation };
     converge(&subject, target, unwatched()).unwrap()
@@ -298,7 +298,7 @@ fn the_grid_for_an_error() {
     let view = whole(&dataset, [300, 200]);
     for target in [1e-2, 1e-4, 1e-6] {
         let found = convergence(&dataset, &view, "u", target);
-        let Needed::Grid(size) = found.needed(2, target) else { panic!("{found:?}") };
+        let GridNeed::Grid(size) = found.needed(2, target) else { panic!("{found:?}") };
         assert_eq!(found.obstacle, None);
         // largest value 4; doubling overshoots by less than 2 in each direction
         let error = |[nx, ny]: [u32; 2]| {
@@ -311,7 +311,7 @@ fn the_grid_for_an_error() {
     }
     // beyond the largest grid the power law goes on
     let found = convergence(&dataset, &view, "u", 1e-11);
-    let Needed::Extrapolated([nx, ny]) = found.needed(2, 1e-11) else { panic!("{found:?}") };
+    let GridNeed::Extrapolated([nx, ny]) = found.needed(2, 1e-11) else { panic!("{found:?}") };
     let (h, k) = (3.0 / nx, 2.0 / ny);
     let ratio = (h * h + k * k) / 32.0 / 1e-11;
     assert!((0.8..1.25).contains(&ratio), "{ratio}");
@@ -325,12 +325,12 @@ fn what_no_grid_reaches_is_said() {
     let never = |dataset: &Dataset, view: &View, name: &str| {
         convergence(dataset, view, name, 1e-3).needed(2, 1e-3)
     };
-    assert_eq!(never(&tip, &view, "du_dx"), Needed::Never(Obstacle::Singular));
-    assert_eq!(never(&jump, &view, "u"), Needed::Never(Obstacle::Jump));
+    assert_eq!(never(&tip, &view, "du_dx"), GridNeed::Never(ConvergenceObstacle::Singular));
+    assert_eq!(never(&jump, &view, "u"), GridNeed::Never(ConvergenceObstacle::Jump));
     // continuous, and away from the tip
     let ahead = View::new(vec2(1.0, 0.7), 0.4, [40, 40]).unwrap();
     for (dataset, view, name) in [(&tip, &view, "u"), (&jump, &ahead, "u"), (&tip, &ahead, "du_dx")]
     {
-        assert!(!matches!(never(dataset, view, name), Needed::Never(_)), "{name}");
+        assert!(!matches!(never(dataset, view, name), GridNeed::Never(_)), "{name}");
     }
 }

@@ -2,27 +2,27 @@
 //! its centre.
 //!
 //! A pixel is cut into N × N squares, and the field evaluated at the centre of each
-//! ([`View::finer`]). The pixel's value is the mean of those values that lie in the plate, on
+//! ([`View::finer`]). The pixel's value is the mean of those values that lie in the body, on
 //! whichever side of a crack,
 //!
 //! ```text
 //! m = 1/n Σ_k q(x_k)        x_k in the plate, q(x_k) finite, n of them
 //! ```
 //!
-//! and its opacity the share of samples that lie in the plate. This is an area average by the
+//! and its opacity the share of samples that lie in the body. This is an area average by the
 //! midpoint rule, exact for linear fields; means are of *values*, not of colours, so a colour bar
 //! still tells what a colour means. Further:
 //!
 //! - the mean of directions, which are angles up to π, is that of the doubled angles as vectors:
 //!   ½ atan2(Σ sin 2θ_k, Σ cos 2θ_k);
-//! - samples of the plate without a value, as formulas have them, do not count; where no sample has
+//! - samples of the body without a value, as formulas have them, do not count; where no sample has
 //!   one the pixel has none;
 //! - a value is infinite at points, as stresses are at a tip, which have no area: it does not count
 //!   beside finite ones. Where all are infinite so is the mean, and undefined if they are so with
 //!   both signs;
 //! - one sample is the value at the centre, to the last bit.
 //!
-//! Costs N² times as much as the picture of centres; memory is bounded, since the finer view is
+//! Costs N² times as much as the image of centres; memory is bounded, since the finer view is
 //! drawn in strips.
 
 use std::num::NonZeroU8;
@@ -32,8 +32,8 @@ use ppum::field::{Field, LocalField};
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
 use ppum::vec2::Vec2;
-use ppum_raster::RenderError;
-use ppum_raster::raster::{Raster, Sample};
+use ppum_raster::RasterError;
+use ppum_raster::raster::{Raster, RasterValue};
 use ppum_raster::scatter::render_strips;
 use ppum_raster::view::View;
 use rayon::prelude::*;
@@ -89,12 +89,12 @@ impl FromStr for Samples {
     }
 }
 
-/// The means over the pixels of a view, and how much of the pixels is plate.
+/// The means over the pixels of a view, and how much of the pixels is body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Means<T = f64> {
     /// The means; NaN where no sample has a value.
     pub raster: Raster<T>,
-    /// Number of samples that lie in the plate, pixel by pixel.
+    /// Number of samples that lie in the body, pixel by pixel.
     pub inside: Vec<u16>,
     /// The number of samples.
     pub samples: Samples,
@@ -109,7 +109,7 @@ pub struct SampleImage<'a, T> {
     pub undefined: &'a [u32],
 }
 
-impl<T: Sample> Means<T> {
+impl<T: RasterValue> Means<T> {
     /// The means of a quantity over the pixels of a view, from an image of its samples.
     ///
     /// # Panics
@@ -124,12 +124,12 @@ impl<T: Sample> Means<T> {
         let size = view.pixels.map(|n| n * samples.side());
         assert_eq!(image.raster.size, size, "an image of samples");
         let inside = Inside::Pixels { sorted: image.undefined, columns: size[0] };
-        let mut gathered = Gathered::new(inside, view, quantity, samples);
+        let mut gathered = SampleMeans::new(inside, view, quantity, samples);
         gathered.add(&image.raster.values);
         gathered.finish()
     }
 
-    /// The pixels with some of the plate, but without a value, by their place row by row.
+    /// The pixels with some of the body, but without a value, by their place row by row.
     #[must_use]
     pub fn undefined(&self) -> Vec<u32> {
         let pixels = (0u32..).zip(self.inside.iter().zip(&self.raster.values));
@@ -138,7 +138,7 @@ impl<T: Sample> Means<T> {
         without.map(|(pixel, _)| pixel).collect()
     }
 
-    /// The share of each pixel that is plate, as an opacity.
+    /// The share of each pixel that is body, as an opacity.
     #[must_use]
     pub fn opacity(&self) -> Vec<u8> {
         let all = f64::from(self.samples.count());
@@ -151,16 +151,16 @@ impl<T: Sample> Means<T> {
 ///
 /// # Errors
 /// Those of [`render`](ppum_raster::scatter::render); samples finer than f64 has numbers for.
-pub fn means<T: Sample>(
+pub fn means<T: RasterValue>(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
     samples: Samples,
     watcher: &dyn Watcher,
-) -> Result<Means<T>, RenderError> {
+) -> Result<Means<T>, RasterError> {
     let finer = view.finer(samples.side())?;
     let inside = Inside::Field(Box::new(field.at(view.center)));
-    let mut gathered = Gathered::new(inside, view, quantity, samples);
+    let mut gathered = SampleMeans::new(inside, view, quantity, samples);
     let (rows, mut add) = (rows(&finer, samples), |values: Vec<T>| gathered.add(&values));
     render_strips::<T>(field, &finer, quantity, rows, watcher, &mut add)?;
     Ok(gathered.finish())
@@ -200,7 +200,7 @@ impl Inside<'_> {
 }
 
 /// Means of the rows so far.
-struct Gathered<'v, T> {
+struct SampleMeans<'v, T> {
     view: &'v View,
     samples: Samples,
     inside_of: Inside<'v>,
@@ -213,7 +213,7 @@ struct Gathered<'v, T> {
     inside: Vec<u16>,
 }
 
-impl<'v, T: Sample> Gathered<'v, T> {
+impl<'v, T: RasterValue> SampleMeans<'v, T> {
     fn new(inside_of: Inside<'v>, view: &'v View, quantity: &Quantity, samples: Samples) -> Self {
         let is_direction = *quantity == Quantity::PrincipalDirection;
         let finer = View { pixels: view.pixels.map(|n| n * samples.side()), ..*view };
@@ -233,7 +233,7 @@ impl<'v, T: Sample> Gathered<'v, T> {
         self.inside.extend(found.iter().map(|(_, inside)| *inside));
     }
 
-    /// Mean and number of samples of the plate, of each pixel of a row.
+    /// Mean and number of samples of the body, of each pixel of a row.
     fn line(&self, row: u32, samples: &[T]) -> Vec<(T, u16)> {
         let (columns, side) = (self.xs.len(), self.samples.side() as usize);
         let first_row = row * self.samples.side();

@@ -18,7 +18,7 @@ fn samples(n: u8) -> Samples {
     Samples::new(n).expect("a number of samples")
 }
 
-fn means_of<T: Sample>(dataset: &Dataset, view: &View, quantity: &str, n: u8) -> Means<T> {
+fn means_of<T: RasterValue>(dataset: &Dataset, view: &View, quantity: &str, n: u8) -> Means<T> {
     let field = Field::new(dataset, 0).expect("a field");
     let quantity = Quantity::parse(quantity, &field).expect("a quantity");
     means(&field, view, &quantity, samples(n), unwatched()).expect("a picture")

@@ -9,22 +9,22 @@ const TENSOR: [&str; 6] = ["XX", "YY", "ZZ", "XY", "YZ", "XZ"];
 
 /// An array of numbers at points.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Array {
+pub struct PointArray {
     /// Its name in the file.
     pub name: String,
     /// For each component its name, empty of a scalar, and its quantity; zero if it has none.
     pub components: Vec<(&'static str, Option<Quantity>)>,
 }
 
-impl Array {
+impl PointArray {
     /// A scalar.
     #[must_use]
     pub fn scalar(name: &str, quantity: Quantity) -> Self {
         Self { name: name.to_owned(), components: vec![("", Some(quantity))] }
     }
 
-    /// What is written if nothing is asked for: of elasticity the displacement, the stress tensor
-    /// and von Mises' stress, of Poisson's equation the field and its gradient, else the field.
+    /// Returns the default arrays: of elasticity the displacement, the stress tensor and von Mises'
+    /// stress, of Poisson's equation the field and its gradient, else the field.
     ///
     /// # Errors
     /// None of a field that passed its check.
@@ -76,7 +76,7 @@ impl Array {
 
 /// Arrays as a row of numbers, one for each quantity.
 #[derive(Clone, Debug)]
-pub(super) struct Columns {
+pub(super) struct ArrayColumns {
     pub(super) quantities: Vec<Quantity>,
     /// For each quantity the number of its array.
     pub(super) array: Vec<usize>,
@@ -84,8 +84,8 @@ pub(super) struct Columns {
     pub(super) jumps: Vec<bool>,
 }
 
-impl Columns {
-    pub(super) fn new(arrays: &[Array]) -> Self {
+impl ArrayColumns {
+    pub(super) fn new(arrays: &[PointArray]) -> Self {
         let (mut quantities, mut array) = (Vec::new(), Vec::new());
         for (number, one) in arrays.iter().enumerate() {
             for quantity in one.quantities() {

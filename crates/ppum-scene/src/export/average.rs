@@ -7,10 +7,10 @@
 use ppum::quantity::Quantity;
 
 use super::elements::{ElementPlace, evaluate_elements};
-use super::refine::Refined;
-use super::torn::Seen;
+use super::refine::RefinedMesh;
+use super::torn::ValueSide;
 
-impl Refined<'_, '_> {
+impl RefinedMesh<'_, '_> {
     /// For each point the first one that shares its place and the value of the field. A field that
     /// jumps between elements by more than the tolerance stays apart: it may be cracked there.
     pub(super) fn together(&self, cells: &[u32]) -> Vec<usize> {
@@ -39,8 +39,8 @@ impl Refined<'_, '_> {
     fn component_rows(&self) -> Vec<f64> {
         let all = (0..self.field.components() as u8).map(Quantity::Component).collect::<Vec<_>>();
         let places = self.mesh.points.iter().filter_map(|point| match point.seen {
-            Seen::Element(place) => Some(place),
-            Seen::Plane { .. } => None,
+            ValueSide::Element(place) => Some(place),
+            ValueSide::Plane { .. } => None,
         });
         let places: Vec<ElementPlace> = places.collect();
         evaluate_elements(self.field, &all, &places)

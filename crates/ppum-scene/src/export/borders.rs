@@ -32,12 +32,12 @@ const JUMP: f64 = 1e-6;
 
 /// A segment, and what is on it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Border {
+pub(super) struct ExportSegment {
     pub(super) ends: [Vec2; 2],
     pub(super) kind: BorderKind,
 }
 
-/// What is on an edge.
+/// The kind of an edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct BorderKind {
     /// The segment of a crack.
@@ -86,15 +86,19 @@ impl BorderKind {
 }
 
 /// All segments.
-pub(super) fn borders(field: &Field<'_>, domain: &Domain, lines: LineRequest) -> Vec<Border> {
-    let plain = |ends| Border { ends, kind: BorderKind::default() };
+pub(super) fn borders(
+    field: &Field<'_>,
+    domain: &Domain,
+    lines: LineRequest,
+) -> Vec<ExportSegment> {
+    let plain = |ends| ExportSegment { ends, kind: BorderKind::default() };
     let rims = domain.holes.iter().flat_map(Hole::sides);
     let mut all: Vec<_> = domain.bounds.sides().into_iter().chain(rims).map(plain).collect();
     for (crack, points) in (0..).zip(field.step.cracks.iter().map(|crack| &crack.points)) {
         for (segment, ends) in (0..).zip(points.windows(2)) {
             let crack = Some(SegmentId { crack, segment });
             let kind = BorderKind { crack, ..BorderKind::default() };
-            all.push(Border { ends: [ends[0], ends[1]], kind });
+            all.push(ExportSegment { ends: [ends[0], ends[1]], kind });
         }
     }
     if lines.jumps || lines.order > 1 {
@@ -104,7 +108,7 @@ pub(super) fn borders(field: &Field<'_>, domain: &Domain, lines: LineRequest) ->
 }
 
 /// Lines in patches and of the material.
-fn inner_lines(field: &Field<'_>, bounds: &Rect, lines: LineRequest) -> Vec<Border> {
+fn inner_lines(field: &Field<'_>, bounds: &Rect, lines: LineRequest) -> Vec<ExportSegment> {
     let weight = &field.step.partition.boxes().weight;
     let mut places = jumps(weight, 1);
     let kink = lines.jumps && !places.is_empty();
@@ -113,7 +117,7 @@ fn inner_lines(field: &Field<'_>, bounds: &Rect, lines: LineRequest) -> Vec<Bord
     }
     let line = |kink, is_interface| {
         let kind = BorderKind { crack: None, kink, is_line: true, is_interface };
-        move |ends| Border { ends, kind }
+        move |ends| ExportSegment { ends, kind }
     };
     let in_patches = patch_lines(field, bounds, &places).into_iter().map(line(kink, false));
     in_patches.chain(interfaces(field).into_iter().map(line(lines.jumps, true))).collect()
@@ -124,13 +128,14 @@ pub(super) fn longest(bounds: &Rect) -> f64 {
     size.x.max(size.y)
 }
 
-/// Divides segments where they meet, but for lines along axes among themselves: both get one point,
-/// and nothing passes between.
-fn divided(all: &[Border], reach: f64) -> Vec<Border> {
+/// Divides segments where they meet, except for lines along axes among themselves: both get one
+/// point, and nothing passes between.
+fn divided(all: &[ExportSegment], reach: f64) -> Vec<ExportSegment> {
     let mut known = crossings(all);
     let mut inner: Vec<Vec<Vec2>> = vec![Vec::new(); all.len()];
-    let is_along_axis =
-        |&Border { ends: [a, b], kind }: &Border| kind.is_line && (a.x == b.x || a.y == b.y);
+    let is_along_axis = |&ExportSegment { ends: [a, b], kind }: &ExportSegment| {
+        kind.is_line && (a.x == b.x || a.y == b.y)
+    };
     for i in (0..all.len()).filter(|&i| !is_along_axis(&all[i])) {
         for j in (0..all.len()).filter(|&j| j > i || is_along_axis(&all[j])) {
             for p in meetings(all[i].ends, all[j].ends, reach) {
@@ -146,12 +151,16 @@ fn divided(all: &[Border], reach: f64) -> Vec<Border> {
 }
 
 /// The parts of a segment between points on it.
-fn parts(Border { ends: [a, b], kind }: Border, mut inner: Vec<Vec2>, reach: f64) -> Vec<Border> {
+fn parts(
+    ExportSegment { ends: [a, b], kind }: ExportSegment,
+    mut inner: Vec<Vec2>,
+    reach: f64,
+) -> Vec<ExportSegment> {
     inner.retain(|p| (*p - a).length() > reach && (*p - b).length() > reach);
     inner.sort_by(|p, q| (*p - a).length().total_cmp(&(*q - a).length()));
     inner.dedup();
     let chain: Vec<Vec2> = [a].into_iter().chain(inner).chain([b]).collect();
-    chain.windows(2).map(|pair| Border { ends: [pair[0], pair[1]], kind }).collect()
+    chain.windows(2).map(|pair| ExportSegment { ends: [pair[0], pair[1]], kind }).collect()
 }
 
 /// Where two segments meet: ends of one on the other, else their crossing, with the coordinate of
@@ -178,7 +187,7 @@ fn meetings([a, b]: [Vec2; 2], [c, d]: [Vec2; 2], reach: f64) -> Vec<Vec2> {
 /// The points in which upright and level segments cross, with the coordinates of both: computed as
 /// crossings of oblique lines they would be beside them by their rounding, and triangles between
 /// as thin.
-pub(super) fn crossings(borders: &[Border]) -> Vec<Vec2> {
+pub(super) fn crossings(borders: &[ExportSegment]) -> Vec<Vec2> {
     let of = |is: fn(&[Vec2; 2]) -> bool| borders.iter().map(|b| b.ends).filter(is);
     let level: Vec<_> = of(|[a, b]| a.y == b.y).collect();
     let mut found = Vec::new();
@@ -250,7 +259,7 @@ fn known_points(field: &Field<'_>) -> Vec<Vec2> {
 
 /// A part of a line x = `at` (or y = `at`).
 #[derive(Clone, Copy)]
-struct Stretch {
+struct AxisStretch {
     at: f64,
     from: f64,
     to: f64,
@@ -267,7 +276,7 @@ fn patch_lines(field: &Field<'_>, bounds: &Rect, places: &[f64]) -> Vec<[Vec2; 2
         Snap::new(known.iter().map(|p| along(*p, axis)).collect(), at.chain(ends).collect(), reach)
     });
     let [upright, level] = [0, 1].map(|axis| {
-        let snapped = lines[axis].iter().map(|line| Stretch {
+        let snapped = lines[axis].iter().map(|line| AxisStretch {
             at: snaps[axis].nearest(line.at),
             from: snaps[1 - axis].nearest(line.from),
             to: snaps[1 - axis].nearest(line.to),
@@ -284,7 +293,12 @@ fn along(p: Vec2, axis: usize) -> f64 {
 }
 
 /// The lines across an axis of all patches, within the box.
-fn stretches(partition: &BoxPartition, places: &[f64], bounds: &Rect, axis: usize) -> Vec<Stretch> {
+fn stretches(
+    partition: &BoxPartition,
+    places: &[f64],
+    bounds: &Rect,
+    axis: usize,
+) -> Vec<AxisStretch> {
     let of = along;
     let clip = |value: f64, axis| value.clamp(of(bounds.min, axis), of(bounds.max, axis));
     let mut all = Vec::new();
@@ -294,7 +308,7 @@ fn stretches(partition: &BoxPartition, places: &[f64], bounds: &Rect, axis: usiz
         for &t in places {
             let at = of(center, axis) + t * of(half, axis);
             if at == clip(at, axis) && low < high {
-                all.push(Stretch { at, from: low, to: high });
+                all.push(AxisStretch { at, from: low, to: high });
             }
         }
     }
@@ -302,10 +316,10 @@ fn stretches(partition: &BoxPartition, places: &[f64], bounds: &Rect, axis: usiz
 }
 
 /// Stretches of one line that overlap or touch become one.
-fn joined(mut all: Vec<Stretch>) -> Vec<Stretch> {
+fn joined(mut all: Vec<AxisStretch>) -> Vec<AxisStretch> {
     all.retain(|stretch| stretch.from < stretch.to);
     all.sort_by(|a, b| a.at.total_cmp(&b.at).then(a.from.total_cmp(&b.from)));
-    let mut found: Vec<Stretch> = Vec::new();
+    let mut found: Vec<AxisStretch> = Vec::new();
     for stretch in all {
         match found.last_mut() {
             Some(last) if last.at == stretch.at && stretch.from <= last.to => {

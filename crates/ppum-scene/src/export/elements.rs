@@ -14,7 +14,7 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_render::pieces::{ElementCuts, INSET};
 use rayon::prelude::*;
 
-use super::lagrange::Weights;
+use super::lagrange::BarycentricPoint;
 
 /// Points that a thread takes at a time.
 const CHUNK: usize = 1024;
@@ -40,14 +40,14 @@ pub(super) struct ElementPlace {
 
 /// The elements that triangles are parts of.
 #[derive(Debug)]
-pub(super) struct Elements<'d> {
+pub(super) struct ParentElements<'d> {
     step: &'d Step,
     pub(super) mesh: &'d Mesh,
     /// The level fields of each patch, by their index among the fields of the step.
     levels: Vec<Vec<usize>>,
 }
 
-impl<'d> Elements<'d> {
+impl<'d> ParentElements<'d> {
     pub(super) fn new(field: &Field<'d>, mesh: &'d Mesh) -> Self {
         let levels = (0..mesh.len()).map(|patch| levels(field, mesh, patch)).collect();
         Self { step: field.step, mesh, levels }
@@ -136,7 +136,7 @@ fn levels(field: &Field<'_>, mesh: &Mesh, patch: usize) -> Vec<usize> {
 }
 
 /// The point of a triangle with these barycentric coordinates.
-pub(super) fn weighted([a, b, c]: [Vec2; 3], [_, q, r]: Weights) -> Vec2 {
+pub(super) fn weighted([a, b, c]: [Vec2; 3], [_, q, r]: BarycentricPoint) -> Vec2 {
     a + ((b - a) * q + (c - a) * r)
 }
 

@@ -5,11 +5,11 @@
 //! other nodes (Silvester, 1969). Nodes are in the order of VTK.
 
 /// Barycentric coordinates.
-pub(super) type Weights = [f64; 3];
+pub(super) type BarycentricPoint = [f64; 3];
 
 /// Barycentric coordinates at which a linear triangle is looked at: the middle, near the middles of
 /// the edges, where quadratic functions differ most, and between.
-const LINEAR_TESTS: [Weights; 7] = [
+const LINEAR_TESTS: [BarycentricPoint; 7] = [
     [1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0],
     [0.48, 0.48, 0.04],
     [0.04, 0.48, 0.48],
@@ -30,7 +30,7 @@ pub(super) struct Lagrange {
     /// Barycentric coordinates times n: corners, then edges from corner to corner, then the inside.
     pub(super) nodes: Vec<[u8; 3]>,
     /// Where interpolation is compared with the field.
-    pub(super) tests: Vec<Weights>,
+    pub(super) tests: Vec<BarycentricPoint>,
     /// The weights of the nodes at each test.
     pub(super) at_tests: Vec<Vec<f64>>,
 }
@@ -43,7 +43,7 @@ impl Lagrange {
     }
 
     /// The value of each node's polynomial at a place.
-    pub(super) fn weights(&self, at: Weights) -> Vec<f64> {
+    pub(super) fn weights(&self, at: BarycentricPoint) -> Vec<f64> {
         let scaled = at.map(|b| f64::from(self.order) * b);
         let factor = |m: u8, z: f64| -> f64 {
             (0..m).map(|l| (z - f64::from(l)) / f64::from(m - l)).product()
@@ -75,9 +75,10 @@ fn nodes(order: u8) -> Vec<[u8; 3]> {
     corners.chain(edges).chain(inside.into_iter().map(|node| node.map(|i| i + 1))).collect()
 }
 
-/// Of higher orders near the middles between nodes on edges, where polynomials of the next degree
-/// differ most, and the middles of the triangles between nodes.
-fn tests(order: u8) -> Vec<Weights> {
+/// The points at which triangles are tested; for higher orders near the middles between nodes on
+/// edges, where polynomials of the next degree differ most, and in the middles of the triangles
+/// between nodes.
+fn tests(order: u8) -> Vec<BarycentricPoint> {
     if order == 1 {
         return LINEAR_TESTS.to_vec();
     }
@@ -109,7 +110,7 @@ mod tests {
             let cell = Lagrange::new(order);
             assert_eq!(cell.nodes.len(), node_count(order));
             for (p, q) in (0..=order).flat_map(|p| (0..=order - p).map(move |q| (p, q))) {
-                let value = |b: Weights| b[0].powi(p.into()) * b[1].powi(q.into());
+                let value = |b: BarycentricPoint| b[0].powi(p.into()) * b[1].powi(q.into());
                 let at_node = |node: &[u8; 3]| value(node.map(|i| f64::from(i) / f64::from(order)));
                 let (s, t) = (random.between(0.0, 0.5), random.between(0.0, 0.5));
                 let at = [s, t, 1.0 - s - t];

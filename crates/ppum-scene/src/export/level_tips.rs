@@ -3,10 +3,10 @@
 use ppum::function::{Frame, FunctionKind};
 
 use super::elements::{ElementPlace, evaluate_elements};
-use super::refine::Refined;
-use super::torn::{Seen, TornPoint};
+use super::refine::RefinedMesh;
+use super::torn::{TornPoint, ValueSide};
 
-impl Refined<'_, '_> {
+impl RefinedMesh<'_, '_> {
     /// Adds tips to the singular points: they are corners of the pieces of elements.
     pub(super) fn add_level_tips(&mut self, radius: Option<f64>) {
         let levels = |kind: &FunctionKind| {
@@ -16,8 +16,8 @@ impl Refined<'_, '_> {
             return;
         }
         let place = |point: &TornPoint| match point.seen {
-            Seen::Element(place) => Some(ElementPlace { inner: place.at, ..place }),
-            Seen::Plane { .. } => None,
+            ValueSide::Element(place) => Some(ElementPlace { inner: place.at, ..place }),
+            ValueSide::Plane { .. } => None,
         };
         let places: Vec<_> = self.mesh.points.iter().filter_map(place).collect();
         let rows = evaluate_elements(self.field, &self.columns.quantities, &places);

@@ -3,8 +3,8 @@
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
-use super::lagrange::Weights;
-use super::refine::{Refined, or_infinite};
+use super::lagrange::BarycentricPoint;
+use super::refine::{RefinedMesh, or_infinite};
 
 /// Random points of a measurement: half of them uniform in the domain, half of them uniform among
 /// the triangles, so that small ones are seen too.
@@ -25,8 +25,8 @@ pub(super) struct Measurement {
     pub(super) failed: Vec<u32>,
 }
 
-impl Refined<'_, '_> {
-    /// Measures at points that follow from a seed, with values that are evaluated anew or those at
+impl RefinedMesh<'_, '_> {
+    /// Measures at points that follow from a seed, with values that are evaluated again or those at
     /// the points of `cells`.
     pub(super) fn measure(&self, seed: u64, cells: Option<&[u32]>) -> Measurement {
         let (width, allowed) = (self.columns.len(), self.allowed());
@@ -68,7 +68,7 @@ impl Refined<'_, '_> {
     }
 
     /// Differences at a place; −1 where nothing is claimed of a column.
-    fn differences(&self, at: &(u32, Weights), exact: &[f64], nodes: &[f64]) -> Vec<f64> {
+    fn differences(&self, at: &(u32, BarycentricPoint), exact: &[f64], nodes: &[f64]) -> Vec<f64> {
         let is_far = self.singular.loosened(self.position(at.0, at.1)) == 1.0;
         let interpolated = self.interpolated(nodes, &self.cell.weights(at.1));
         let difference = |c: usize| match is_far || !self.singular.columns[c] {
@@ -79,7 +79,7 @@ impl Refined<'_, '_> {
         (0..exact.len()).map(difference).collect()
     }
 
-    fn random_points(&self, seed: u64) -> Vec<(u32, Weights)> {
+    fn random_points(&self, seed: u64) -> Vec<(u32, BarycentricPoint)> {
         let count = self.mesh.triangles.len() as u32;
         let mut sum = 0.0;
         let mut areas = Vec::with_capacity(count as usize);
@@ -87,7 +87,7 @@ impl Refined<'_, '_> {
             sum += double_area(self.mesh.corners(triangle));
             areas.push(sum);
         }
-        let mut random = Random(seed);
+        let mut random = SplitMix64(seed);
         let mut point = |k: usize| {
             let [chosen, p, q] = [(); 3].map(|()| random.unit());
             let triangle = match k % 2 {
@@ -106,9 +106,9 @@ fn double_area([a, b, c]: [Vec2; 3]) -> f64 {
 }
 
 /// SplitMix64 (Steele, Lea, Flood 2014): the same numbers on every machine.
-struct Random(u64);
+struct SplitMix64(u64);
 
-impl Random {
+impl SplitMix64 {
     /// Uniform in \[0, 1).
     fn unit(&mut self) -> f64 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);

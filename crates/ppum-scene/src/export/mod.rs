@@ -1,11 +1,10 @@
 //! A field as triangles for programs that interpolate, such as ParaView, to a tolerance.
 //!
 //! [`resolve`] makes a mesh on which interpolation, linear or of a higher [order](Accuracy::order),
-//! differs from the field by no more than a given part of the range of each [`Array`];
-//! [`vtu::write`] and [`vtkhdf::file`] write it. No triangle crosses a
-//! crack, a rim or a line on which stresses jump, and a vertex there has a point on each side
-//! (`torn`). What has been reached is [`MeasuredAccuracy`] at random points that had no part in
-//! refinement.
+//! differs from the field by no more than a given part of the range of each [`PointArray`];
+//! [`vtu::write`] and [`vtkhdf::file`] write it. No triangle crosses a crack, a rim or a line on
+//! which stresses jump, and a vertex there has a point on each side (`torn`). The accuracy reached,
+//! [`MeasuredAccuracy`], is measured at random points that had no part in refinement.
 //!
 //! Near a tip stresses grow without bound, and no mesh resolves them: there the tolerance holds
 //! outside of a radius, R, in which it is loosened as R/r down to R/100.
@@ -28,22 +27,22 @@ use std::slice::Chunks;
 
 use ppum::field::Field;
 use ppum::progress::{Cancelled, Watcher};
-use ppum::sample::Place;
+use ppum::sample::SidedPoint;
 use ppum::segment;
 use ppum::text::short;
 use ppum::vec2::Vec2;
 use ppum_solve::triangulation::NotFinite;
 
-pub use arrays::Array;
-use arrays::Columns;
-use borders::{Border, LineRequest, SAME, borders, crossings, longest, with_polygons};
+use arrays::ArrayColumns;
+pub use arrays::PointArray;
+use borders::{ExportSegment, LineRequest, SAME, borders, crossings, longest, with_polygons};
 use lagrange::{Lagrange, node_count};
 pub use measure::RANDOM_POINTS;
-use refine::{Limits, Refined};
-use singular::Singular;
+use refine::{Limits, RefinedMesh};
+use singular::SingularPoints;
 use torn::{Torn, TornPoint};
 
-/// What a mesh has to resolve, and what it may cost.
+/// The required accuracy of a mesh, and its limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Accuracy {
     /// Largest difference in parts of the range of an array, outside of singular points; positive.
@@ -56,7 +55,7 @@ pub struct Accuracy {
     /// The degree of the polynomials in triangles, 1 to [`HIGHEST_ORDER`].
     pub order: u8,
     /// True if triangles share their points where quantities jump, with the mean of their values,
-    /// but for cracks and interfaces of the material.
+    /// except for cracks and interfaces of the material.
     pub average: bool,
 }
 
@@ -77,12 +76,12 @@ const QUIET_ROUNDS: u64 = 3;
 
 /// A mesh that resolves a field.
 #[derive(Clone, Debug)]
-pub struct Mesh {
+pub struct ExportMesh {
     /// Points: of a vertex on a crack one for each side.
     pub points: Vec<Vec2>,
     /// Where the field's values at the points were taken.
-    pub places: Vec<Place>,
-    /// The points of the triangles, [`Mesh::triangles`] one after the other.
+    pub places: Vec<SidedPoint>,
+    /// The points of the triangles, [`ExportMesh::triangles`] one after the other.
     pub cells: Vec<u32>,
     /// A row for each point, of the quantities of all arrays.
     pub values: Vec<f64>,
@@ -92,7 +91,7 @@ pub struct Mesh {
     pub singular: Vec<Vec2>,
     /// The tolerance of infinite quantities holds outside of these radii about them.
     pub radii: Vec<f64>,
-    /// What was asked for.
+    /// The required accuracy.
     pub accuracy: Accuracy,
     /// False if the limit of triangles ended the refinement.
     pub is_complete: bool,
@@ -108,7 +107,7 @@ pub fn times(loads: &[f64]) -> Vec<f64> {
     if increase { loads.to_vec() } else { (0..loads.len()).map(|step| step as f64).collect() }
 }
 
-impl Mesh {
+impl ExportMesh {
     /// In words, with what is allowed and what was found, that the tolerance is not kept; `None` if
     /// it is.
     #[must_use]
@@ -136,7 +135,7 @@ impl Mesh {
     /// Bytes of memory, nearly.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let points = self.points.len() * (size_of::<Vec2>() + size_of::<Place>());
+        let points = self.points.len() * (size_of::<Vec2>() + size_of::<SidedPoint>());
         points + size_of_val(&*self.cells) + size_of_val(&*self.values)
     }
 
@@ -169,7 +168,7 @@ impl Mesh {
 #[derive(Clone, Debug, PartialEq)]
 pub struct MeasuredAccuracy {
     /// The array.
-    pub array: Array,
+    pub array: PointArray,
     /// The unit of its components, empty where there is none.
     pub unit: String,
     /// Largest minus smallest value, of components the widest; of infinite quantities outside of
@@ -231,13 +230,13 @@ pub enum ExportError {
 /// Refines triangles of the domain until interpolation resolves all arrays.
 ///
 /// # Errors
-/// See [`ExportError`]; a limit that is met later is told by [`Mesh::is_complete`].
+/// See [`ExportError`]; a limit that is met later is told by [`ExportMesh::is_complete`].
 pub fn resolve(
     field: &Field<'_>,
-    arrays: &[Array],
+    arrays: &[PointArray],
     accuracy: &Accuracy,
     watcher: &dyn Watcher,
-) -> Result<Mesh, ExportError> {
+) -> Result<ExportMesh, ExportError> {
     if !(1..=HIGHEST_ORDER).contains(&accuracy.order) {
         return Err(ExportError::Order(accuracy.order));
     }
@@ -245,12 +244,12 @@ pub fn resolve(
     if let Some(radius) = accuracy.radius.filter(|&radius| radius >= longest) {
         return Err(ExportError::Radius { radius, longest });
     }
-    let columns = Columns::new(arrays);
-    let mut refined = Refined {
+    let columns = ArrayColumns::new(arrays);
+    let mut refined = RefinedMesh {
         field,
         mesh: begin(field, LineRequest { jumps: columns.any_jumps(), order: accuracy.order })?,
         values: Vec::new(),
-        singular: Singular::new(field, &columns, accuracy.radius),
+        singular: SingularPoints::new(field, &columns, accuracy.radius),
         ranges: vec![[f64::INFINITY, f64::NEG_INFINITY]; columns.len()],
         differences: Vec::new(),
         limits: Limits { tolerance: accuracy.tolerance, cells: accuracy.cells },
@@ -279,9 +278,9 @@ fn begin<'d>(field: &Field<'d>, lines: LineRequest) -> Result<Torn<'d>, NotFinit
     Torn::new(field, &domain, &all, &points)
 }
 
-/// Corners and middles of cells, or of supports where there are none, but for those on borders and
-/// nearly there.
-fn points_of_cells(field: &Field<'_>, borders: &[Border]) -> Vec<Vec2> {
+/// Corners and middles of cells, or of supports where there are none, except for those on borders
+/// and nearly there.
+fn points_of_cells(field: &Field<'_>, borders: &[ExportSegment]) -> Vec<Vec2> {
     let near = SAME * longest(&field.domain.bounds);
     let is_apart = |p: &Vec2| {
         field.domain.contains(*p) && borders.iter().all(|b| segment::distance(b.ends, *p) > near)
@@ -291,7 +290,7 @@ fn points_of_cells(field: &Field<'_>, borders: &[Border]) -> Vec<Vec2> {
     points.filter(is_apart).collect()
 }
 
-impl Refined<'_, '_> {
+impl RefinedMesh<'_, '_> {
     /// Refines, measures, and refines where the measurement has found more. False if the limit of
     /// triangles is met.
     fn run(&mut self, watcher: &dyn Watcher) -> Result<bool, Cancelled> {
@@ -314,7 +313,12 @@ impl Refined<'_, '_> {
     }
 
     /// The mesh, measured at points that have not been used before.
-    fn finished(mut self, arrays: &[Array], accuracy: &Accuracy, is_complete: bool) -> Mesh {
+    fn finished(
+        mut self,
+        arrays: &[PointArray],
+        accuracy: &Accuracy,
+        is_complete: bool,
+    ) -> ExportMesh {
         let mut cells = self.mesh.add_nodes(&self.cell);
         self.evaluate_new();
         self.fill(&cells);
@@ -328,7 +332,7 @@ impl Refined<'_, '_> {
             }
             None => torn.clone(),
         };
-        let measured = |(number, array): (usize, &Array)| {
+        let measured = |(number, array): (usize, &PointArray)| {
             let of: Vec<usize> =
                 (0..allowed.len()).filter(|&c| self.columns.array[c] == number).collect();
             let most =
@@ -351,7 +355,7 @@ impl Refined<'_, '_> {
         if let Some(together) = together {
             self.share_points(&together, &mut cells);
         }
-        Mesh {
+        ExportMesh {
             arrays: measured,
             points: self.mesh.points.iter().map(|point| point.position).collect(),
             places: self.mesh.points.iter().map(TornPoint::place).collect(),

@@ -2,16 +2,16 @@
 
 use ppum::field::Field;
 use ppum::progress::{Cancelled, Phase, Progress, Watcher};
-use ppum::sample::{Place, Wanted, evaluate_each};
+use ppum::sample::{SampledQuantity, SidedPoint, evaluate_each};
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
-use super::arrays::Columns;
+use super::arrays::ArrayColumns;
 use super::borders;
 use super::elements::{ElementPlace, evaluate_elements};
-use super::lagrange::{Lagrange, Weights};
-use super::singular::Singular;
-use super::torn::{Seen, Torn, TornPoint};
+use super::lagrange::{BarycentricPoint, Lagrange};
+use super::singular::SingularPoints;
+use super::torn::{Torn, TornPoint, ValueSide};
 
 /// Part of the tolerance that is allowed at tests: elsewhere it may be a little more, and in large
 /// triangles of higher order, of which tests see a smaller part, more than that.
@@ -51,15 +51,15 @@ pub(super) struct Limits {
 }
 
 /// A mesh with its values, and what is known of them so far.
-pub(super) struct Refined<'a, 'd> {
+pub(super) struct RefinedMesh<'a, 'd> {
     pub(super) field: &'a Field<'d>,
-    pub(super) columns: &'a Columns,
+    pub(super) columns: &'a ArrayColumns,
     /// How values are interpolated.
     pub(super) cell: Lagrange,
     pub(super) mesh: Torn<'d>,
     /// A row for each point.
     pub(super) values: Vec<f64>,
-    pub(super) singular: Singular,
+    pub(super) singular: SingularPoints,
     /// Smallest and largest value of each column that was seen outside of singular points.
     pub(super) ranges: Vec<[f64; 2]>,
     /// For each triangle the largest difference at its tests in parts of the ranges of arrays; zero
@@ -76,7 +76,7 @@ struct ValueScale {
     rounding: f64,
 }
 
-impl Refined<'_, '_> {
+impl RefinedMesh<'_, '_> {
     /// Refines the given triangles, which are new or have changed, and all that come of them and
     /// are left of others, the largest differences first. False if the limit of cells is met.
     pub(super) fn refine(
@@ -155,8 +155,8 @@ impl Refined<'_, '_> {
         let (mut inside, mut apart, mut places, mut elements) = (vec![], vec![], vec![], vec![]);
         for (k, point) in new.iter().enumerate() {
             match point.seen {
-                Seen::Element(place) => elements.push(place),
-                Seen::Plane { place, inside: seen } => {
+                ValueSide::Element(place) => elements.push(place),
+                ValueSide::Plane { place, inside: seen } => {
                     inside.push(seen);
                     if place != seen {
                         apart.push(k);
@@ -241,19 +241,20 @@ impl Refined<'_, '_> {
     }
 
     /// Exact rows at places inside triangles, given by barycentric coordinates.
-    pub(super) fn exact(&self, at: &[(u32, Weights)]) -> Vec<f64> {
+    pub(super) fn exact(&self, at: &[(u32, BarycentricPoint)]) -> Vec<f64> {
         if self.field.step.partition.mesh().is_some() {
-            let place =
-                |(t, b): &(u32, Weights)| self.mesh.element_place(*t, *b, self.position(*t, *b));
+            let place = |(t, b): &(u32, BarycentricPoint)| {
+                self.mesh.element_place(*t, *b, self.position(*t, *b))
+            };
             let places: Vec<ElementPlace> = at.par_iter().filter_map(place).collect();
             return evaluate_elements(self.field, &self.columns.quantities, &places);
         }
-        let place = |(t, b): &(u32, Weights)| self.mesh.place(self.position(*t, *b));
-        let places: Vec<Place> = at.par_iter().map(place).collect();
+        let place = |(t, b): &(u32, BarycentricPoint)| self.mesh.place(self.position(*t, *b));
+        let places: Vec<SidedPoint> = at.par_iter().map(place).collect();
         evaluate(self.field, self.columns, &places)
     }
 
-    pub(super) fn position(&self, triangle: u32, at: Weights) -> Vec2 {
+    pub(super) fn position(&self, triangle: u32, at: BarycentricPoint) -> Vec2 {
         self.mesh.position(triangle, at, &self.cell)
     }
 
@@ -364,8 +365,12 @@ pub(super) fn or_infinite(value: f64) -> f64 {
 }
 
 /// Rows of quantities at places, on all threads.
-pub(super) fn evaluate(field: &Field<'_>, columns: &Columns, places: &[Place]) -> Vec<f64> {
-    let wanted = Wanted::Values(&columns.quantities);
+pub(super) fn evaluate(
+    field: &Field<'_>,
+    columns: &ArrayColumns,
+    places: &[SidedPoint],
+) -> Vec<f64> {
+    let wanted = SampledQuantity::Values(&columns.quantities);
     let rows: Vec<Vec<f64>> =
         places.par_chunks(8 * CHUNK).map(|part| evaluate_each(field, wanted, part)).collect();
     rows.concat()

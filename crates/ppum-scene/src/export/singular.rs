@@ -7,7 +7,7 @@ use ppum::quantity::Quantity;
 use ppum::segment;
 use ppum::vec2::Vec2;
 
-use super::arrays::Columns;
+use super::arrays::ArrayColumns;
 use super::borders::{SAME, longest};
 
 /// The default radius about a singular point in parts of the length on which the field varies
@@ -20,7 +20,7 @@ const INNERMOST: f64 = 0.01;
 
 /// Points at which some quantities are infinite.
 #[derive(Clone, Debug)]
-pub(super) struct Singular {
+pub(super) struct SingularPoints {
     pub(super) points: Vec<Vec2>,
     /// For each point the radius within which the tolerance is loosened.
     pub(super) radii: Vec<f64>,
@@ -28,10 +28,10 @@ pub(super) struct Singular {
     pub(super) columns: Vec<bool>,
 }
 
-impl Singular {
+impl SingularPoints {
     /// Tips and origins of functions at which a quantity is not finite, with one radius or that
     /// which suits each point.
-    pub(super) fn new(field: &Field<'_>, columns: &Columns, radius: Option<f64>) -> Self {
+    pub(super) fn new(field: &Field<'_>, columns: &ArrayColumns, radius: Option<f64>) -> Self {
         let width = columns.len();
         let mut found = Self { points: Vec::new(), radii: Vec::new(), columns: vec![false; width] };
         for point in candidates(field) {

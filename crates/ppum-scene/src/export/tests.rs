@@ -8,13 +8,13 @@ use ppum::domain::{Domain, Hole};
 use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
-use ppum::sample::{Place, Seats, Wanted, evaluate_each};
+use ppum::sample::{AnchorMap, SampledQuantity, SidedPoint, evaluate_each};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Recipe, crack, kinked};
 
-use super::vtp::{Feature, FeatureKind, Lines};
+use super::vtp::{Feature, FeatureKind, PolylineData};
 use super::*;
 
 mod elements;
@@ -48,8 +48,8 @@ fn plate(seed: u64) -> Dataset {
     dataset
 }
 
-fn resolved(field: &Field<'_>, order: u8) -> Mesh {
-    let arrays = Array::defaults(field).unwrap();
+fn resolved(field: &Field<'_>, order: u8) -> ExportMesh {
+    let arrays = PointArray::defaults(field).unwrap();
     let accuracy = Accuracy {
         tolerance: TOLERANCE,
         radius: Some(RADIUS),
@@ -62,7 +62,7 @@ fn resolved(field: &Field<'_>, order: u8) -> Mesh {
     mesh
 }
 
-impl Mesh {
+impl ExportMesh {
     fn corners(&self, triangle: &[u32]) -> [Vec2; 3] {
         [0, 1, 2].map(|k| self.points[triangle[k] as usize])
     }
@@ -98,7 +98,7 @@ fn is_on_outline(domain: &Domain, p: Vec2) -> bool {
 
 /// Each inner edge, by the coordinates of its ends, has two triangles, each other one belongs to
 /// the outline: so no vertex lies inside an edge.
-fn check_edges(mesh: &Mesh, domain: &Domain) {
+fn check_edges(mesh: &ExportMesh, domain: &Domain) {
     let mut owners: BTreeMap<[[u64; 2]; 2], usize> = BTreeMap::new();
     let bits = |p: Vec2| [p.x.to_bits(), p.y.to_bits()];
     for corners in mesh.triangles().map(|t| mesh.corners(t)) {
@@ -116,7 +116,7 @@ fn check_edges(mesh: &Mesh, domain: &Domain) {
 }
 
 /// No segment of a crack passes through a triangle that is shrunk by a little.
-fn check_cracks(mesh: &Mesh, cracks: &[Crack]) {
+fn check_cracks(mesh: &ExportMesh, cracks: &[Crack]) {
     let segments: Vec<_> = cracks.iter().flat_map(|c| c.points.windows(2)).collect();
     for corners in mesh.triangles().map(|t| mesh.corners(t)) {
         let center = (corners[0] + corners[1] + corners[2]) / 3.0;
@@ -137,11 +137,11 @@ fn crossing([a, b]: [Vec2; 2], segment: &[Vec2]) -> bool {
 
 /// Displacements at points are those of `sample`, to the last digits, which depend on what else is
 /// in a vector, and on cracks those of the side that the triangle is on.
-fn check_values(mesh: &Mesh, field: &Field<'_>) -> usize {
-    let (seats, width) = (Seats::new(field), mesh.values.len() / mesh.places.len());
-    let places: Vec<Place> = mesh.places.iter().map(|p| seats.at(p.point, p.side)).collect();
+fn check_values(mesh: &ExportMesh, field: &Field<'_>) -> usize {
+    let (seats, width) = (AnchorMap::new(field), mesh.values.len() / mesh.places.len());
+    let places: Vec<SidedPoint> = mesh.places.iter().map(|p| seats.at(p.point, p.side)).collect();
     let quantities = [Quantity::Component(0), Quantity::Component(1)];
-    let exact = evaluate_each(field, Wanted::Values(&quantities), &places);
+    let exact = evaluate_each(field, SampledQuantity::Values(&quantities), &places);
     for ((place, row), exact) in
         mesh.places.iter().zip(mesh.values.chunks(width)).zip(exact.chunks(2))
     {
@@ -168,7 +168,7 @@ fn check_values(mesh: &Mesh, field: &Field<'_>) -> usize {
 }
 
 /// Interpolation at fresh random points, the triangle found by looking at all.
-fn check_accuracy(mesh: &Mesh, field: &Field<'_>, seed: u64) {
+fn check_accuracy(mesh: &ExportMesh, field: &Field<'_>, seed: u64) {
     let mut random = Random(seed);
     let cracks = &field.step.cracks;
     let tips: Vec<Vec2> =
@@ -218,7 +218,7 @@ fn weights([a, b, c]: [Vec2; 3], p: Vec2) -> Option<[f64; 3]> {
 
 /// Points of both faces at one position, and their largest jump of displacement, which is that of
 /// the field.
-fn check_jumps(mesh: &Mesh, field: &Field<'_>) {
+fn check_jumps(mesh: &ExportMesh, field: &Field<'_>) {
     let width = mesh.values.len() / mesh.places.len();
     let mut faces: BTreeMap<[u64; 2], [Option<usize>; 2]> = BTreeMap::new();
     for (k, place) in mesh.places.iter().enumerate().filter(|(_, place)| place.on.is_some()) {
@@ -243,7 +243,7 @@ fn check_jumps(mesh: &Mesh, field: &Field<'_>) {
 }
 
 /// Nodes are equidistant, and triangles that share the ends of an edge share its nodes.
-fn check_nodes(mesh: &Mesh) {
+fn check_nodes(mesh: &ExportMesh) {
     let cell = Lagrange::new(mesh.accuracy.order);
     let mut edges: BTreeMap<[u32; 2], Vec<u32>> = BTreeMap::new();
     for triangle in mesh.triangles() {
@@ -298,7 +298,7 @@ fn lines_bound_the_body() {
         let notch = vec2(dataset.domain.bounds.max.x, 0.7 + 0.01 * seed as f64);
         dataset.domain.holes.push(Hole::Circle { center: notch, radius: 0.07 });
         let field = Field::new(&dataset, 0).unwrap();
-        let lines = Lines::of(&dataset, &field);
+        let lines = PolylineData::of(&dataset, &field);
         let mut ends: BTreeMap<[u64; 2], u32> = BTreeMap::new();
         let mut length = 0.0;
         for Feature { kind, points: segment } in &lines.lines {
@@ -338,7 +338,7 @@ fn many_random_plates_are_resolved() {
 fn cracks_that_meet_part_triangles() {
     let dataset = Recipe { level: 1, ..Recipe::meeting() }.dataset();
     let field = Field::new(&dataset, 0).unwrap();
-    let arrays = [Array::scalar("ux", Quantity::Component(0))];
+    let arrays = [PointArray::scalar("ux", Quantity::Component(0))];
     let accuracy = Accuracy { tolerance: 0.01, cells: 400_000, ..Accuracy::default() };
     let mesh = resolve(&field, &arrays, &accuracy, unwatched()).unwrap();
     assert!(mesh.is_complete && mesh.singular.is_empty());
@@ -368,7 +368,7 @@ fn limits_are_spent_on_the_largest_differences() {
     for seed in 0..4 {
         let dataset = plate(seed);
         let field = Field::new(&dataset, 0).unwrap();
-        let arrays = Array::defaults(&field).unwrap();
+        let arrays = PointArray::defaults(&field).unwrap();
         let mut accuracy = Accuracy { cells: 10, ..Accuracy::default() };
         let refused = resolve(&field, &arrays, &accuracy, unwatched());
         assert!(matches!(refused, Err(ExportError::Cells { limit: 10, .. })), "{refused:?}");
@@ -406,8 +406,8 @@ fn radii_follow_the_crack() {
         let domain = Rect::new(min * scale, max * scale);
         let dataset = Recipe { domain, cracks, level: 1, zone: 1e6, ..Recipe::default() }.dataset();
         let field = Field::new(&dataset, 0).unwrap();
-        let columns = Columns::new(&Array::defaults(&field).unwrap());
-        Singular::new(&field, &columns, None).radii
+        let columns = ArrayColumns::new(&PointArray::defaults(&field).unwrap());
+        SingularPoints::new(&field, &columns, None).radii
     };
     for size in [1.0, 2.0, 7.0, 48.0] {
         let (min, max) = (vec2(-size, -size), vec2(size, 1.5 * size));
@@ -427,7 +427,7 @@ fn averages_join_triangles() {
     for order in [1, 3] {
         let dataset = plate(0);
         let field = Field::new(&dataset, 0).unwrap();
-        let arrays = Array::defaults(&field).unwrap();
+        let arrays = PointArray::defaults(&field).unwrap();
         let accuracy =
             Accuracy { tolerance: 0.05, radius: Some(RADIUS), order, ..Accuracy::default() };
         let torn = resolve(&field, &arrays, &accuracy, unwatched()).unwrap();
@@ -477,7 +477,7 @@ fn plates_of_few_numbers_end() {
     }
     .dataset();
     let field = Field::new(&dataset, 0).unwrap();
-    let arrays = Array::defaults(&field).unwrap();
+    let arrays = PointArray::defaults(&field).unwrap();
     let accuracy = Accuracy { tolerance: 0.02, cells: 50_000, ..Accuracy::default() };
     let mesh = resolve(&field, &arrays, &accuracy, unwatched()).unwrap();
     assert!(mesh.triangles().len() < 51_000, "{}", mesh.triangles().len());

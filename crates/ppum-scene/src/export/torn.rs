@@ -6,7 +6,7 @@
 //! that is another one (Rivara, 1984): no vertex ever lies inside an edge, and angles stay above
 //! half of the smallest one that the beginning has.
 //!
-//! Of the elements of a mesh each patch has points of its own (`of_elements`).
+//! On a mesh of elements each patch has points of its own (`of_elements`).
 
 mod begin;
 mod forest;
@@ -15,12 +15,12 @@ mod of_elements;
 
 use ppum::crack::{SegmentId, Side};
 use ppum::field::Field;
-use ppum::sample::{Place, Seats};
+use ppum::sample::{AnchorMap, SidedPoint};
 use ppum::vec2::Vec2;
 
 use super::borders::BorderKind;
-use super::elements::{ElementPlace, Elements, weighted};
-use super::lagrange::{Lagrange, Weights};
+use super::elements::{ElementPlace, ParentElements, weighted};
+use super::lagrange::{BarycentricPoint, Lagrange};
 
 /// Part of the way to the centroid of a triangle at which its corner is seen from inside.
 pub(super) use ppum_render::pieces::INSET;
@@ -34,33 +34,33 @@ pub(super) struct TornPoint {
     /// The vertex.
     pub(super) position: Vec2,
     /// Where values of the field are taken.
-    pub(super) seen: Seen,
+    pub(super) seen: ValueSide,
 }
 
 /// Where values of the field are taken.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Seen {
+pub(super) enum ValueSide {
     /// In the plane.
     Plane {
         /// The place.
-        place: Place,
+        place: SidedPoint,
         /// Where quantities are taken that jump across kinks: in the sector if a kink ends it.
-        inside: Place,
+        inside: SidedPoint,
     },
     /// In an element of a mesh.
     Element(ElementPlace),
 }
 
 impl TornPoint {
-    fn new(position: Vec2, place: Place) -> Self {
-        Self { position, seen: Seen::Plane { place, inside: place } }
+    fn new(position: Vec2, place: SidedPoint) -> Self {
+        Self { position, seen: ValueSide::Plane { place, inside: place } }
     }
 
     /// The place in the plane.
-    pub(super) fn place(&self) -> Place {
+    pub(super) fn place(&self) -> SidedPoint {
         match self.seen {
-            Seen::Plane { place, .. } => place,
-            Seen::Element(_) => Place {
+            ValueSide::Plane { place, .. } => place,
+            ValueSide::Element(_) => SidedPoint {
                 point: self.position,
                 anchor: self.position,
                 offset: Vec2::ZERO,
@@ -73,18 +73,18 @@ impl TornPoint {
 
 /// A triangle; edge k leads from corner k to the next.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Triangle {
+pub(super) struct TornTriangle {
     /// Points, counter-clockwise.
     pub(super) corners: [u32; 3],
     /// The triangle across each edge.
     neighbours: [u32; 3],
     kinds: [BorderKind; 3],
-    pub(super) convergence: Convergence,
+    pub(super) convergence: MeshConvergence,
 }
 
 /// How the difference from the field falls from a triangle to those that it is divided into.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Convergence {
+pub(super) struct MeshConvergence {
     /// A difference that none after it was twice as large as.
     first: f64,
     /// Divisions since.
@@ -99,7 +99,7 @@ const LEAST_DIVISIONS: u8 = 12;
 /// displacement is like r^½. As much as this it may fall by chance.
 const TO_HALF: f64 = 24.0;
 
-impl Convergence {
+impl MeshConvergence {
     /// That of a triangle of which no difference is known.
     pub(super) const NEW: Self = Self { first: 0.0, divisions: 0, last: 0.0 };
 
@@ -123,8 +123,8 @@ impl Convergence {
     }
 }
 
-impl Triangle {
-    /// The same triangle with another edge as the first.
+impl TornTriangle {
+    /// Returns the triangle with another edge as the first.
     fn turned_to(self, edge: usize) -> Self {
         let turned = |k: usize| (k + edge) % 3;
         Self {
@@ -139,17 +139,17 @@ impl Triangle {
 /// The mesh.
 #[derive(Debug)]
 pub(super) struct Torn<'d> {
-    seats: Seats<'d>,
+    seats: AnchorMap<'d>,
     cracks: &'d [ppum::crack::Crack],
-    elements: Option<Elements<'d>>,
+    elements: Option<ParentElements<'d>>,
     pub(super) points: Vec<TornPoint>,
-    pub(super) triangles: Vec<Triangle>,
+    pub(super) triangles: Vec<TornTriangle>,
 }
 
 impl<'d> Torn<'d> {
     fn empty(field: &Field<'d>) -> Self {
         Self {
-            seats: Seats::new(field),
+            seats: AnchorMap::new(field),
             cracks: &field.step.cracks,
             elements: None,
             points: Vec::new(),
@@ -160,7 +160,7 @@ impl<'d> Torn<'d> {
 
 impl Torn<'_> {
     /// The place of a point that lies on no border.
-    pub(super) fn place(&self, point: Vec2) -> Place {
+    pub(super) fn place(&self, point: Vec2) -> SidedPoint {
         self.seats.at(point, Side::Above)
     }
 
@@ -170,7 +170,7 @@ impl Torn<'_> {
     }
 
     /// A point of a triangle, interpolated between its nodes as values are.
-    pub(super) fn position(&self, triangle: u32, b: Weights, cell: &Lagrange) -> Vec2 {
+    pub(super) fn position(&self, triangle: u32, b: BarycentricPoint, cell: &Lagrange) -> Vec2 {
         if cell.order == 1 || self.elements.is_none() {
             return weighted(self.corners(triangle), b);
         }
@@ -181,7 +181,7 @@ impl Torn<'_> {
     }
 
     /// A place inside a triangle, a part of the way from a corner to the centroid.
-    fn seen_from_inside(&self, corner: Vec2, triangle: [Vec2; 3], part: f64) -> Place {
+    fn seen_from_inside(&self, corner: Vec2, triangle: [Vec2; 3], part: f64) -> SidedPoint {
         self.place(corner + (centroid(triangle) - corner) * part)
     }
 
@@ -256,7 +256,7 @@ impl Torn<'_> {
             None => self.place(point),
         };
         let inside = if kind.kink { self.seen_from_inside(point, corners, INSET) } else { place };
-        TornPoint { position: point, seen: Seen::Plane { place, inside } }
+        TornPoint { position: point, seen: ValueSide::Plane { place, inside } }
     }
 
     /// The side of a crack that a triangle is on, from the direction of its edge.
@@ -273,13 +273,13 @@ impl Torn<'_> {
         let ([a, b, c], [_, after, before]) = (turned.corners, turned.neighbours);
         let [kind, kind_after, kind_before] = turned.kinds;
         let inner = BorderKind::default();
-        self.triangles[triangle as usize] = Triangle {
+        self.triangles[triangle as usize] = TornTriangle {
             corners: [a, point, c],
             neighbours: [NONE, new, before],
             kinds: [kind, inner, kind_before],
             convergence: turned.convergence.divided(),
         };
-        self.triangles.push(Triangle {
+        self.triangles.push(TornTriangle {
             corners: [point, b, c],
             neighbours: [NONE, after, triangle],
             kinds: [kind, kind_after, inner],
@@ -313,6 +313,6 @@ pub(super) fn centroid([a, b, c]: [Vec2; 3]) -> Vec2 {
 }
 
 /// A point that lies on a segment of a crack, wherever rounding has put it.
-fn on_crack(segment: SegmentId, point: Vec2, side: Side) -> Place {
-    Place { point, anchor: point, offset: Vec2::ZERO, on: Some(segment), side }
+fn on_crack(segment: SegmentId, point: Vec2, side: Side) -> SidedPoint {
+    SidedPoint { point, anchor: point, offset: Vec2::ZERO, on: Some(segment), side }
 }

@@ -8,8 +8,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use ppum_format::{ArrayValues, Arrays, WriteError};
 
 use super::lagrange::node_count;
-use super::vtu::{About, Numbers, accuracy, cell_type, texts};
-use super::{Mesh, times};
+use super::vtu::{FileNotes, NumberRows, accuracy, cell_type, texts};
+use super::{ExportMesh, times};
 
 /// The mesh of a step, and what is told of it.
 #[derive(Clone, Debug)]
@@ -17,13 +17,13 @@ pub struct ExportedStep {
     /// The load of the step.
     pub load: f64,
     /// The mesh.
-    pub mesh: Mesh,
-    /// What is told beside it.
-    pub about: About,
+    pub mesh: ExportMesh,
+    /// The notes of the file.
+    pub about: FileNotes,
 }
 
-/// Most bytes of meshes ([`Mesh::bytes`]) that should go to one file; to make it takes some three
-/// times as much memory.
+/// Most bytes of meshes ([`ExportMesh::bytes`]) that should go to one file; to make it takes some
+/// three times as much memory.
 pub const MOST_BYTES: usize = 1 << 30;
 
 /// The version of the form: the first with field data in steps.
@@ -34,7 +34,7 @@ const VERSION: [i64; 2] = [2, 2];
 /// # Errors
 /// [`WriteError`]: a text that cannot be stored.
 pub fn file(steps: &[&ExportedStep]) -> Result<Vec<u8>, WriteError> {
-    let mut grid = Grid { file: Arrays::default(), steps };
+    let mut grid = VtkGrid { file: Arrays::default(), steps };
     grid.attribute("VTKHDF@Version", &[2], ArrayValues::I64(VERSION.to_vec()));
     grid.attribute("VTKHDF@Type", &[], ArrayValues::Text(vec!["UnstructuredGrid".to_owned()]));
     grid.attribute("VTKHDF/Steps@NSteps", &[], ArrayValues::I64(vec![steps.len() as i64]));
@@ -48,12 +48,12 @@ pub fn file(steps: &[&ExportedStep]) -> Result<Vec<u8>, WriteError> {
 const POINT_DATA: [&str; 2] = ["VTKHDF/PointData", "VTKHDF/Steps/PointDataOffsets"];
 const FIELD_DATA: [&str; 2] = ["VTKHDF/FieldData", "VTKHDF/Steps/FieldDataOffsets"];
 
-struct Grid<'s> {
+struct VtkGrid<'s> {
     file: Arrays,
     steps: &'s [&'s ExportedStep],
 }
 
-impl Grid<'_> {
+impl VtkGrid<'_> {
     fn attribute(&mut self, name: &str, shape: &[u64], values: ArrayValues) {
         self.file.insert(name, shape, values);
     }
@@ -63,7 +63,7 @@ impl Grid<'_> {
     }
 
     /// A number of each step.
-    fn of_steps(&self, number: impl Fn(&Mesh) -> usize) -> Vec<i64> {
+    fn of_steps(&self, number: impl Fn(&ExportMesh) -> usize) -> Vec<i64> {
         self.steps.iter().map(|step| number(&step.mesh) as i64).collect()
     }
 
@@ -82,22 +82,22 @@ impl Grid<'_> {
         self.numbers("VTKHDF/Steps/NumberOfParts", vec![1; steps.len()], &[n]);
         self.numbers("VTKHDF/Steps/PartOffsets", (0..n as i64).collect(), &[n]);
         let loads: Vec<_> = steps.iter().map(|step| step.load).collect();
-        self.file.insert("VTKHDF/Steps/Values", &[n], ArrayValues::F64(times(&loads)));
+        self.file.insert("VTKHDF/Steps/Values", [n], ArrayValues::F64(times(&loads)));
 
         let meshes = || steps.iter().map(|step| &step.mesh);
         let places = meshes().flat_map(|mesh| &mesh.points).flat_map(|p| [p.x, p.y, 0.0]);
         self.rows("VTKHDF/Points", 3, places.collect());
         let corners: Vec<i64> = meshes().flat_map(|mesh| &mesh.cells).map(|&k| k.into()).collect();
-        self.file.insert("VTKHDF/Connectivity", &[corners.len() as u64], ArrayValues::I64(corners));
-        let ends = |mesh: &'_ Mesh| {
+        self.file.insert("VTKHDF/Connectivity", [corners.len() as u64], ArrayValues::I64(corners));
+        let ends = |mesh: &'_ ExportMesh| {
             let size = node_count(mesh.accuracy.order);
             (0..=mesh.triangles().len()).map(move |k| (size * k) as i64)
         };
         let ends: Vec<i64> = meshes().flat_map(ends).collect();
-        self.file.insert("VTKHDF/Offsets", &[ends.len() as u64], ArrayValues::I64(ends));
+        self.file.insert("VTKHDF/Offsets", [ends.len() as u64], ArrayValues::I64(ends));
         let types = meshes().flat_map(|mesh| mesh.triangles().map(|_| cell_type(mesh)));
         let types: Vec<u8> = types.collect();
-        self.file.insert("VTKHDF/Types", &[types.len() as u64], ArrayValues::U8(types));
+        self.file.insert("VTKHDF/Types", [types.len() as u64], ArrayValues::U8(types));
     }
 
     /// Rows of numbers; a vector of one for each row.
@@ -136,7 +136,7 @@ impl Grid<'_> {
             let parts: Vec<Vec<u8>> = steps.iter().copied().map(text).collect();
             let bytes = parts.concat();
             let place = member(FIELD_DATA[0], name);
-            self.file.insert(&place, &[bytes.len() as u64], ArrayValues::U8(bytes));
+            self.file.insert(&place, [bytes.len() as u64], ArrayValues::U8(bytes));
             self.add_sizes(name, 1, parts.iter().map(Vec::len));
         }
         let mut widths = BTreeMap::new();
@@ -164,7 +164,7 @@ impl Grid<'_> {
     }
 }
 
-fn numbers_of(mesh: &Mesh, about: &About) -> Vec<Numbers> {
+fn numbers_of(mesh: &ExportMesh, about: &FileNotes) -> Vec<NumberRows> {
     accuracy(mesh).into_iter().chain(about.numbers.iter().cloned()).collect()
 }
 

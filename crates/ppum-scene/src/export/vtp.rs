@@ -10,25 +10,25 @@ use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::borders::{Border, LineRequest, SAME, borders, longest, with_polygons};
+use super::borders::{ExportSegment, LineRequest, SAME, borders, longest, with_polygons};
 use super::torn::Torn;
-use super::vtu::{About, array, flat, numbers, write_texts};
+use super::vtu::{FileNotes, array, flat, numbers, write_texts};
 use crate::body::BodyView;
-use crate::colors::Colors;
+use crate::colors::ColorOptions;
 use crate::engine::Engine;
-use crate::look::DEFAULT_SIZE;
 use crate::mirror::MirrorLines;
-use crate::overlays::Levels;
-use crate::place::{ImageExtent, Place};
-use crate::shot::{Asked, FieldSource, ShotError};
-use crate::stations::Stations;
+use crate::overlays::IsolineLevels;
+use crate::page_style::DEFAULT_SIZE;
+use crate::place::{ImageExtent, ViewRegion};
+use crate::shot::{FieldSource, ImageError, QuantityRequest};
+use crate::stations::BoundarySamples;
 
 /// Distance of points with supports and loads, in parts of the longer side of the domain.
 const SPACING: f64 = 0.04;
 
 /// Points and lines of a step.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Lines {
+pub struct PolylineData {
     /// Tips, supports and loads.
     pub points: Vec<Feature>,
     /// Cracks, the border where it bounds the body, rims of holes among it, and isolines.
@@ -38,13 +38,13 @@ pub struct Lines {
 /// A point or a line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Feature {
-    /// What it is.
+    /// The kind of the feature.
     pub kind: FeatureKind,
     /// Its points, one or several.
     pub points: Vec<Vec2>,
 }
 
-/// What a point or line is.
+/// The kind of a point or line.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FeatureKind {
     /// A segment of the border.
@@ -113,13 +113,13 @@ impl FeatureKind {
 /// The quantity of isolines and their levels.
 #[derive(Clone, Copy, Debug)]
 pub struct IsolineRequest<'a> {
-    /// What is shown of the field.
-    pub asked: &'a Asked,
+    /// The displayed quantity of the field.
+    pub asked: &'a QuantityRequest,
     /// The levels.
-    pub levels: &'a Levels,
+    pub levels: &'a IsolineLevels,
 }
 
-impl Lines {
+impl PolylineData {
     /// Those of a field's step, without isolines; supports and loads if the dataset has its
     /// problem.
     #[must_use]
@@ -129,12 +129,12 @@ impl Lines {
         let near = SAME * longest(bounds);
         let around = Rect::around(bounds.center(), bounds.size() * 0.5 + vec2(near, near));
         let all = borders(field, &domain, LineRequest::NONE).into_iter();
-        let of_body = all.filter(|Border { ends: [a, b], .. }| {
+        let of_body = all.filter(|ExportSegment { ends: [a, b], .. }| {
             let middle = (*a + *b) / 2.0;
             let is_cut = |hole: &Hole| hole.contains(middle) && hole.rim_distance(middle) > near;
             around.contains(middle) && !domain.holes.iter().any(is_cut)
         });
-        let segment = |Border { ends, kind }: Border| Feature {
+        let segment = |ExportSegment { ends, kind }: ExportSegment| Feature {
             kind: kind
                 .crack
                 .map_or(FeatureKind::Border, |segment| FeatureKind::Crack(segment.crack)),
@@ -156,18 +156,19 @@ impl Lines {
     /// Adds the isolines that an image of the whole domain has by default.
     ///
     /// # Errors
-    /// What isolines of an image are refused for: see `Input::isolines`.
+    /// The errors of isolines of an image: see `ImageInput::isolines`.
     pub fn add_isolines(
         &mut self,
         source: FieldSource<'_>,
         IsolineRequest { asked, levels }: IsolineRequest<'_>,
         watcher: &dyn Watcher,
-    ) -> Result<(), ShotError> {
+    ) -> Result<(), ImageError> {
         let extent = ImageExtent { pixels: DEFAULT_SIZE, may_shrink: false, margin: 0.0 };
-        let view = Place::default().seen(source.field.domain.bounds, source.field, extent)?;
+        let view = ViewRegion::default().seen(source.field.domain.bounds, source.field, extent)?;
         let (seen, engine) =
             (BodyView::new(source.field, view, MirrorLines::default()), Engine::processor(watcher));
-        let found = source.input(asked, &seen).isolines(levels, &Colors::default(), &engine)?;
+        let found =
+            source.input(asked, &seen).isolines(levels, &ColorOptions::default(), &engine)?;
         self.lines.extend(found.iter().map(|line| Feature {
             kind: FeatureKind::Isoline(line.level),
             points: line.polyline().into_iter().map(|p| view.center + p).collect(),
@@ -193,7 +194,8 @@ fn tips_of(field: &Field<'_>) -> impl Iterator<Item = Feature> {
 
 /// Points with supports and loads.
 fn stations(dataset: &Dataset, spacing: f64) -> impl Iterator<Item = Feature> {
-    let Stations { supports, loads } = Stations::of(dataset, spacing).unwrap_or_default();
+    let BoundarySamples { supports, loads } =
+        BoundarySamples::of(dataset, spacing).unwrap_or_default();
     let feature = |kind, at| Feature { kind, points: vec![at] };
     let supports = supports.into_iter().filter(|s| !s.yields);
     let supports = supports.map(move |s| feature(FeatureKind::Support(s.held), s.at));
@@ -204,7 +206,7 @@ fn stations(dataset: &Dataset, spacing: f64) -> impl Iterator<Item = Feature> {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write(out: &mut dyn Write, lines: &Lines, about: &About) -> io::Result<()> {
+pub fn write(out: &mut dyn Write, lines: &PolylineData, about: &FileNotes) -> io::Result<()> {
     let [verts, sizes] = [&lines.points, &lines.lines]
         .map(|all| all.iter().map(|feature| feature.points.len()).collect::<Vec<_>>());
     let places = lines.points.iter().chain(&lines.lines).flat_map(|feature| &feature.points);
@@ -245,7 +247,7 @@ fn write_cells(out: &mut dyn Write, kind: &str, first: usize, sizes: &[usize]) -
     writeln!(out, "</{kind}>")
 }
 
-fn write_arrays(out: &mut dyn Write, lines: &Lines) -> io::Result<()> {
+fn write_arrays(out: &mut dyn Write, lines: &PolylineData) -> io::Result<()> {
     let bytes =
         |number: fn(&FeatureKind) -> Vec<u8>| lines.kinds().flat_map(number).collect::<Vec<_>>();
     writeln!(out, "<CellData>")?;

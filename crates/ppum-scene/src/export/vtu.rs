@@ -15,28 +15,28 @@ use ppum_figure::canvas::zlib::zlib;
 use rayon::prelude::*;
 
 use super::lagrange::node_count;
-use super::{MeasuredAccuracy, Mesh, RANDOM_POINTS};
+use super::{ExportMesh, MeasuredAccuracy, RANDOM_POINTS};
 
 /// Bytes that are compressed at a time.
 const BLOCK: usize = 1 << 18;
 
 /// The number of a mesh's triangles among the kinds of cells of VTK: linear or Lagrange's.
-pub(super) fn cell_type(mesh: &Mesh) -> u8 {
+pub(super) fn cell_type(mesh: &ExportMesh) -> u8 {
     if mesh.accuracy.order == 1 { 5 } else { 69 }
 }
 
-/// What a file tells beside the mesh.
+/// The notes of a file beside the mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct About {
+pub struct FileNotes {
     /// Names with texts: the title, the program, the hash of the dataset.
     pub texts: Vec<(&'static str, String)>,
     /// Names with rows of numbers: the time, stress intensity factors.
-    pub numbers: Vec<Numbers>,
+    pub numbers: Vec<NumberRows>,
 }
 
 /// Rows of numbers with a name.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Numbers {
+pub struct NumberRows {
     /// The name.
     pub name: String,
     /// Numbers in a row.
@@ -45,14 +45,14 @@ pub struct Numbers {
     pub values: Vec<f64>,
 }
 
-impl About {
-    /// What is told of a dataset whose file has this SHA-256, and of a field of it.
+impl FileNotes {
+    /// Collects the notes of a dataset whose file has this SHA-256, and of a field of it.
     #[must_use]
     pub fn of(dataset: &Dataset, field: &Field<'_>, hash: String) -> Self {
         let program = concat!("ppum ", env!("CARGO_PKG_VERSION")).to_owned();
         let texts =
             vec![("title", dataset.title.clone()), ("program", program), ("dataset_sha256", hash)];
-        let mut numbers = vec![Numbers::new("TimeValue", 1, vec![field.step.load])];
+        let mut numbers = vec![NumberRows::new("TimeValue", 1, vec![field.step.load])];
         let tips = &field.step.intensities;
         if !tips.is_empty() {
             let position = |tip: TipId| {
@@ -61,14 +61,14 @@ impl About {
             };
             let places = tips.iter().flat_map(|t| position(t.tip)).collect();
             let factors = tips.iter().flat_map(|tip| [tip.k1, tip.k2]).collect();
-            numbers.push(Numbers::new("tips", 3, places));
-            numbers.push(Numbers::new("stress_intensity_factors", 2, factors));
+            numbers.push(NumberRows::new("tips", 3, places));
+            numbers.push(NumberRows::new("stress_intensity_factors", 2, factors));
         }
         Self { texts, numbers }
     }
 }
 
-impl Numbers {
+impl NumberRows {
     /// Rows of numbers.
     #[must_use]
     pub fn new(name: &str, width: usize, values: Vec<f64>) -> Self {
@@ -80,7 +80,7 @@ impl Numbers {
 ///
 /// # Errors
 /// Those of the writer.
-pub fn write(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()> {
+pub fn write(out: &mut dyn Write, mesh: &ExportMesh, about: &FileNotes) -> io::Result<()> {
     let (points, cells) = (mesh.points.len(), mesh.triangles().len());
     write_head(out, "UnstructuredGrid")?;
     write_about(out, mesh, about)?;
@@ -129,7 +129,7 @@ pub fn write_collection(out: &mut dyn Write, files: &[(f64, String)]) -> io::Res
     writeln!(out, "</Collection>\n</VTKFile>")
 }
 
-fn write_arrays(out: &mut dyn Write, mesh: &Mesh) -> io::Result<()> {
+fn write_arrays(out: &mut dyn Write, mesh: &ExportMesh) -> io::Result<()> {
     for (number, measured) in mesh.arrays.iter().enumerate() {
         let size = attributes(&measured.array.components);
         numbers(out, &measured.array.name, &size, &mesh.values_of(number))?;
@@ -146,25 +146,25 @@ fn attributes<Q>(components: &[(&str, Option<Q>)]) -> String {
     text
 }
 
-/// What a mesh is accurate to.
-pub(super) fn accuracy(mesh: &Mesh) -> [Numbers; 9] {
+/// Returns the accuracy of a mesh.
+pub(super) fn accuracy(mesh: &ExportMesh) -> [NumberRows; 9] {
     let of = |value: fn(&MeasuredAccuracy) -> f64| mesh.arrays.iter().map(value).collect();
     let singular = mesh.singular.iter().flat_map(|p| [p.x, p.y, 0.0]).collect();
     [
-        Numbers::new("tolerance", 1, vec![mesh.accuracy.tolerance]),
-        Numbers::new("range", 1, of(|a| a.range)),
-        Numbers::new("allowed_difference", 1, of(|a| a.allowed)),
-        Numbers::new("largest_difference", 1, of(|a| a.largest)),
-        Numbers::new("share_within", 1, of(|a| a.share)),
-        Numbers::new("random_points", 1, vec![RANDOM_POINTS as f64]),
-        Numbers::new("averaged", 1, vec![f64::from(u8::from(mesh.accuracy.average))]),
-        Numbers::new("singular_radius", 1, mesh.radii.clone()),
-        Numbers::new("singular_points", 3, singular),
+        NumberRows::new("tolerance", 1, vec![mesh.accuracy.tolerance]),
+        NumberRows::new("range", 1, of(|a| a.range)),
+        NumberRows::new("allowed_difference", 1, of(|a| a.allowed)),
+        NumberRows::new("largest_difference", 1, of(|a| a.largest)),
+        NumberRows::new("share_within", 1, of(|a| a.share)),
+        NumberRows::new("random_points", 1, vec![RANDOM_POINTS as f64]),
+        NumberRows::new("averaged", 1, vec![f64::from(u8::from(mesh.accuracy.average))]),
+        NumberRows::new("singular_radius", 1, mesh.radii.clone()),
+        NumberRows::new("singular_points", 3, singular),
     ]
 }
 
 /// The texts of the field data, with the names of arrays and their units, one a line.
-pub(super) fn texts(mesh: &Mesh, about: &About) -> Vec<(&'static str, String)> {
+pub(super) fn texts(mesh: &ExportMesh, about: &FileNotes) -> Vec<(&'static str, String)> {
     let lines = |of: fn(&MeasuredAccuracy) -> &str| {
         mesh.arrays.iter().map(of).collect::<Vec<_>>().join("\n")
     };
@@ -173,10 +173,10 @@ pub(super) fn texts(mesh: &Mesh, about: &About) -> Vec<(&'static str, String)> {
 }
 
 /// The field data: what the mesh is accurate to, and what else is told.
-fn write_about(out: &mut dyn Write, mesh: &Mesh, about: &About) -> io::Result<()> {
+fn write_about(out: &mut dyn Write, mesh: &ExportMesh, about: &FileNotes) -> io::Result<()> {
     writeln!(out, "<FieldData>")?;
     write_texts(out, &texts(mesh, about))?;
-    for Numbers { name, width, values } in accuracy(mesh).iter().chain(&about.numbers) {
+    for NumberRows { name, width, values } in accuracy(mesh).iter().chain(&about.numbers) {
         let rows = values.len() / width;
         let size = format!("NumberOfComponents=\"{width}\" NumberOfTuples=\"{rows}\"");
         numbers(out, name, &size, values)?;

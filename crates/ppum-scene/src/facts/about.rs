@@ -1,4 +1,4 @@
-//! What all steps of a dataset have in common, and the cracks of a step.
+//! Facts that all steps of a dataset have in common, and the cracks of a step.
 
 use std::fmt;
 
@@ -6,29 +6,29 @@ use ppum::crack::{self, CrackEnd};
 use ppum::dataset::{self, Dataset, StressState};
 use ppum::domain::{self, PolygonSide};
 use ppum::expression::Expression;
-use ppum::text::{Places, trimmed};
+use ppum::text::{LocationText, trimmed};
 use ppum::vec2::Vec2;
 use serde::Serialize;
 
-/// What all steps have in common.
+/// Facts that all steps have in common.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct About {
+pub struct CommonFacts {
     title: String,
     program: String,
-    domain: Domain,
-    equation: Equation,
+    domain: DomainFacts,
+    equation: EquationFacts,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct Domain {
+struct DomainFacts {
     min: [f64; 2],
     max: [f64; 2],
-    holes: Vec<Hole>,
+    holes: Vec<HoleFacts>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
-enum Hole {
+enum HoleFacts {
     Circle { center: [f64; 2], radius: f64 },
     Polygon { points: Vec<[f64; 2]> },
     Outside { points: Vec<[f64; 2]> },
@@ -36,7 +36,7 @@ enum Hole {
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
-enum Equation {
+enum EquationFacts {
     Elasticity {
         young: Constant,
         poisson: Constant,
@@ -62,7 +62,7 @@ enum Constant {
 
 /// A crack.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Crack {
+pub struct CrackFacts {
     points: Vec<[f64; 2]>,
     ends: [&'static str; 2],
 }
@@ -74,36 +74,36 @@ fn arrays(points: &[Vec2]) -> Vec<[f64; 2]> {
 /// Corners of rims that a line has at most.
 const CORNERS: usize = 16;
 
-fn rim(points: &[[f64; 2]], places: &Places) -> String {
+fn rim(points: &[[f64; 2]], places: &LocationText) -> String {
     match points.len() {
         0..=CORNERS => path(points, places),
         n => format!("{} … ({n} corners)", path(&points[..3], places)),
     }
 }
 
-fn path(points: &[[f64; 2]], places: &Places) -> String {
+fn path(points: &[[f64; 2]], places: &LocationText) -> String {
     let points: Vec<_> = points.iter().map(|&p| places.show(p.into())).collect();
     points.join(" – ")
 }
 
-impl About {
+impl CommonFacts {
     /// The facts of a dataset.
     #[must_use]
     pub fn new(dataset: &Dataset) -> Self {
         let bounds = dataset.domain.bounds;
-        let holes = dataset.domain.holes.iter().map(Hole::new).collect();
+        let holes = dataset.domain.holes.iter().map(HoleFacts::new).collect();
         Self {
             title: dataset.title.clone(),
             program: dataset.program.clone(),
-            domain: Domain { min: bounds.min.into(), max: bounds.max.into(), holes },
-            equation: Equation::new(&dataset.equation),
+            domain: DomainFacts { min: bounds.min.into(), max: bounds.max.into(), holes },
+            equation: EquationFacts::new(&dataset.equation),
         }
     }
 
     /// Title, program, equation, domain and holes in words behind their names.
     #[must_use]
-    pub fn lines(&self, places: &Places) -> Vec<(&'static str, String)> {
-        let Domain { min, max, holes } = &self.domain;
+    pub fn lines(&self, places: &LocationText) -> Vec<(&'static str, String)> {
+        let DomainFacts { min, max, holes } = &self.domain;
         let [min, max] = [min, max].map(|&p| places.show(p.into()));
         let mut lines = vec![
             ("title", self.title.clone()),
@@ -117,7 +117,7 @@ impl About {
     }
 }
 
-impl Hole {
+impl HoleFacts {
     fn new(hole: &domain::Hole) -> Self {
         match hole {
             domain::Hole::Circle { center, radius } => {
@@ -132,7 +132,7 @@ impl Hole {
         }
     }
 
-    fn line(&self, places: &Places) -> String {
+    fn line(&self, places: &LocationText) -> String {
         match self {
             Self::Circle { center, radius } => {
                 let center = places.show((*center).into());
@@ -144,7 +144,7 @@ impl Hole {
     }
 }
 
-impl Equation {
+impl EquationFacts {
     fn new(equation: &dataset::Equation) -> Self {
         match equation {
             dataset::Equation::Elasticity(material) => Self::Elasticity {
@@ -168,7 +168,7 @@ impl Equation {
     }
 }
 
-impl fmt::Display for Equation {
+impl fmt::Display for EquationFacts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Elasticity { young, poisson, state, eigenstrain, expansion } => {
@@ -202,7 +202,7 @@ impl fmt::Display for Constant {
     }
 }
 
-impl Crack {
+impl CrackFacts {
     /// The facts of a crack.
     #[must_use]
     pub fn new(crack: &crack::Crack) -> Self {
@@ -216,7 +216,7 @@ impl Crack {
 
     /// Its vertices between its ends: `mouth (0, 0) – (1, 0) tip`.
     #[must_use]
-    pub fn line(&self, places: &Places) -> String {
+    pub fn line(&self, places: &LocationText) -> String {
         let [start, end] = self.ends;
         format!("{start} {} {end}", path(&self.points, places))
     }

@@ -1,28 +1,28 @@
-//! What the tips of a step do next.
+//! The next increments of the tips of a step.
 
-use ppum::dataset::{self, Fate, GrowthStop};
+use ppum::dataset::{self, GrowthStop, TipStatus};
 use ppum::text::{short, trimmed};
 use serde::Serialize;
 
-use super::Number;
+use super::JsonNumber;
 
 /// The growth of a step.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Growth {
+pub struct GrowthFacts {
     /// Load cycles up to the step.
     pub cycles: Option<f64>,
     /// Why the series ends with it.
     pub stop: Option<&'static str>,
-    tips: Vec<Advance>,
+    tips: Vec<IncrementFacts>,
 }
 
-/// What a tip does next.
+/// The next increment of a tip.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct Advance {
+struct IncrementFacts {
     crack: u32,
     end: &'static str,
     fate: String,
-    strength: Number,
+    strength: JsonNumber,
     /// Direction and length of the next increment.
     direction: f64,
     length: f64,
@@ -34,14 +34,14 @@ struct Advance {
     increment: String,
 }
 
-impl Growth {
+impl GrowthFacts {
     /// The facts of a step's growth.
     #[must_use]
     pub fn new(growth: &dataset::Growth) -> Self {
         Self {
             cycles: growth.cycles,
             stop: growth.stop.map(GrowthStop::words),
-            tips: growth.tips.iter().map(Advance::new).collect(),
+            tips: growth.tips.iter().map(IncrementFacts::new).collect(),
         }
     }
 
@@ -50,17 +50,17 @@ impl Growth {
     pub fn lines(&self) -> Vec<String> {
         let cycles = self.cycles.map(|cycles| format!("after {} cycles", trimmed(cycles)));
         let end = self.stop.map(|stop| format!("ends here: {stop}"));
-        cycles.into_iter().chain(self.tips.iter().map(Advance::line)).chain(end).collect()
+        cycles.into_iter().chain(self.tips.iter().map(IncrementFacts::line)).chain(end).collect()
     }
 }
 
-impl Advance {
-    fn new(row: &dataset::Advance) -> Self {
+impl IncrementFacts {
+    fn new(row: &dataset::TipIncrement) -> Self {
         Self {
             crack: row.tip.crack,
             end: row.tip.end.name(),
             fate: row.fate.words(),
-            strength: Number(row.strength),
+            strength: JsonNumber(row.k_eq),
             direction: row.direction,
             length: row.length,
             due: row.due,
@@ -77,7 +77,7 @@ impl Advance {
 
 /// The next increment, and what ends it, or why the tip stays: `0.1 at 12.00°, meets hole 0`.
 #[must_use]
-pub fn increment(row: &dataset::Advance) -> String {
+pub fn increment(row: &dataset::TipIncrement) -> String {
     if !row.fate.goes_on() {
         return row.fate.words();
     }
@@ -85,7 +85,7 @@ pub fn increment(row: &dataset::Advance) -> String {
     let angle = (100.0 * row.direction.to_degrees()).round() / 100.0 + 0.0;
     let increment = format!("{} at {angle:.2}°", short(row.length));
     match row.fate {
-        Fate::Grows => increment,
+        TipStatus::Grows => increment,
         fate => format!("{increment}, {}", fate.words()),
     }
 }

@@ -11,10 +11,10 @@ mod results;
 mod solver;
 mod tips;
 
-pub use about::{About, Crack};
-pub use growth::{Growth, increment};
-pub use number::Number;
-pub use reactions::{Reaction, reaction_lines, reactions};
-pub use results::{Record, Results, Warning, warnings};
-pub use solver::Solver;
+pub use about::{CommonFacts, CrackFacts};
+pub use growth::{GrowthFacts, increment};
+pub use number::JsonNumber;
+pub use reactions::{ReactionFacts, reaction_lines, reactions};
+pub use results::{RecordFacts, ResultFacts, WarningFacts, warnings};
+pub use solver::SolverFacts;
 pub use tips::{HEADS, MEANING, Tip, all_tips};

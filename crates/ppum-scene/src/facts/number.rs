@@ -6,9 +6,9 @@ use serde::{Serialize, Serializer};
 /// `"-inf"`, and what is undefined (NaN) is `null`. Finite numbers are written with the digits that
 /// read back as the same f64.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Number(pub f64);
+pub struct JsonNumber(pub f64);
 
-impl Serialize for Number {
+impl Serialize for JsonNumber {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.0 {
             v if v.is_nan() => serializer.serialize_none(),
@@ -25,7 +25,7 @@ mod tests {
 
     #[test]
     fn json_of_any_number() {
-        let json = |v| serde_json::to_string(&Number(v)).unwrap();
+        let json = |v| serde_json::to_string(&JsonNumber(v)).unwrap();
         assert_eq!(json(0.1), "0.1");
         assert_eq!(json(f64::NAN), "null");
         assert_eq!(json(f64::INFINITY), "\"inf\"");

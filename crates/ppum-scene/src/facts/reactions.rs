@@ -1,34 +1,34 @@
 //! Reactions of supports.
 
 use ppum::dataset::{self, Dataset, Step};
-use ppum::text::{Places, beside, short};
+use ppum::text::{LocationText, beside, short};
 use ppum::vec2::Vec2;
 use ppum_problem::{Problem, restraint_center};
 use serde::Serialize;
 
-use super::Number;
+use super::JsonNumber;
 
-/// What a support exerts on the body.
+/// The reaction of a support on the body.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Reaction {
+pub struct ReactionFacts {
     on: String,
     /// Components that are held.
     held: Vec<String>,
-    /// One a component; of a potential the flow into the plate.
-    force: Vec<Number>,
+    /// One a component; of a potential the flow into the body.
+    force: Vec<JsonNumber>,
     /// None of a potential.
-    moment: Option<Number>,
+    moment: Option<JsonNumber>,
     /// Point the moment is about.
     about: Option<[f64; 2]>,
     /// Middle of the support, if its place is known.
     center: Option<[f64; 2]>,
     /// Moment about that.
-    moment_about_center: Option<Number>,
+    moment_about_center: Option<JsonNumber>,
 }
 
 /// The reactions of a step.
 #[must_use]
-pub fn reactions(dataset: &Dataset, step: &Step) -> Vec<Reaction> {
+pub fn reactions(dataset: &Dataset, step: &Step) -> Vec<ReactionFacts> {
     let names = step.fields.first().map_or(&[][..], |field| &field.components);
     let about = dataset.domain.bounds.center();
     let names_piece = step.reactions.iter().any(|reaction| reaction.on.starts_with("piece "));
@@ -44,13 +44,13 @@ pub fn reactions(dataset: &Dataset, step: &Step) -> Vec<Reaction> {
         let center = restraint_center(on, domain, pieces).filter(|_| turns);
         let moved = |center: Vec2| {
             let arm = about - center;
-            Number(moment + arm.x * force[1] - arm.y * force[0])
+            JsonNumber(moment + arm.x * force[1] - arm.y * force[0])
         };
-        Reaction {
+        ReactionFacts {
             on: on.clone(),
             held: held.map(|(name, _)| name.clone()).collect(),
-            force: force.iter().copied().map(Number).collect(),
-            moment: turns.then_some(Number(*moment)),
+            force: force.iter().copied().map(JsonNumber).collect(),
+            moment: turns.then_some(JsonNumber(*moment)),
             about: turns.then_some(about.into()),
             center: center.map(Vec2::into),
             moment_about_center: center.map(moved),
@@ -59,10 +59,10 @@ pub fn reactions(dataset: &Dataset, step: &Step) -> Vec<Reaction> {
     step.reactions.iter().map(row).collect()
 }
 
-impl Reaction {
+impl ReactionFacts {
     /// `bottom (ux, uy): force (0, -2), moment 3 about (0, 0), 1 about its middle (0, -1)`; zero
     /// what is rounding beside a force and a moment of these sizes.
-    fn line(&self, places: &Places, [force_size, moment_size]: [f64; 2]) -> String {
+    fn line(&self, places: &LocationText, [force_size, moment_size]: [f64; 2]) -> String {
         let place = format!("{} ({})", self.on, self.held.join(", "));
         let force = self
             .force
@@ -70,7 +70,7 @@ impl Reaction {
             .map(|f| short(beside(f.0, force_size)))
             .collect::<Vec<_>>()
             .join(", ");
-        let turning = |moment: Number, about: [f64; 2]| {
+        let turning = |moment: JsonNumber, about: [f64; 2]| {
             let moment = short(beside(moment.0, moment_size));
             format!("{moment} about {}", places.show(about.into()))
         };
@@ -92,7 +92,7 @@ impl Reaction {
 /// A line for each reaction. A force is zero where it is rounding beside the largest one, a moment
 /// beside that at an arm of this length.
 #[must_use]
-pub fn reaction_lines(reactions: &[Reaction], places: &Places, arm: f64) -> Vec<String> {
+pub fn reaction_lines(reactions: &[ReactionFacts], places: &LocationText, arm: f64) -> Vec<String> {
     let forces = reactions.iter().flat_map(|reaction| &reaction.force);
     let force = forces.fold(0.0, |largest, f| f64::max(largest, f.0.abs()));
     reactions.iter().map(|reaction| reaction.line(places, [force, force * arm])).collect()

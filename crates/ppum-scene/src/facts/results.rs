@@ -1,36 +1,36 @@
-//! What the solver found in a step.
+//! The solver's results of a step.
 
 use ppum::dataset::{self, Dataset};
 use ppum::text::trimmed;
 use ppum_solve::report::{SolverReport, word};
 use serde::Serialize;
 
-use super::{Growth, Number, Reaction, Solver, Tip, all_tips, reactions};
+use super::{GrowthFacts, JsonNumber, ReactionFacts, SolverFacts, Tip, all_tips, reactions};
 
-/// What the solver found in a step.
+/// The solver's results of a step.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Results {
+pub struct ResultFacts {
     /// Number of unknowns.
     pub unknowns: usize,
     /// Energy of the solution, if the solver reports it.
-    energy: Option<Number>,
+    energy: Option<JsonNumber>,
     /// The solver's work; none of a step whose history does not tell.
-    pub solver: Option<Solver>,
-    history: Vec<Record>,
-    /// What the tips do next, in a series of cracks that grow.
-    pub growth: Option<Growth>,
+    pub solver: Option<SolverFacts>,
+    history: Vec<RecordFacts>,
+    /// The next increments of the tips, in a series of cracks that grow.
+    pub growth: Option<GrowthFacts>,
     /// The tips that have factors.
     pub intensities: Vec<Tip>,
-    /// What the diagnostics found.
-    pub warnings: Vec<Warning>,
-    /// What the supports exert on the body.
-    pub reactions: Vec<Reaction>,
+    /// The warnings of the diagnostics.
+    pub warnings: Vec<WarningFacts>,
+    /// The reactions of the supports on the body.
+    pub reactions: Vec<ReactionFacts>,
     /// All tips in their order, also those without factors.
     #[serde(skip)]
     pub tips: Vec<Tip>,
 }
 
-impl Results {
+impl ResultFacts {
     /// The results of step number `index`.
     #[must_use]
     pub fn new(dataset: &Dataset, index: usize) -> Self {
@@ -38,10 +38,10 @@ impl Results {
         let tip = |known| Tip::new(dataset, index, known);
         Self {
             unknowns: step.unknowns(),
-            energy: SolverReport::of(&step.history).energy.map(Number),
-            solver: Solver::new(&step.history),
-            history: step.history.iter().map(Record::new).collect(),
-            growth: step.growth.as_ref().map(Growth::new),
+            energy: SolverReport::of(&step.history).energy.map(JsonNumber),
+            solver: SolverFacts::new(&step.history),
+            history: step.history.iter().map(RecordFacts::new).collect(),
+            growth: step.growth.as_ref().map(GrowthFacts::new),
             intensities: step.intensities.iter().map(tip).collect(),
             warnings: warnings(index, &step.warnings),
             reactions: reactions(dataset, step),
@@ -52,24 +52,24 @@ impl Results {
 
 /// A record of the solver's report.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Record {
+pub struct RecordFacts {
     name: String,
-    value: Number,
+    value: JsonNumber,
     unit: String,
 }
 
-impl Record {
+impl RecordFacts {
     /// A record of a history.
     #[must_use]
     pub fn new(record: &dataset::Record) -> Self {
         let dataset::Record { name, value, unit } = record.clone();
-        Self { name, value: Number(value), unit }
+        Self { name, value: JsonNumber(value), unit }
     }
 
     /// Name, value and unit; codes in words.
     #[must_use]
     pub fn line(&self) -> String {
-        let Self { name, value: Number(value), unit } = self;
+        let Self { name, value: JsonNumber(value), unit } = self;
         let value = word(name, *value).map_or_else(|| trimmed(*value), str::to_owned);
         format!("{name} {value} {unit}").trim_end().to_owned()
     }
@@ -77,26 +77,26 @@ impl Record {
 
 /// A warning about a step.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Warning {
+pub struct WarningFacts {
     /// Number of the step.
     pub step: usize,
     /// A word for its kind.
     pub kind: String,
     at: Option<[f64; 2]>,
-    value: Number,
-    limit: Number,
+    value: JsonNumber,
+    limit: JsonNumber,
     /// The finding and its remedy.
     pub message: String,
 }
 
 /// The warnings about step number `step`.
 #[must_use]
-pub fn warnings(step: usize, warnings: &[dataset::Warning]) -> Vec<Warning> {
+pub fn warnings(step: usize, warnings: &[dataset::Warning]) -> Vec<WarningFacts> {
     let row = |warning: &dataset::Warning| {
         let dataset::Warning { kind, at, value, limit, message } = warning.clone();
-        let (at, value, limit) = (at.map(Into::into), Number(value), Number(limit));
+        let (at, value, limit) = (at.map(Into::into), JsonNumber(value), JsonNumber(limit));
         let kind = kind.to_string();
-        Warning { step, kind, at, value, limit, message }
+        WarningFacts { step, kind, at, value, limit, message }
     };
     warnings.iter().map(row).collect()
 }

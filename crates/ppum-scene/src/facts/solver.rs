@@ -1,4 +1,4 @@
-//! What a solution took, and how its linear solver went.
+//! The cost of a solution, and the convergence of its linear solver.
 
 use std::io::{self, Write};
 
@@ -10,7 +10,7 @@ use serde::Serialize;
 
 /// The solver of a step.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Solver {
+pub struct SolverFacts {
     kind: Option<&'static str>,
     /// Steps of the multilevel solver, what they left of the residual in the norm of the
     /// preconditioner, and the condition that they saw.
@@ -20,12 +20,12 @@ pub struct Solver {
     /// ‖f − K u‖ / ‖f‖.
     residual: Option<f64>,
     bytes: Option<f64>,
-    phases: Vec<PhaseRow>,
+    phases: Vec<PhaseFacts>,
     levels: Vec<LevelRow>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct PhaseRow {
+struct PhaseFacts {
     name: &'static str,
     seconds: Option<f64>,
     bytes: Option<f64>,
@@ -40,7 +40,7 @@ struct LevelRow {
     bytes: f64,
 }
 
-impl Solver {
+impl SolverFacts {
     /// None of a step whose history does not tell.
     #[must_use]
     pub fn new(history: &[Record]) -> Option<Self> {
@@ -48,7 +48,7 @@ impl Solver {
         let of = |all: &[(Phase, f64)], phase: Phase| {
             all.iter().find(|(known, _)| *known == phase).map(|(_, value)| *value)
         };
-        let phase = |&(phase, seconds): &(Phase, f64)| PhaseRow {
+        let phase = |&(phase, seconds): &(Phase, f64)| PhaseFacts {
             name: phase.name(),
             seconds: finite(seconds),
             bytes: of(&report.bytes, phase).and_then(finite),
@@ -98,7 +98,7 @@ impl Solver {
         if !self.phases.is_empty() {
             writeln!(out, "\nphase         seconds          MB    unknowns")?;
         }
-        for PhaseRow { name, seconds, bytes, unknowns } in &self.phases {
+        for PhaseFacts { name, seconds, bytes, unknowns } in &self.phases {
             let seconds = seconds.map_or_else(|| "–".into(), |s| format!("{s:.3}"));
             let (bytes, unknowns) = (megabytes(*bytes), number(*unknowns));
             writeln!(

@@ -7,9 +7,9 @@ use ppum::dataset::{self, Dataset, TipIntensity};
 use ppum::text::{beside, short};
 use serde::Serialize;
 
-use super::Number;
+use super::JsonNumber;
 
-/// A tip. What is not known is NaN.
+/// A tip. Unknown values are NaN.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tip {
     /// Number of the step.
@@ -22,36 +22,36 @@ pub struct Tip {
     /// Direction of the crack at the tip, radians from the x axis.
     pub angle: f64,
     /// K_I.
-    pub k1: Number,
+    pub k1: JsonNumber,
     /// K_II.
-    pub k2: Number,
+    pub k2: JsonNumber,
     /// T, the finite part of the stress along the crack.
-    pub t_stress: Number,
+    pub t_stress: JsonNumber,
     /// The J-integral, found without the factors.
-    pub j: Number,
+    pub j: JsonNumber,
     /// G = (K_I² + K_II²) / E′ with the material at the tip.
-    pub g: Number,
+    pub g: JsonNumber,
     /// Direction of the largest hoop stress, radians from [`Self::angle`].
-    pub growth_angle: Number,
+    pub growth_angle: JsonNumber,
     /// Estimated error of (K_I, K_II).
-    pub error: Number,
+    pub error: JsonNumber,
     /// Largest relative difference of two rings: no estimate of the error.
-    pub spread: Number,
-    rings: Vec<Ring>,
+    pub spread: JsonNumber,
+    rings: Vec<RingFacts>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
-struct Ring {
+struct RingFacts {
     r1: f64,
     r2: f64,
-    k1: Number,
-    k2: Number,
+    k1: JsonNumber,
+    k2: JsonNumber,
 }
 
 /// Heads of the columns of [`Tip::words`].
 pub const HEADS: [&str; 8] = ["K_I", "K_II", "T", "G", "angle", "error", "spread", "J/G-1"];
 
-/// What these columns mean.
+/// The meaning of columns of the table of tips.
 pub const MEANING: &str =
     "angle: of growth (hoop stress); error: of K, estimated, relative; spread, J/G-1: checks alone";
 
@@ -65,21 +65,21 @@ impl Tip {
         let crack = &dataset.steps[index].cracks[tip.crack as usize];
         let (axis, at) = (crack.growth_direction(tip.end), crack.end_point(tip.end));
         let elastic = dataset.equation.elastic();
-        let known = |value: Option<f64>| Number(value.unwrap_or(f64::NAN));
+        let known = |value: Option<f64>| JsonNumber(value.unwrap_or(f64::NAN));
         Self {
             step: index,
             crack: tip.crack,
             at: at.into(),
             angle: axis.y.atan2(axis.x),
-            k1: Number(*k1),
-            k2: Number(*k2),
+            k1: JsonNumber(*k1),
+            k2: JsonNumber(*k2),
             t_stress: known(*t_stress),
             j: known(*j),
             g: known(elastic.map(|body| factors.energy_release(&body.at(at)))),
             growth_angle: known(factors.growth_angle()),
             error: known(*error),
-            spread: Number(factors.spread()),
-            rings: rings.iter().map(Ring::new).collect(),
+            spread: JsonNumber(factors.spread()),
+            rings: rings.iter().map(RingFacts::new).collect(),
         }
     }
 
@@ -120,9 +120,9 @@ impl Tip {
     }
 }
 
-impl Ring {
+impl RingFacts {
     fn new(ring: &dataset::Ring) -> Self {
-        Self { r1: ring.r1, r2: ring.r2, k1: Number(ring.k1), k2: Number(ring.k2) }
+        Self { r1: ring.r1, r2: ring.r2, k1: JsonNumber(ring.k1), k2: JsonNumber(ring.k2) }
     }
 }
 

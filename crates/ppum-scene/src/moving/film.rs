@@ -3,22 +3,22 @@
 use std::io::Write;
 
 use ppum_figure::canvas::Canvas;
-use ppum_figure::figure::Design;
+use ppum_figure::figure::FigureStyle;
 use ppum_figure::form;
 use ppum_render::animation::{AnimationError, Apng, ColorCounts, Gif};
 use ppum_render::image::Image;
 use ppum_render::picture::Style;
-use ppum_render::png::Text;
+use ppum_render::png::TextChunk;
 use ppum_render::view::View;
 
-use super::{FrameView, Frames};
+use super::{FrameSource, FrameView};
 use crate::colors;
-use crate::drawing::{Drawn, classes, united};
+use crate::drawing::{PixelValues, classes, united};
 use crate::engine::Engine;
 use crate::notice::Notice;
 use crate::request::Request;
-use crate::shared::{Coloring, ValueStatistics};
-use crate::shot::{Asked, Input, Shot, ShotError};
+use crate::shared::{ColorMapping, ValueStatistics};
+use crate::shot::{ImageError, ImageInput, QuantityRequest, RenderedImage};
 
 /// The file format of an animation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,9 +30,9 @@ pub enum AnimationFormat {
 }
 
 /// Memory for the values of frames from the first pass, which finds the range, to the second
-/// \[bytes\]: 160 pictures of 1024 × 768 pixels. Those of more are computed again.
+/// \[bytes\]: 160 images of 1024 × 768 pixels. Those of more are computed again.
 const VALUES: usize = 1 << 30;
-/// The same for pictures, whose colours a GIF counts before it is begun.
+/// The limit for images, whose colours a GIF counts before it is begun.
 const IMAGES: usize = 1 << 29;
 
 /// Most pixels of a frame: a gigabyte.
@@ -57,30 +57,30 @@ impl<T> BoundedCache<T> {
 }
 
 /// Memory of what is kept of a frame.
-fn bytes(drawn: &Drawn) -> usize {
+fn bytes(drawn: &PixelValues) -> usize {
     drawn.values.bytes() + drawn.opacity.as_ref().map_or(0, |(_, all)| all.len())
 }
 
 /// Frames once their values and their range are known.
-pub struct Film<'a, F: Frames<Error: From<AnimationError>>> {
+pub struct SeriesAnimation<'a, F: FrameSource<Error: From<AnimationError>>> {
     frames: &'a F,
     place: &'a dyn FrameView<F::Error>,
-    design: Option<&'a Design>,
+    design: Option<&'a FigureStyle>,
     engine: &'a Engine<'a>,
-    drawn: BoundedCache<Drawn>,
+    drawn: BoundedCache<PixelValues>,
     /// The one way to colours of all frames.
-    pub coloring: Coloring,
+    pub coloring: ColorMapping,
     /// The view of each frame.
     pub views: Vec<View>,
     /// The name of what the first one shows, and what drew it.
     pub name: String,
-    /// What drew the first one.
+    /// The device that drew the first one.
     pub by: String,
 }
 
-/// What the first pass finds.
+/// The results of the first pass.
 #[derive(Default)]
-struct First {
+struct RangePass {
     found: ValueStatistics,
     style: Option<Style>,
     classes: Vec<Option<Vec<f64>>>,
@@ -88,17 +88,17 @@ struct First {
     name: String,
     by: String,
     is_of_cells: bool,
-    colors: colors::Colors,
+    colors: colors::ColorOptions,
 }
 
-impl First {
+impl RangePass {
     /// The values of a frame, and what they say of the range.
     fn add(
         &mut self,
-        input: &Input<'_>,
+        input: &ImageInput<'_>,
         request: &Request,
         engine: &Engine<'_>,
-    ) -> Result<Drawn, ShotError> {
+    ) -> Result<PixelValues, ImageError> {
         let drawn = input.values(request.samples, engine)?;
         if self.style.is_none() {
             let (quantity, colors) = (input.shown.quantity(), &request.scene.colors);
@@ -115,7 +115,7 @@ impl First {
     }
 
     /// One way to colours for all frames, their views, and of the first its name and what drew it.
-    fn finished(self) -> (Coloring, Vec<View>, String, String) {
+    fn finished(self) -> (ColorMapping, Vec<View>, String, String) {
         let classes = self.classes.into_iter().collect::<Option<Vec<_>>>().and_then(united);
         let style = self.style.unwrap_or_default();
         let classed = self.colors.classed(style.clone(), classes);
@@ -123,25 +123,26 @@ impl First {
     }
 }
 
-impl<'a, F: Frames<Error: From<AnimationError>>> Film<'a, F> {
+impl<'a, F: FrameSource<Error: From<AnimationError>>> SeriesAnimation<'a, F> {
     /// Looks at all frames.
     ///
     /// # Errors
-    /// No frames; those of one picture; a watcher that stops it.
+    /// No frames; those of one image; a watcher that stops it.
     pub fn new(
         frames: &'a F,
         place: &'a dyn FrameView<F::Error>,
-        design: Option<&'a Design>,
+        design: Option<&'a FigureStyle>,
         engine: &'a Engine<'a>,
     ) -> Result<Self, F::Error> {
-        let (mut first, mut drawn) = (First::default(), BoundedCache::new(VALUES));
+        let (mut first, mut drawn) = (RangePass::default(), BoundedCache::new(VALUES));
         frames.each(&mut |source, request| {
             let seen = place.seen(source, request, engine)?;
             let size = design.map_or(seen.view().pixels, |design| design.size);
             if u64::from(size[0]) * u64::from(size[1]) > MOST {
-                return Err(ShotError::TooLarge(size).into());
+                return Err(ImageError::TooLarge(size).into());
             }
-            let asked = Asked::new(&request.scene, source.field).map_err(ShotError::from)?;
+            let asked =
+                QuantityRequest::new(&request.scene, source.field).map_err(ImageError::from)?;
             let found = first.add(&source.input(&asked, &seen), request, engine)?;
             let bytes = bytes(&found);
             drawn.push(found, bytes);
@@ -159,11 +160,12 @@ impl<'a, F: Frames<Error: From<AnimationError>>> Film<'a, F> {
     ///
     /// # Errors
     /// As [`Self::new`]; a design without room.
-    pub fn page(&self, number: usize) -> Result<(Canvas, Shot), F::Error> {
+    pub fn page(&self, number: usize) -> Result<(Canvas, RenderedImage), F::Error> {
         let mut made = None;
         self.frames.with(number, &mut |source, request| {
             let seen = self.place.seen(source, request, self.engine)?;
-            let asked = Asked::new(&request.scene, source.field).map_err(ShotError::from)?;
+            let asked =
+                QuantityRequest::new(&request.scene, source.field).map_err(ImageError::from)?;
             let input = source.input(&asked, &seen);
             let again = match &self.drawn.all[number] {
                 Some(_) => None,
@@ -183,8 +185,8 @@ impl<'a, F: Frames<Error: From<AnimationError>>> Film<'a, F> {
     }
 
     /// Writes an animation whose frames are shown for some milliseconds each, and returns its
-    /// columns and rows. What its file says follows from the first frame; it has a place in an
-    /// APNG alone.
+    /// columns and rows. The texts of the file follow from the first frame; only an APNG can hold
+    /// them.
     ///
     /// # Errors
     /// As [`Self::page`]; what the file does not hold, or cannot be written.
@@ -192,7 +194,7 @@ impl<'a, F: Frames<Error: From<AnimationError>>> Film<'a, F> {
         &self,
         form: AnimationFormat,
         milliseconds: u16,
-        texts: &dyn Fn(&Shot) -> Vec<Text>,
+        texts: &dyn Fn(&RenderedImage) -> Vec<TextChunk>,
         out: &mut dyn Write,
     ) -> Result<[u32; 2], F::Error> {
         let (page, shot) = self.page(0)?;
@@ -212,7 +214,7 @@ impl<'a, F: Frames<Error: From<AnimationError>>> Film<'a, F> {
         &self,
         first: &Image,
         milliseconds: u16,
-        texts: &[Text],
+        texts: &[TextChunk],
         out: &mut dyn Write,
     ) -> Result<(), F::Error> {
         let frames = self.frames.count();

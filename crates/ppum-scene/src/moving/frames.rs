@@ -3,28 +3,28 @@
 use ppum::dataset::Dataset;
 use ppum::field::{Field, FieldError};
 use ppum::vec2::Rect;
-use ppum_figure::figure::{Design, plot_area};
+use ppum_figure::figure::{FigureStyle, plot_area};
 use ppum_render::animation::AnimationError;
 use ppum_render::deform::AutomaticFactor;
 use ppum_render::view::View;
 
 use crate::body::BodyView;
-use crate::deformed::Factor;
+use crate::deformed::Magnification;
 use crate::engine::Engine;
 use crate::request::Request;
 use crate::scene::SubjectError;
-use crate::shot::{FieldSource, ShotError, title};
+use crate::shot::{FieldSource, ImageError, title};
 
-/// What moves.
+/// The motion in an animation.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Moving {
+pub enum MotionKind {
     /// The frames are these steps.
     Steps(Vec<usize>),
-    /// The plate deforms up to so many times its displacement and back, in so many frames.
+    /// The body deforms up to so many times its displacement and back, in so many frames.
     Factor(f64, usize),
 }
 
-/// The reason why there are no such pictures.
+/// The reason why there are no such images.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum MovingError {
@@ -34,16 +34,16 @@ pub enum MovingError {
     /// A part or a replacement.
     #[error(transparent)]
     Subject(#[from] SubjectError),
-    /// A picture.
+    /// An image.
     #[error(transparent)]
-    Shot(Box<ShotError>),
+    Shot(Box<ImageError>),
     /// The file.
     #[error(transparent)]
     Animation(#[from] AnimationError),
 }
 
-impl From<ShotError> for MovingError {
-    fn from(error: ShotError) -> Self {
+impl From<ImageError> for MovingError {
+    fn from(error: ImageError) -> Self {
         Self::Shot(Box::new(error))
     }
 }
@@ -51,10 +51,10 @@ impl From<ShotError> for MovingError {
 /// Works on a frame: a field, and what is shown of it.
 pub type Work<'a, E> = dyn FnMut(FieldSource<'_>, &Request) -> Result<(), E> + 'a;
 
-/// The frames of an animation, or the one of a still picture.
-pub trait Frames {
+/// The frames of an animation, or the one of a still image.
+pub trait FrameSource {
     /// The reason why there is no such frame.
-    type Error: From<ShotError>;
+    type Error: From<ImageError>;
 
     /// The number of frames.
     fn count(&self) -> usize;
@@ -73,23 +73,23 @@ pub trait Frames {
         (0..self.count()).try_for_each(|number| self.with(number, work))
     }
 
-    /// The factor of the deformed plate as a number, the same for all frames that do not
-    /// have theirs.
+    /// The factor of the deformed body as a number, the same for all frames that do not have
+    /// theirs.
     ///
     /// # Errors
     /// Fields that are no displacements.
-    fn factor(&self, factor: Factor) -> Result<f64, Self::Error> {
-        if let Factor::Given(factor) = factor {
+    fn factor(&self, factor: Magnification) -> Result<f64, Self::Error> {
+        if let Magnification::Given(factor) = factor {
             return Ok(factor);
         }
         let mut found = AutomaticFactor::default();
         self.each(&mut |FieldSource { field, .. }, _| {
-            Ok(found.add(field, &field.domain.bounds).map_err(ShotError::from)?)
+            Ok(found.add(field, &field.domain.bounds).map_err(ImageError::from)?)
         })?;
         Ok(found.factor())
     }
 
-    /// The request of them, with the factor of the deformed plate as a number and with the edges
+    /// The request of them, with the factor of the deformed body as a number and with the edges
     /// at which a body is mirrored.
     ///
     /// # Errors
@@ -98,17 +98,17 @@ pub trait Frames {
         let mut request = request.clone();
         if request.scene.mirror.is_some() && self.count() > 0 {
             self.with(0, &mut |source, _| {
-                request.scene = source.settled(request.scene.clone()).map_err(ShotError::from)?;
+                request.scene = source.settled(request.scene.clone()).map_err(ImageError::from)?;
                 Ok(())
             })?;
         }
         if let Some(factor) = request.scene.deformed {
-            request.scene.deformed = Some(Factor::Given(self.factor(factor)?));
+            request.scene.deformed = Some(Magnification::Given(self.factor(factor)?));
         }
         Ok(request)
     }
 
-    /// The box that shows the plate in all frames.
+    /// The box that shows the body in all frames.
     ///
     /// # Errors
     /// A field that is no displacement, or a factor that is too large.
@@ -127,11 +127,11 @@ pub trait Frames {
     ///
     /// # Errors
     /// A design without room.
-    fn room(&self, design: &Design) -> Result<[u32; 2], Self::Error> {
+    fn room(&self, design: &FigureStyle) -> Result<[u32; 2], Self::Error> {
         let mut room = design.size;
         self.each(&mut |source, request| {
-            let title = title(source, request).map_err(ShotError::from)?;
-            let [columns, rows] = plot_area(&title, design).map_err(ShotError::from)?;
+            let title = title(source, request).map_err(ImageError::from)?;
+            let [columns, rows] = plot_area(&title, design).map_err(ImageError::from)?;
             room = [room[0].min(columns), room[1].min(rows)];
             Ok(())
         })?;
@@ -141,7 +141,7 @@ pub trait Frames {
 
 /// Chooses the view of each frame.
 pub trait FrameView<E> {
-    /// What is seen of a frame.
+    /// Returns the visible part of a frame.
     ///
     /// # Errors
     /// A place that the frame does not have.
@@ -153,7 +153,7 @@ pub trait FrameView<E> {
     ) -> Result<BodyView<'f>, E>;
 }
 
-impl<E: From<ShotError>> FrameView<E> for View {
+impl<E: From<ImageError>> FrameView<E> for View {
     fn seen<'f>(
         &self,
         source: FieldSource<'f>,
@@ -168,10 +168,10 @@ impl<E: From<ShotError>> FrameView<E> for View {
 pub struct InMemory<'a> {
     /// The dataset.
     pub dataset: &'a Dataset,
-    /// What is shown.
+    /// The request.
     pub request: Request,
-    /// What moves.
-    pub moving: &'a Moving,
+    /// The motion in an animation.
+    pub moving: &'a MotionKind,
 }
 
 impl<'a> InMemory<'a> {
@@ -182,35 +182,35 @@ impl<'a> InMemory<'a> {
     pub fn new(
         dataset: &'a Dataset,
         request: &Request,
-        moving: &'a Moving,
+        moving: &'a MotionKind,
     ) -> Result<Self, MovingError> {
         let mut all = Self { dataset, request: request.clone(), moving };
         all.request = all.settled(request)?;
         Ok(all)
     }
 
-    /// What a frame shows.
+    /// Returns the request of a frame.
     fn of(&self, number: usize) -> Request {
         let mut request = self.request.clone();
         match self.moving {
-            Moving::Steps(steps) => request = request.at_step(steps[number]),
-            Moving::Factor(largest, count) => {
+            MotionKind::Steps(steps) => request = request.at_step(steps[number]),
+            MotionKind::Factor(largest, count) => {
                 let part = number as f64 / *count as f64;
                 let share = 0.5 - 0.5 * (std::f64::consts::TAU * part).cos();
-                request.scene.deformed = Some(Factor::Given(largest * share));
+                request.scene.deformed = Some(Magnification::Given(largest * share));
             }
         }
         request
     }
 }
 
-impl Frames for InMemory<'_> {
+impl FrameSource for InMemory<'_> {
     type Error = MovingError;
 
     fn count(&self) -> usize {
         match self.moving {
-            Moving::Steps(steps) => steps.len(),
-            Moving::Factor(_, count) => *count,
+            MotionKind::Steps(steps) => steps.len(),
+            MotionKind::Factor(_, count) => *count,
         }
     }
 
@@ -222,7 +222,7 @@ impl Frames for InMemory<'_> {
 /// Works on what a request shows of a dataset.
 ///
 /// # Errors
-/// What the dataset does not have; those of the work.
+/// Features that the dataset does not have; the errors of the work.
 pub fn with_subject<E: From<SubjectError> + From<FieldError>>(
     dataset: &Dataset,
     request: &Request,

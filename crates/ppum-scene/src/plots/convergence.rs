@@ -8,19 +8,21 @@ use ppum::vec2::Vec2;
 use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve, slope, with_slope};
 
 use ppum_solve::norms::norms;
-use ppum_solve::space::Space;
+use ppum_solve::space::TrialSpace;
 
-use super::{Named, PlotError};
+use super::{NamedDataset, PlotError};
 
 /// A curve for each error: those of the exact solution if all datasets have them, else the
 /// distances of energy and stress intensity factors from those of the dataset with most unknowns.
-/// Of one dataset alone all steps are compared.
+/// For a single dataset, all steps are compared.
 ///
 /// # Errors
 /// Fewer than three solutions of different sizes; solutions of several problems.
-pub fn convergence(datasets: &[Named<'_>], step: Option<usize>) -> Result<Plot, PlotError> {
+pub fn convergence(datasets: &[NamedDataset<'_>], step: Option<usize>) -> Result<Plot, PlotError> {
     let mut solutions = match datasets {
-        [Named { dataset, .. }] if dataset.steps.len() >= 3 && step.is_none() => all_steps(dataset),
+        [NamedDataset { dataset, .. }] if dataset.steps.len() >= 3 && step.is_none() => {
+            all_steps(dataset)
+        }
         _ => one_step_each(datasets, step)?,
     };
     of_one_problem(datasets)?;
@@ -72,36 +74,36 @@ pub fn adaptation(dataset: &Dataset) -> Option<Plot> {
 }
 
 /// The steps of an adaptation.
-fn all_steps(dataset: &Dataset) -> Vec<Solution<'_>> {
+fn all_steps(dataset: &Dataset) -> Vec<StepNorms<'_>> {
     let steps = dataset.steps.iter().enumerate();
-    steps.map(|(index, step)| Solution { dataset, index, step }).collect()
+    steps.map(|(index, step)| StepNorms { dataset, index, step }).collect()
 }
 
 /// One step of each dataset, the last one unless another is asked for.
 fn one_step_each<'d>(
-    datasets: &[Named<'d>],
+    datasets: &[NamedDataset<'d>],
     step: Option<usize>,
-) -> Result<Vec<Solution<'d>>, PlotError> {
+) -> Result<Vec<StepNorms<'d>>, PlotError> {
     if datasets.len() < 3 {
         return Err(PlotError::FewDatasets);
     }
-    let one = |&Named { name, dataset }: &Named<'d>| {
+    let one = |&NamedDataset { name, dataset }: &NamedDataset<'d>| {
         let index = step.unwrap_or(dataset.steps.len().saturating_sub(1));
-        let found = dataset.steps.get(index).map(|step| Solution { dataset, index, step });
+        let found = dataset.steps.get(index).map(|step| StepNorms { dataset, index, step });
         found.ok_or_else(|| PlotError::Step { name: name.to_owned(), step: index })
     };
     datasets.iter().map(one).collect()
 }
 
 /// Datasets of different problems have no common solution that they could come near.
-fn of_one_problem(datasets: &[Named<'_>]) -> Result<(), PlotError> {
-    for Named { name, dataset } in datasets {
+fn of_one_problem(datasets: &[NamedDataset<'_>]) -> Result<(), PlotError> {
+    for NamedDataset { name, dataset } in datasets {
         if dataset.steps.windows(2).any(|pair| pair[0].cracks != pair[1].cracks) {
             return Err(PlotError::Grown((*name).to_owned()));
         }
     }
-    let [Named { name, dataset: first }, others @ ..] = datasets else { return Ok(()) };
-    for Named { name: other, dataset } in others {
+    let [NamedDataset { name, dataset: first }, others @ ..] = datasets else { return Ok(()) };
+    for NamedDataset { name: other, dataset } in others {
         let cracks = |dataset: &Dataset| dataset.steps.first().map(|step| step.cracks.clone());
         let what = match () {
             () if dataset.equation != first.equation => "the equation or the material",
@@ -127,14 +129,14 @@ fn unknowns(step: &Step) -> f64 {
 }
 
 /// A step of a dataset.
-struct Solution<'d> {
+struct StepNorms<'d> {
     dataset: &'d Dataset,
     index: usize,
     step: &'d Step,
 }
 
 /// Relative errors in the energy norm and in L² where all exact solutions are known.
-fn exact(solutions: &[Solution<'_>]) -> Result<Vec<PlotCurve>, PlotError> {
+fn exact(solutions: &[StepNorms<'_>]) -> Result<Vec<PlotCurve>, PlotError> {
     let mut points = [Vec::new(), Vec::new()];
     for solution in solutions {
         let Some(errors) = errors(solution)? else { return Ok(Vec::new()) };
@@ -148,7 +150,9 @@ fn exact(solutions: &[Solution<'_>]) -> Result<Vec<PlotCurve>, PlotError> {
 
 /// Errors relative to the exact solution, in the energy norm and in L²; none if it, or the
 /// equation, is not known.
-fn errors(Solution { dataset, index, step }: &Solution<'_>) -> Result<Option<[f64; 2]>, PlotError> {
+fn errors(
+    StepNorms { dataset, index, step }: &StepNorms<'_>,
+) -> Result<Option<[f64; 2]>, PlotError> {
     let field = Field::new(dataset, *index).map_err(PlotError::of)?;
     if !field.has_exact() || dataset.equation == Equation::None {
         return Ok(None);
@@ -167,7 +171,7 @@ fn errors(Solution { dataset, index, step }: &Solution<'_>) -> Result<Option<[f6
         both
     };
     field.on_cells("norms of errors").map_err(PlotError::of)?;
-    let space = Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables);
+    let space = TrialSpace::new(step, &dataset.domain, &dataset.equation, &dataset.tables);
     let space = space.map_err(PlotError::of)?;
     let [_, reference, difference] = norms(&field, &space, &exact);
     let (energy, l2) = difference.relative_to(&reference);

@@ -37,7 +37,7 @@ pub enum PlotError {
         first: String,
         /// The other.
         other: String,
-        /// What of them is not the same.
+        /// The property in which the datasets differ.
         what: &'static str,
     },
     /// Nothing that could be compared.
@@ -74,7 +74,7 @@ pub enum PlotError {
     NoRecords {
         /// The dataset.
         name: String,
-        /// What is missing.
+        /// The missing data.
         what: &'static str,
     },
     /// A solution that took no iterations, or no levels.
@@ -84,7 +84,7 @@ pub enum PlotError {
     NotIterated {
         /// The dataset.
         name: String,
-        /// What is missing.
+        /// The missing data.
         what: &'static str,
     },
     /// A plot without anything in it.

@@ -4,7 +4,7 @@ use ppum::dataset::{Record, Step};
 use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve};
 use ppum_solve::report::{SolverReport, is_of_phase};
 
-use super::{Named, PlotError, label};
+use super::{NamedDataset, PlotError, label};
 
 /// The measure of the solver's work that is plotted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub enum SolverWork {
 /// # Errors
 /// No such step; a history that does not tell it.
 pub fn history(
-    datasets: &[Named<'_>],
+    datasets: &[NamedDataset<'_>],
     what: SolverWork,
     step: Option<usize>,
 ) -> Result<Plot, PlotError> {
@@ -44,13 +44,13 @@ pub fn history(
 /// Bars phase by phase, a colour for each dataset: of seconds the sum over the steps, of bytes
 /// the most.
 fn phases(
-    datasets: &[Named<'_>],
+    datasets: &[NamedDataset<'_>],
     step: Option<usize>,
     (unit, axis, scale): (&str, PlotAxis, f64),
 ) -> Result<Plot, PlotError> {
     let mut names: Vec<String> = Vec::new();
     let mut curves = Vec::new();
-    for &Named { name, dataset } in datasets {
+    for &NamedDataset { name, dataset } in datasets {
         let last = step.unwrap_or(0);
         if last >= dataset.steps.len() {
             return Err(PlotError::Step { name: name.to_owned(), step: last });
@@ -83,20 +83,20 @@ fn phases(
 }
 
 /// The report of a step, by default of the last one.
-fn report(named: &Named<'_>, step: Option<usize>) -> Result<SolverReport, PlotError> {
+fn report(named: &NamedDataset<'_>, step: Option<usize>) -> Result<SolverReport, PlotError> {
     let steps = &named.dataset.steps;
     let found: Option<&Step> = step.map_or(steps.last(), |step| steps.get(step));
     let none = || PlotError::Step { name: named.name.to_owned(), step: step.unwrap_or(0) };
     found.map(|step| SolverReport::of(&step.history)).ok_or_else(none)
 }
 
-fn not_iterated(named: &Named<'_>, what: &'static str) -> PlotError {
+fn not_iterated(named: &NamedDataset<'_>, what: &'static str) -> PlotError {
     PlotError::NotIterated { name: named.name.to_owned(), what }
 }
 
 /// The residual after each iteration as a part of the first one, on a logarithmic axis; of one
 /// dataset also what of it reaches each level, as a part of what did at first.
-fn residuals(datasets: &[Named<'_>], step: Option<usize>) -> Result<Plot, PlotError> {
+fn residuals(datasets: &[NamedDataset<'_>], step: Option<usize>) -> Result<Plot, PlotError> {
     let mut curves = Vec::new();
     for named in datasets {
         let report = report(named, step)?;
@@ -138,8 +138,8 @@ fn numbered(values: &[f64]) -> Vec<[f64; 2]> {
     values.iter().enumerate().map(|(k, value)| [k as f64, *value]).collect()
 }
 
-/// What the levels hold, the finest being level 0, on a logarithmic axis.
-fn levels(datasets: &[Named<'_>], step: Option<usize>) -> Result<Plot, PlotError> {
+/// Plots the residuals of the levels, the finest being level 0, on a logarithmic axis.
+fn levels(datasets: &[NamedDataset<'_>], step: Option<usize>) -> Result<Plot, PlotError> {
     let mut curves = Vec::new();
     let mut most = 0;
     for named in datasets {

@@ -10,20 +10,20 @@ mod seen;
 mod series;
 
 use ppum_figure::plot::Plot;
-use ppum_render::png::Text;
+use ppum_render::png::TextChunk;
 
 pub use convergence::{adaptation, convergence};
 pub use error::PlotError;
 pub use history::{SolverWork, history};
-pub use named::{Named, plain};
+pub use named::{NamedDataset, plain};
 use named::{label, title};
 pub use profiles::{Profiles, usual};
 pub use seen::check;
-pub use series::{Number, SeriesAxis, series};
+pub use series::{SeriesAxis, SeriesNumber, series};
 
-/// What a plot's file says of itself; `names` are those of the datasets.
+/// Returns the metadata of a plot's file; `names` are those of the datasets.
 #[must_use]
-pub fn texts(names: &[&str], plot: &Plot) -> Vec<Text> {
+pub fn texts(names: &[&str], plot: &Plot) -> Vec<TextChunk> {
     let summary = format!("{} of {}, evaluated exactly", curves(plot), names.join(", "));
     [
         ("Title", plot.title.clone()),

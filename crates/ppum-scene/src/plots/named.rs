@@ -4,7 +4,7 @@ use ppum::dataset::Dataset;
 
 /// A dataset with the name that curves and messages have for it where there are several.
 #[derive(Clone, Copy, Debug)]
-pub struct Named<'d> {
+pub struct NamedDataset<'d> {
     /// The name, say that of its file.
     pub name: &'d str,
     /// The dataset.

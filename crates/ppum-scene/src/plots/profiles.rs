@@ -3,9 +3,9 @@
 use ppum::field::Field;
 use ppum_figure::plot::{Plot, PlotAxis};
 
-use super::{Named, label, title};
+use super::{NamedDataset, label, title};
 use crate::profile::{self, Variable, axis, columns, curve, unit, value_label};
-use crate::table::Table;
+use crate::table::NumberTable;
 
 /// A plot of tables along one curve, dataset by dataset, a curve for each quantity of each.
 #[derive(Debug)]
@@ -36,10 +36,10 @@ impl<'d> Profiles<'d> {
     /// Adds the table of a dataset's field.
     pub fn add(
         &mut self,
-        named: Named<'d>,
+        named: NamedDataset<'d>,
         field: &Field<'_>,
-        quantities: &profile::Named,
-        table: &Table,
+        quantities: &profile::NamedQuantities,
+        table: &NumberTable,
     ) {
         for (name, points) in columns(table, self.variable, self.jumps) {
             let name = label(self.several, named.name, &name);

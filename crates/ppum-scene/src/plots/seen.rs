@@ -17,7 +17,7 @@ pub fn check(plot: &Plot) -> Result<Vec<String>, PlotError> {
     Ok(plot.curves.iter().filter_map(|curve| missed(curve, logs)).collect())
 }
 
-/// What a curve does not show.
+/// Returns a message about the values that a curve does not show.
 fn missed(curve: &PlotCurve, logs: [bool; 2]) -> Option<String> {
     let (name, Counts { seen, finite }) = (plain(&curve.label), counts(curve, logs));
     if seen == 0 {

@@ -1,4 +1,4 @@
-//! What the solver found in each step of a series.
+//! The solver's results in each step of a series.
 
 use std::str::FromStr;
 
@@ -6,7 +6,7 @@ use ppum::crack::{Crack, TipId};
 use ppum::dataset::{Dataset, Step};
 use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve};
 
-use super::{Named, PlotError, label, title};
+use super::{NamedDataset, PlotError, label, title};
 
 /// The horizontal axis of a plot of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub enum SeriesAxis {
 
 /// A number of a step, or of each of its tips.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Number {
+pub enum SeriesNumber {
     /// K_I of each tip.
     K1,
     /// K_II of each tip.
@@ -41,15 +41,15 @@ pub enum Number {
 }
 
 /// Their words.
-const NAMES: [(&str, Number); 5] = [
-    ("k1", Number::K1),
-    ("k2", Number::K2),
-    ("load", Number::Load),
-    ("length", Number::Length),
-    ("extension", Number::Extension),
+const NAMES: [(&str, SeriesNumber); 5] = [
+    ("k1", SeriesNumber::K1),
+    ("k2", SeriesNumber::K2),
+    ("load", SeriesNumber::Load),
+    ("length", SeriesNumber::Length),
+    ("extension", SeriesNumber::Extension),
 ];
 
-impl FromStr for Number {
+impl FromStr for SeriesNumber {
     type Err = PlotError;
 
     fn from_str(text: &str) -> Result<Self, PlotError> {
@@ -68,8 +68,8 @@ impl FromStr for Number {
 /// # Errors
 /// A dataset of one step, or one that does not know the number.
 pub fn series(
-    datasets: &[Named<'_>],
-    numbers: &[Number],
+    datasets: &[NamedDataset<'_>],
+    numbers: &[SeriesNumber],
     over: SeriesAxis,
 ) -> Result<Plot, PlotError> {
     let mut plot = Plot { x: axis(over), y: value_axis(numbers), ..Plot::default() };
@@ -103,12 +103,12 @@ fn axis(over: SeriesAxis) -> PlotAxis {
 }
 
 /// The axis of values, with a name if they are all of one kind.
-fn value_axis(numbers: &[Number]) -> PlotAxis {
-    let name = |number: &Number| match number {
-        Number::K1 | Number::K2 => "stress intensity factor",
-        Number::Load => "load",
-        Number::Length => "crack length",
-        Number::Extension => "crack extension",
+fn value_axis(numbers: &[SeriesNumber]) -> PlotAxis {
+    let name = |number: &SeriesNumber| match number {
+        SeriesNumber::K1 | SeriesNumber::K2 => "stress intensity factor",
+        SeriesNumber::Load => "load",
+        SeriesNumber::Length => "crack length",
+        SeriesNumber::Extension => "crack extension",
     };
     let first = numbers.first().map_or("", name);
     let is_one = numbers.iter().all(|number| name(number) == first);
@@ -120,9 +120,13 @@ fn length(step: &Step) -> f64 {
 }
 
 /// Refuses what a dataset does not know: extensions and cycles are those of cracks that grow.
-fn needs(named: &Named<'_>, numbers: &[Number], over: SeriesAxis) -> Result<(), PlotError> {
+fn needs(
+    named: &NamedDataset<'_>,
+    numbers: &[SeriesNumber],
+    over: SeriesAxis,
+) -> Result<(), PlotError> {
     let growth = || named.dataset.steps.iter().filter_map(|step| step.growth.as_ref());
-    let needs_growth = over == SeriesAxis::Extension || numbers.contains(&Number::Extension);
+    let needs_growth = over == SeriesAxis::Extension || numbers.contains(&SeriesNumber::Extension);
     if needs_growth && growth().next().is_none() {
         return Err(PlotError::NoGrowth(named.name.to_owned()));
     }
@@ -133,7 +137,11 @@ fn needs(named: &Named<'_>, numbers: &[Number], over: SeriesAxis) -> Result<(), 
 }
 
 /// The curves of a number with their names.
-fn curves(dataset: &Dataset, number: Number, over: SeriesAxis) -> Vec<(String, Vec<[f64; 2]>)> {
+fn curves(
+    dataset: &Dataset,
+    number: SeriesNumber,
+    over: SeriesAxis,
+) -> Vec<(String, Vec<[f64; 2]>)> {
     let extensions = Extensions::new(dataset);
     let place = |k: usize, tip: Option<TipId>| {
         let step = &dataset.steps[k];
@@ -151,24 +159,24 @@ fn curves(dataset: &Dataset, number: Number, over: SeriesAxis) -> Vec<(String, V
         dataset.steps.iter().enumerate().filter_map(point).collect::<Vec<_>>()
     };
     let symbol = match number {
-        Number::K1 => "K_{I}",
-        Number::K2 => "K_{II}",
-        Number::Load => {
+        SeriesNumber::K1 => "K_{I}",
+        SeriesNumber::K2 => "K_{II}",
+        SeriesNumber::Load => {
             return vec![("load".into(), points(None, &|_, step| Some(step.load)))];
         }
-        Number::Length => {
+        SeriesNumber::Length => {
             return vec![("crack length".into(), points(None, &|_, step| Some(length(step))))];
         }
-        Number::Extension => "extension",
+        SeriesNumber::Extension => "extension",
     };
     let tips = tips(dataset);
     let of_tip = |(which, &tip): (usize, &TipId)| {
         let factors = |step: &Step| {
             let found = step.intensities.iter().find(|found| found.tip == tip)?;
-            Some(if number == Number::K1 { found.k1 } else { found.k2 })
+            Some(if number == SeriesNumber::K1 { found.k1 } else { found.k2 })
         };
         let value = |k: usize, step: &Step| match number {
-            Number::Extension => extensions.of(k, tip),
+            SeriesNumber::Extension => extensions.of(k, tip),
             _ => factors(step),
         };
         let name = if tips.len() > 1 { format!("{symbol} of tip {which}") } else { symbol.into() };
@@ -177,7 +185,8 @@ fn curves(dataset: &Dataset, number: Number, over: SeriesAxis) -> Vec<(String, V
     tips.iter().enumerate().map(of_tip).collect()
 }
 
-/// What the tips have grown up to each step. A tip that has met something has grown no more since.
+/// The extensions of the tips up to each step. A tip that has met something has grown no more
+/// since.
 struct Extensions {
     steps: Vec<Vec<(TipId, f64)>>,
 }
@@ -226,7 +235,7 @@ fn tips(dataset: &Dataset) -> Vec<TipId> {
 mod tests {
     use super::*;
     use ppum::crack::End;
-    use ppum::dataset::{Advance, Fate, Growth, TipIntensity};
+    use ppum::dataset::{Growth, TipIncrement, TipIntensity, TipStatus};
     use ppum_testkit::synthetic::growing;
 
     /// Two tips: one grows by ½ in steps 0 and 1 and meets the border in the second, the other by ¼
@@ -237,8 +246,8 @@ mod tests {
         let [a, b] = [End::Start, End::Last].map(|end| TipId { crack: 0, end });
         for (k, step) in dataset.steps.iter_mut().enumerate() {
             let row = |tip, length: f64, extension: f64| {
-                let fate = if length > 0.0 { Fate::Grows } else { Fate::Held };
-                Advance { length, extension, ..Advance::staying(tip, fate) }
+                let fate = if length > 0.0 { TipStatus::Grows } else { TipStatus::Held };
+                TipIncrement { length, extension, ..TipIncrement::staying(tip, fate) }
             };
             let mut growth = Growth::default();
             if k < 2 {
@@ -256,11 +265,11 @@ mod tests {
         assert_eq!(of(b), [0.0, 0.0, 0.25, 0.25].map(Some));
         assert_eq!([0, 1, 2, 3].map(|k| extensions.of_all(k)), [0.0, 0.5, 1.25, 1.25]);
         // what is drawn over them
-        let found = curves(&dataset, Number::K1, SeriesAxis::Extension);
+        let found = curves(&dataset, SeriesNumber::K1, SeriesAxis::Extension);
         assert_eq!(found[0].1, [[0.0, 1.0], [0.0, 2.0], [0.25, 3.0], [0.25, 4.0]]);
-        let found = curves(&dataset, Number::Extension, SeriesAxis::Cycles);
+        let found = curves(&dataset, SeriesNumber::Extension, SeriesAxis::Cycles);
         assert_eq!(found[0].1, [[0.0, 0.0], [10.0, 0.0], [20.0, 0.25], [30.0, 0.25]]);
-        let found = curves(&dataset, Number::Load, SeriesAxis::Extension);
+        let found = curves(&dataset, SeriesNumber::Load, SeriesAxis::Extension);
         assert!(
             (found[0].1[2][0] - 1.25).abs() < 1e-15 && found[0].1[2][1] == dataset.steps[2].load
         );

@@ -4,11 +4,11 @@ use ppum::crack::Side;
 use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
-use ppum::sample::{Station, Stations};
+use ppum::sample::{SamplePoint, SamplePoints};
 use ppum::vec2::Vec2;
 
 use super::{Profile, ProfileError, evaluate};
-use crate::table::{Column, Table};
+use crate::table::{Column, NumberTable};
 
 /// One row for each of the points at parts of the crack's length.
 pub(super) fn table(
@@ -19,7 +19,7 @@ pub(super) fn table(
     watcher: &dyn Watcher,
 ) -> Result<Profile, ProfileError> {
     let cracks = &field.step.cracks;
-    let stations = u32::try_from(index).ok().and_then(|k| Stations::along(cracks, k, parts));
+    let stations = u32::try_from(index).ok().and_then(|k| SamplePoints::along(cracks, k, parts));
     let stations = stations.ok_or(ProfileError::Crack { index, count: cracks.len() })?;
     let components = (0..).map(Quantity::Component).take(field.data.components.len());
     let asked = quantities.iter().map(|(_, quantity)| quantity.clone());
@@ -37,7 +37,7 @@ pub(super) fn table(
         .flat_map(|(station, sides)| row((field, station), sides, quantities.len()))
         .collect();
     let places = stations.all().iter().map(|station| station.place(Side::Above)).collect();
-    let table = Table::new(columns(field, quantities), rows);
+    let table = NumberTable::new(columns(field, quantities), rows);
     Ok(Profile { table, places, undefined: Vec::new() })
 }
 
@@ -70,7 +70,7 @@ fn columns(field: &Field<'_>, quantities: &[(String, Quantity)]) -> Vec<Column> 
 /// Position, the quantities on both sides, the jumps of the components that follow them; normal to
 /// the crack and along it.
 fn row(
-    (field, station): (&Field<'_>, &Station),
+    (field, station): (&Field<'_>, &SamplePoint),
     (above, below): (&[f64], &[f64]),
     quantities: usize,
 ) -> Vec<f64> {

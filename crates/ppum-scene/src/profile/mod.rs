@@ -11,19 +11,19 @@ use ppum::crack::{CrackEnd, TipId, tips};
 use ppum::field::Field;
 use ppum::progress::{Cancelled, Phase, Progress, Watcher};
 use ppum::quantity::Quantity;
-use ppum::sample::{self, Curve, Passage, Place};
+use ppum::sample::{self, Curve, Passage, SidedPoint};
 use ppum::vec2::Vec2;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::table::{Column, Table};
+use crate::table::{Column, NumberTable};
 pub use plot::{axis, columns, curve, unit, value_label};
-pub use variable::{Named, Variable};
+pub use variable::{NamedQuantities, Variable};
 
 /// A curve that values are looked at along.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
-pub enum Along {
+pub enum ProfileCurve {
     /// The line between two points.
     Line {
         /// Where its points are counted from: zero, or a point near by so that none of their digits
@@ -69,11 +69,11 @@ pub enum Along {
 #[derive(Clone, Debug)]
 pub struct Profile {
     /// A row for each place.
-    pub table: Table,
+    pub table: NumberTable,
     /// The places; along a crack those above it.
-    pub places: Vec<Place>,
-    /// Quantities that have no value at some places of the plate, with the number of these and
-    /// of all.
+    pub places: Vec<SidedPoint>,
+    /// Quantities that have no value at some places of the body, with the number of these and of
+    /// all.
     pub undefined: Vec<(String, [usize; 2])>,
 }
 
@@ -128,7 +128,7 @@ pub const COUNT: usize = 201;
 /// Most points at a time: their table takes some gigabytes.
 pub const MOST: usize = 20_000_000;
 
-/// Values of a curve's variable that are the same but for rounding, in parts of its range.
+/// Values of a curve's variable that are the same except for rounding, in parts of its range.
 const SAME: f64 = 1e-12;
 
 /// The smallest distance of a ray from its tip, in parts of the largest.
@@ -138,7 +138,7 @@ const NEAREST: f64 = 1e-6;
 const RADIUS: f64 = 0.01;
 const FAR: f64 = 0.1;
 
-impl Along {
+impl ProfileCurve {
     /// The variable.
     #[must_use]
     pub fn variable(&self) -> Variable {
@@ -163,7 +163,7 @@ impl Along {
     pub fn table(
         &self,
         field: &Field<'_>,
-        quantities: &Named,
+        quantities: &NamedQuantities,
         count: usize,
         watcher: &dyn Watcher,
     ) -> Result<Profile, ProfileError> {
@@ -184,7 +184,7 @@ impl Along {
     pub fn drawn(
         &self,
         field: &Field<'_>,
-        quantities: &Named,
+        quantities: &NamedQuantities,
         count: usize,
         watcher: &dyn Watcher,
     ) -> Result<Profile, ProfileError> {
@@ -263,8 +263,8 @@ impl Along {
     fn listed(
         &self,
         field: &Field<'_>,
-        quantities: &Named,
-        places: Vec<(f64, Place)>,
+        quantities: &NamedQuantities,
+        places: Vec<(f64, SidedPoint)>,
         watcher: &dyn Watcher,
     ) -> Result<Profile, ProfileError> {
         let (variables, mut places): (Vec<_>, Vec<_>) = places.into_iter().unzip();
@@ -279,7 +279,11 @@ impl Along {
     }
 
     /// The places of a line, a circle or a tip with the variable.
-    fn places(&self, field: &Field<'_>, parts: &[f64]) -> Result<Vec<(f64, Place)>, ProfileError> {
+    fn places(
+        &self,
+        field: &Field<'_>,
+        parts: &[f64],
+    ) -> Result<Vec<(f64, SidedPoint)>, ProfileError> {
         let (cracks, count) = (&field.step.cracks, parts.len());
         let positive = |radius: f64| match radius > 0.0 && radius.is_finite() {
             true => Ok(radius),
@@ -328,7 +332,7 @@ fn radians(angle: f64) -> f64 {
     if angle.abs() == 180.0 { angle.signum() * PI } else { angle.to_radians() }
 }
 
-fn in_degrees(places: Vec<(f64, Place)>) -> Vec<(f64, Place)> {
+fn in_degrees(places: Vec<(f64, SidedPoint)>) -> Vec<(f64, SidedPoint)> {
     places.into_iter().map(|(t, place)| (t.to_degrees(), place)).collect()
 }
 
@@ -337,7 +341,7 @@ fn line(
     field: &Field<'_>,
     ends: [[f64; 2]; 3],
     parts: &[f64],
-) -> Result<Vec<(f64, Place)>, ProfileError> {
+) -> Result<Vec<(f64, SidedPoint)>, ProfileError> {
     let ([anchor, a, b], cracks) = (ends.map(Vec2::from), &field.step.cracks);
     if a == b {
         return Err(ProfileError::Point);
@@ -354,11 +358,11 @@ fn line(
 fn evaluate(
     field: &Field<'_>,
     quantities: &[Quantity],
-    places: &[Place],
+    places: &[SidedPoint],
     watcher: &dyn Watcher,
 ) -> Result<Vec<f64>, Cancelled> {
     let (done, total) = (AtomicUsize::new(0), places.len());
-    let values = |batch: &&[Place]| {
+    let values = |batch: &&[SidedPoint]| {
         let done = done.fetch_add(batch.len(), Ordering::Relaxed);
         watcher.report(Progress::new(Phase::Evaluation, done, total))?;
         Ok(sample::evaluate_batch(field, quantities, batch))
@@ -374,8 +378,8 @@ fn evaluate(
 /// Cancelled.
 pub fn listed(
     field: &Field<'_>,
-    quantities: &Named,
-    places: Vec<Place>,
+    quantities: &NamedQuantities,
+    places: Vec<SidedPoint>,
     watcher: &dyn Watcher,
 ) -> Result<Profile, Cancelled> {
     let wanted: Vec<_> = quantities.iter().map(|(_, quantity)| quantity.clone()).collect();
@@ -389,14 +393,14 @@ pub fn listed(
         rows.extend([place.point.x, place.point.y, place.mark()]);
         rows.extend(values);
     }
-    Ok(Profile { table: Table::new(columns, rows), places, undefined })
+    Ok(Profile { table: NumberTable::new(columns, rows), places, undefined })
 }
 
-/// The quantities that have no value at places of the plate.
+/// The quantities that have no value at places of the body.
 fn undefined(
     field: &Field<'_>,
-    quantities: &Named,
-    places: &[Place],
+    quantities: &NamedQuantities,
+    places: &[SidedPoint],
     values: &[f64],
 ) -> Vec<(String, [usize; 2])> {
     let width = quantities.len();

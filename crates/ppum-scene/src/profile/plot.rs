@@ -3,8 +3,8 @@
 use ppum::field::Field;
 use ppum_figure::plot::{CurveStyle, PlotAxis, PlotCurve, slope, with_slope};
 
-use super::{Named, Variable};
-use crate::table::Table;
+use super::{NamedQuantities, Variable};
+use crate::table::NumberTable;
 
 /// Columns of tables that are no quantities.
 const PLACES: [&str; 6] = ["s", "r", "theta", "x", "y", "side"];
@@ -26,7 +26,11 @@ pub fn axis(variable: Variable) -> PlotAxis {
 /// The curves of a table: of a crack without quantities opening and sliding, or the jump; else
 /// all quantities.
 #[must_use]
-pub fn columns(table: &Table, variable: Variable, jumps: bool) -> Vec<(String, Vec<[f64; 2]>)> {
+pub fn columns(
+    table: &NumberTable,
+    variable: Variable,
+    jumps: bool,
+) -> Vec<(String, Vec<[f64; 2]>)> {
     let Some(first) = table.column(variable.name()) else { return Vec::new() };
     let names: Vec<&str> = table.names().collect();
     let is_jump = |name: &str| name == "opening" || name == "sliding" || name.starts_with("jump_");
@@ -90,7 +94,7 @@ pub fn curve(name: String, points: Vec<[f64; 2]>, variable: Variable) -> PlotCur
 
 /// The symbol of a quantity that stands alone; several have their names in the legend.
 #[must_use]
-pub fn value_label(quantities: &Named, field: &Field<'_>) -> String {
+pub fn value_label(quantities: &NamedQuantities, field: &Field<'_>) -> String {
     match quantities {
         [(_, only)] => only.symbol(&field.data.components),
         _ => "value".into(),
@@ -99,7 +103,7 @@ pub fn value_label(quantities: &Named, field: &Field<'_>) -> String {
 
 /// The unit that all quantities have.
 #[must_use]
-pub fn unit(quantities: &Named, field: &Field<'_>) -> String {
+pub fn unit(quantities: &NamedQuantities, field: &Field<'_>) -> String {
     let mut units = quantities.iter().map(|(_, quantity)| quantity.unit(field));
     let first = units.next().unwrap_or(&field.data.unit);
     if units.all(|unit| unit == first) { first.to_owned() } else { String::new() }

@@ -1,9 +1,9 @@
-//! What values along a curve are drawn against, and what is drawn.
+//! The variable that values along a curve are drawn against, and the quantities that are drawn.
 
 use ppum::quantity::Quantity;
 
 /// Quantities under their names.
-pub type Named = [(String, Quantity)];
+pub type NamedQuantities = [(String, Quantity)];
 
 /// The variable that values along a curve belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

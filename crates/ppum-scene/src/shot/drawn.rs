@@ -1,46 +1,46 @@
-//! A picture that was drawn, its page and the texts of its file.
+//! An image that was drawn, its page and the texts of its file.
 
 use ppum::crack::Crack;
 use ppum::formula::one_line;
 use ppum::quantity::Quantity;
 use ppum_figure::canvas::Canvas;
-use ppum_figure::figure::{Design, FigureError, Labels, Panel};
+use ppum_figure::figure::{FigureError, FigureStyle, Labels, Panel};
 use ppum_figure::figure::{bare, figure, lacks_legend, plot_area};
 use ppum_figure::overlay::LegendEntry;
-use ppum_render::picture::Picture;
-use ppum_render::png::Text;
+use ppum_render::picture::ColoredRaster;
+use ppum_render::png::TextChunk;
 
-use crate::drawing::Shown;
+use crate::drawing::DisplayedQuantity;
 use crate::engine::Engine;
 use crate::layers::Layers;
 use crate::notice::Notice;
 
-/// A picture with what lies over it.
+/// An image with what lies over it.
 #[derive(Debug)]
-pub struct Shot {
-    /// What is shown.
-    pub shown: Shown,
+pub struct RenderedImage {
+    /// The displayed quantity.
+    pub shown: DisplayedQuantity,
     /// Its name.
     pub name: String,
     /// The colours.
-    pub picture: Picture,
-    /// What lies over them.
+    pub picture: ColoredRaster,
+    /// The layers over them.
     pub layers: Layers,
     /// The cracks where they are seen.
     pub cracks: Vec<Crack>,
-    /// What computed the values.
+    /// The device that computed the values.
     pub by: String,
-    /// The number of pixels where the deformed plate lies over itself.
+    /// The number of pixels where the deformed body lies over itself.
     pub overlaps: usize,
     /// The edges at which the body is mirrored, if it is.
     pub mirrored: Option<String>,
-    /// How many times its displacement the plate is drawn with, if it is deformed.
+    /// How many times its displacement the body is drawn with, if it is deformed.
     pub factor: Option<f64>,
     /// The title of the dataset, and of a series the number of the step and its load.
     pub(super) dataset: (String, Option<(usize, f64)>),
 }
 
-impl Shot {
+impl RenderedImage {
     /// The panel of a figure with it.
     #[must_use]
     pub fn panel(&self, labels: Labels) -> Panel<'_> {
@@ -56,7 +56,7 @@ impl Shot {
     pub fn page(
         &self,
         labels: Labels,
-        design: Option<&Design>,
+        design: Option<&FigureStyle>,
         engine: &Engine<'_>,
     ) -> Result<Canvas, FigureError> {
         let panel = self.panel(labels);
@@ -71,7 +71,7 @@ impl Shot {
     }
 
     /// The texts of a file with it, which shows something of some name.
-    pub(crate) fn description(&self, file: &str, name: &str) -> Vec<Text> {
+    pub(crate) fn description(&self, file: &str, name: &str) -> Vec<TextChunk> {
         let mut texts = self.picture.description(&self.dataset.0, file, name);
         texts.push(("ppum:backend".to_owned(), self.by.clone()));
         texts
@@ -79,17 +79,17 @@ impl Shot {
 
     /// The texts of its file: what it shows, of which dataset, and what drew it.
     #[must_use]
-    pub fn texts(&self, file: &str) -> Vec<Text> {
+    pub fn texts(&self, file: &str) -> Vec<TextChunk> {
         let mut texts = self.description(file, &self.name);
-        if let Shown::Quantity(Quantity::Formula(formula)) = &self.shown {
+        if let DisplayedQuantity::Quantity(Quantity::Formula(formula)) = &self.shown {
             texts.push(("ppum:formula".to_owned(), one_line(formula.formula().text())));
         }
         texts
     }
 
-    /// What was done to the plate, and the step of a series, as more texts of its file.
+    /// Returns the factor of deformation and the step of a series as further texts of the file.
     #[must_use]
-    pub fn notes(&self) -> Vec<Text> {
+    pub fn notes(&self) -> Vec<TextChunk> {
         let factor = self.factor.map(|factor| ("ppum:deformed".to_owned(), format!("{factor:?}")));
         let step = self.dataset.1.map(|(step, load)| {
             [

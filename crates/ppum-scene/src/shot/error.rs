@@ -1,7 +1,7 @@
-//! The reasons why there is no picture.
+//! The reasons why there is no image.
 
 use ppum_figure::figure::FigureError;
-use ppum_render::RenderError;
+use ppum_render::RasterError;
 use ppum_render::deform::DeformError;
 use ppum_render::range::RangeError;
 use ppum_render::view::ViewError;
@@ -12,18 +12,18 @@ use crate::layers::LayersError;
 use crate::mirror::MirrorError;
 use crate::place::PlaceError;
 use crate::request::PanelsError;
-use crate::scene::ShownError;
+use crate::scene::DisplayError;
 
-/// The reason why there is no such picture.
+/// The reason why there is no such image.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum ShotError {
+pub enum ImageError {
     /// Nothing that could be shown.
     #[error(transparent)]
-    Shown(#[from] ShownError),
+    Shown(#[from] DisplayError),
     /// The quantity, isolines, or a watcher that stopped it.
     #[error(transparent)]
-    Render(#[from] RenderError),
+    Render(#[from] RasterError),
     /// Isolines of values that are constant in each cell.
     #[error("values that are constant in each cell have no isolines")]
     NoIsolines,
@@ -39,7 +39,7 @@ pub enum ShotError {
     /// A frame of an animation with more pixels than memory is meant for.
     #[error("frames of {}x{} pixels do not fit into memory; choose a smaller size", .0[0], .0[1])]
     TooLarge([u32; 2]),
-    /// The deformed plate.
+    /// The deformed body.
     #[error(transparent)]
     Deform(#[from] DeformError),
     /// The whole of a half.
@@ -68,7 +68,7 @@ pub enum ShotError {
     Panels(#[from] PanelsError),
 }
 
-impl From<EngineError> for ShotError {
+impl From<EngineError> for ImageError {
     fn from(error: EngineError) -> Self {
         match error {
             EngineError::Render(error) => Self::Render(error),

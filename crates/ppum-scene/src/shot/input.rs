@@ -1,52 +1,65 @@
-//! From values to colours to a picture, step by step.
+//! From values to colours to an image, step by step.
 
 use ppum::progress::Watcher;
 use ppum::quantity::Quantity;
-use ppum_figure::figure::{BarPlace, Design};
-use ppum_render::RenderError;
+use ppum_figure::figure::{BarPlace, FigureStyle};
+use ppum_render::RasterError;
 use ppum_render::image::Image;
 use ppum_render::isoline::Isoline;
-use ppum_render::picture::{Picture, Style};
-use ppum_render::range::ValueSpan;
-use ppum_render::raster::{Raster, Sample};
+use ppum_render::picture::{ColoredRaster, Style};
+use ppum_render::range::ColorRange;
+use ppum_render::raster::{Raster, RasterValue};
 use ppum_render::samples::{Means, SampleImage, Samples};
 
-use super::{FieldSource, Shot, ShotError};
+use super::drawn::RenderedImage;
+use super::error::ImageError;
+use super::source::{FieldSource, QuantityRequest};
 use crate::body::{BodyPart, BodyView};
-use crate::colors::Colors;
+use crate::colors::ColorOptions;
 use crate::deformed;
-use crate::drawing::{DrawingInput, Drawn, RasterValues, Shown};
+use crate::drawing::{DisplayedQuantity, DrawingInput, PixelValues, RasterValues};
 use crate::engine::{Engine, EngineError};
-use crate::layers::{Ground, Layers, LayersError};
+use crate::layers::{LayerInput, Layers, LayersError};
 use crate::mirror::{Mirror, MirrorLines};
 use crate::notice::Notice;
-use crate::overlays::Levels;
+use crate::overlays::IsolineLevels;
 use crate::range;
 use crate::request::Request;
-use crate::scene::Scene;
-use crate::shared::Coloring;
+use crate::scene::SceneRequest;
+use crate::shared::ColorMapping;
 use crate::whole;
 
-/// What a picture is made of: what is shown of a field, and where it is seen.
+/// The input of an image: what is shown of a field, and where it is seen.
 #[derive(Clone, Copy)]
-pub struct Input<'a> {
+pub struct ImageInput<'a> {
     /// The field, and what is subtracted.
     pub source: FieldSource<'a>,
-    /// What is shown.
-    pub shown: &'a Shown,
+    /// The displayed quantity.
+    pub shown: &'a DisplayedQuantity,
     /// Its name in notices and in the file.
     pub name: &'a str,
     /// Where it is seen.
     pub seen: &'a BodyView<'a>,
 }
 
-impl<'a> Input<'a> {
+impl<'a> FieldSource<'a> {
+    /// Returns the input of an image of this source.
+    #[must_use]
+    pub fn input<'b>(self, asked: &'b QuantityRequest, seen: &'b BodyView<'b>) -> ImageInput<'b>
+    where
+        'a: 'b,
+    {
+        ImageInput { source: self, shown: &asked.shown, name: &asked.name, seen }
+    }
+}
+
+impl<'a> ImageInput<'a> {
     /// The values, each the mean of so many samples.
     ///
     /// # Errors
     /// A quantity that the field does not have; what the engine or the samples do not fit; a
     /// watcher that stops it.
-    pub fn values(&self, samples: Samples, engine: &Engine<'_>) -> Result<Drawn, ShotError> {
+    pub fn values(&self, samples: Samples, engine: &Engine<'_>) -> Result<PixelValues, ImageError> {
         let draw = &mut |job: DrawingInput<'_>, samples| engine.draw(job, samples);
         self.values_by(samples, draw, engine.watcher)
     }
@@ -60,15 +73,15 @@ impl<'a> Input<'a> {
         samples: Samples,
         evaluate: &mut Evaluate<'_>,
         watcher: &dyn Watcher,
-    ) -> Result<Drawn, ShotError> {
+    ) -> Result<PixelValues, ImageError> {
         let Self { shown, seen, .. } = *self;
         let is_center = samples == Samples::CENTER;
         let minus = self.source.minus(shown);
         match (&minus, seen.factor(), shown.quantity()) {
             _ if is_center => {}
-            (Some(_), ..) => return Err(ShotError::Samples("differences are")),
-            (_, Some(_), _) => return Err(ShotError::Samples("the deformed plate is")),
-            (.., None) => return Err(ShotError::Samples("values of cells are")),
+            (Some(_), ..) => return Err(ImageError::Samples("differences are")),
+            (_, Some(_), _) => return Err(ImageError::Samples("the deformed plate is")),
+            (.., None) => return Err(ImageError::Samples("values of cells are")),
             (.., Some(quantity)) if seen.lines != MirrorLines::default() => {
                 return self.means_of_whole(quantity, samples, evaluate, watcher);
             }
@@ -87,13 +100,15 @@ impl<'a> Input<'a> {
         samples: Samples,
         evaluate: &mut Evaluate<'_>,
         watcher: &dyn Watcher,
-    ) -> Result<Drawn, ShotError> {
+    ) -> Result<PixelValues, ImageError> {
         let (field, shown) = (self.source.field, self.shown);
         whole::draw(field, seen, shown, &mut |BodyPart { view, points, .. }, shown| {
             Ok(match (points, shown) {
                 (Some(points), shown) => deformed::draw(points, shown, watcher)?,
-                (None, Shown::Cells(_, values)) => Drawn::of_cells(values, field, view),
-                (None, Shown::Quantity(quantity)) => {
+                (None, DisplayedQuantity::Cells(_, values)) => {
+                    PixelValues::of_cells(values, field, view)
+                }
+                (None, DisplayedQuantity::Quantity(quantity)) => {
                     evaluate(DrawingInput { field, view, quantity }, samples)?
                 }
             })
@@ -107,12 +122,12 @@ impl<'a> Input<'a> {
         samples: Samples,
         evaluate: &mut Evaluate<'_>,
         watcher: &dyn Watcher,
-    ) -> Result<Drawn, ShotError> {
+    ) -> Result<PixelValues, ImageError> {
         let (field, view) = (self.source.field, self.seen.view());
         let finer = view.finer(samples.side())?;
         let [columns, rows] = finer.pixels.map(u64::from);
         if columns * rows > MOST_SAMPLES {
-            return Err(ShotError::MirroredSamples);
+            return Err(ImageError::MirroredSamples);
         }
         let finer = BodyView::new(field, finer, self.seen.lines);
         let drawn = self.parts(&finer, Samples::CENTER, evaluate, watcher)?;
@@ -124,7 +139,7 @@ impl<'a> Input<'a> {
     }
 
     /// Tells of pixels without values, of so many, and of a quantity that is infinite everywhere.
-    pub fn tell_values(&self, drawn: &Drawn, engine: &Engine<'_>) {
+    pub fn tell_values(&self, drawn: &PixelValues, engine: &Engine<'_>) {
         engine.tell_undefined(self.name, drawn.undefined(), self.shown.quantity().is_none());
         let statistics = drawn.values.statistics();
         if statistics.finite == 0 && statistics.infinite > 0 {
@@ -132,19 +147,19 @@ impl<'a> Input<'a> {
         }
     }
 
-    /// The colours of the picture for it alone.
+    /// The colours of the image for it alone.
     ///
     /// # Errors
     /// A map that there is not; a watcher that stops the search for the range.
     pub fn coloring(
         &self,
-        colors: &Colors,
-        drawn: &Drawn,
+        colors: &ColorOptions,
+        drawn: &PixelValues,
         engine: &Engine<'_>,
-    ) -> Result<Coloring, ShotError> {
+    ) -> Result<ColorMapping, ImageError> {
         let style = self.source.style(self.shown, colors, drawn)?;
         let span = self.span(drawn, &style, engine.watcher)?;
-        Ok(Coloring { style, span, ends: None })
+        Ok(ColorMapping { style, span, ends: None })
     }
 
     /// The range of the colours.
@@ -153,10 +168,10 @@ impl<'a> Input<'a> {
     /// A watcher that stops the search.
     pub fn span(
         &self,
-        drawn: &Drawn,
+        drawn: &PixelValues,
         style: &Style,
         watcher: &dyn Watcher,
-    ) -> Result<ValueSpan, RenderError> {
+    ) -> Result<ColorRange, RasterError> {
         match self.quantity() {
             Some(quantity) => {
                 range::value_span(self.source.field, self.seen, quantity, drawn, style, watcher)
@@ -165,23 +180,23 @@ impl<'a> Input<'a> {
         }
     }
 
-    /// The picture with colours for it alone.
+    /// The image with colours for it alone.
     ///
     /// # Errors
     /// As the steps that it consists of.
     pub fn draw(
         &self,
         request: &Request,
-        design: Option<&Design>,
+        design: Option<&FigureStyle>,
         engine: &Engine<'_>,
-    ) -> Result<Shot, ShotError> {
+    ) -> Result<RenderedImage, ImageError> {
         let drawn = self.values(request.samples, engine)?;
         self.tell_values(&drawn, engine);
         let coloring = self.coloring(&request.scene.colors, &drawn, engine)?;
         self.shot(request, &drawn, &coloring, design, engine)
     }
 
-    /// The picture of the values in colours, with its overlays. With the `design` of a figure
+    /// The image of the values in colours, with its overlays. With the `design` of a figure
     /// cracks are drawn whatever is asked for.
     ///
     /// # Errors
@@ -189,11 +204,11 @@ impl<'a> Input<'a> {
     pub fn shot(
         &self,
         request: &Request,
-        drawn: &Drawn,
-        coloring: &Coloring,
-        design: Option<&Design>,
+        drawn: &PixelValues,
+        coloring: &ColorMapping,
+        design: Option<&FigureStyle>,
         engine: &Engine<'_>,
-    ) -> Result<Shot, ShotError> {
+    ) -> Result<RenderedImage, ImageError> {
         let mut picture = coloring.picture(drawn)?;
         let scene = &request.scene;
         let centers = match self.quantity() {
@@ -205,7 +220,7 @@ impl<'a> Input<'a> {
         };
         let values = &centers.as_ref().unwrap_or(drawn).values;
         let has_bar = design.is_some_and(|design| design.bar != BarPlace::None);
-        let ground = Ground { design, has_bar, ..self.ground(&picture, values) };
+        let ground = LayerInput { design, has_bar, ..self.ground(&picture, values) };
         let layers = self.layers(scene, ground, engine.watcher).map_err(Box::new)?;
         layers.notices.iter().for_each(|notice| engine.tell(notice.clone()));
         let step = request.scene.subject.step_of(self.source.dataset);
@@ -213,7 +228,7 @@ impl<'a> Input<'a> {
         if request.blank {
             blank(&mut picture.image);
         }
-        Ok(Shot {
+        Ok(RenderedImage {
             shown: self.shown.clone(),
             name: self.name.to_owned(),
             picture,
@@ -230,17 +245,17 @@ impl<'a> Input<'a> {
         })
     }
 
-    /// The isolines of a quantity that a picture of it in these colours has.
+    /// The isolines of a quantity that an image of it in these colours has.
     ///
     /// # Errors
-    /// As the steps that a picture consists of; values of cells, which have none.
+    /// As the steps that an image consists of; values of cells, which have none.
     pub fn isolines(
         &self,
-        wanted: &Levels,
-        colors: &Colors,
+        wanted: &IsolineLevels,
+        colors: &ColorOptions,
         engine: &Engine<'_>,
-    ) -> Result<Vec<Isoline>, ShotError> {
-        let quantity = self.shown.quantity().ok_or(ShotError::NoIsolines)?;
+    ) -> Result<Vec<Isoline>, ImageError> {
+        let quantity = self.shown.quantity().ok_or(ImageError::NoIsolines)?;
         let drawn = self.values(Samples::CENTER, engine)?;
         let picture = self.coloring(colors, &drawn, engine)?.picture(&drawn)?;
         let ground = self.ground(&picture, &drawn.values);
@@ -252,22 +267,26 @@ impl<'a> Input<'a> {
         self.shown.quantity().filter(|_| self.source.left.is_none())
     }
 
-    /// What overlays of a bare picture, without a bar beside it, are drawn on.
+    /// The input of the layers of a bare image, without a bar beside it.
     #[must_use]
-    pub fn ground<'b>(&'b self, picture: &'b Picture, values: &'b RasterValues) -> Ground<'b> {
+    pub fn ground<'b>(
+        &'b self,
+        picture: &'b ColoredRaster,
+        values: &'b RasterValues,
+    ) -> LayerInput<'b> {
         let FieldSource { dataset, field, .. } = self.source;
         let quantity = self.quantity();
-        Ground { dataset, field, quantity, picture, values, design: None, has_bar: false }
+        LayerInput { dataset, field, quantity, picture, values, design: None, has_bar: false }
     }
 
-    /// What a scene draws over the picture.
+    /// Layers over the image.
     ///
     /// # Errors
     /// As [`Overlays::layers`](crate::overlays::Overlays::layers).
     pub fn layers(
         &self,
-        scene: &Scene,
-        ground: Ground<'_>,
+        scene: &SceneRequest,
+        ground: LayerInput<'_>,
         watcher: &dyn Watcher,
     ) -> Result<Layers, LayersError> {
         scene.overlays.layers(ground, self.seen, scene.outline, watcher)
@@ -276,26 +295,27 @@ impl<'a> Input<'a> {
 
 /// Computes the means of so many samples a pixel of an undeformed body: an engine, a card that
 /// stays open, or what knows the values.
-pub type Evaluate<'e> = dyn FnMut(DrawingInput<'_>, Samples) -> Result<Drawn, EngineError> + 'e;
+pub type Evaluate<'e> =
+    dyn FnMut(DrawingInput<'_>, Samples) -> Result<PixelValues, EngineError> + 'e;
 
 /// Most samples of an image of the whole, all of which are held at once: 512 MiB.
 const MOST_SAMPLES: u64 = 1 << 26;
 
 /// The means over the pixels of an image of samples, whose values are given.
-fn averaged<T: Sample>(
+fn averaged<T: RasterValue>(
     job: DrawingInput<'_>,
     samples: Samples,
     raster: &Raster<T>,
-    Drawn { without, by, .. }: &Drawn,
-) -> Drawn
+    PixelValues { without, by, .. }: &PixelValues,
+) -> PixelValues
 where
     RasterValues: From<Raster<T>>,
 {
     let image = SampleImage { raster, undefined: without };
-    Drawn::averaged(Means::of(job.view, job.quantity, samples, image), job, by)
+    PixelValues::averaged(Means::of(job.view, job.quantity, samples, image), job, by)
 }
 
-/// Leaves out the colours: the plate is white.
+/// Leaves out the colours: the body is white.
 fn blank(image: &mut Image) {
     let seen = image.rgba.as_chunks_mut::<4>().0.iter_mut().filter(|pixel| pixel[3] > 0);
     seen.for_each(|pixel| pixel[..3].fill(255));

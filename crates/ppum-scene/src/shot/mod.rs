@@ -1,4 +1,4 @@
-//! A picture of a request from a view: its values, their colours, what lies over them, its page.
+//! An image of a request from a view: its values, their colours, its overlays, its page.
 
 mod drawn;
 mod error;
@@ -6,8 +6,8 @@ mod input;
 mod pages;
 mod source;
 
-pub use drawn::{Shot, tell_legend};
-pub use error::ShotError;
-pub use input::{Evaluate, Input};
+pub use drawn::{RenderedImage, tell_legend};
+pub use error::ImageError;
+pub use input::{Evaluate, ImageInput};
 pub use pages::{page, page_seen, reshaped, shot, view_in};
-pub use source::{Asked, FieldSource, of_step, title};
+pub use source::{FieldSource, QuantityRequest, of_step, title};

@@ -1,26 +1,26 @@
-//! Pictures and pages of requests from views.
+//! Images and pages of requests from views.
 
 use ppum_figure::canvas::Canvas;
-use ppum_figure::figure::{Design, plot_area};
+use ppum_figure::figure::{FigureStyle, plot_area};
 use ppum_render::view::{View, ViewError};
 
-use super::{Asked, FieldSource, Shot, ShotError, title};
+use super::{FieldSource, ImageError, QuantityRequest, RenderedImage, title};
 use crate::body::BodyView;
 use crate::engine::Engine;
 use crate::request::Request;
 
-/// Draws a picture from a view.
+/// Draws an image from a view.
 ///
 /// # Errors
-/// What the field does not have; a range that does not fit; a watcher that stops it.
+/// Features that the field does not have; a range that does not fit; a watcher that stops it.
 pub fn shot(
     source: FieldSource<'_>,
     request: &Request,
     view: &View,
-    design: Option<&Design>,
+    design: Option<&FigureStyle>,
     engine: &Engine<'_>,
-) -> Result<Shot, ShotError> {
-    let asked = Asked::new(&request.scene, source.field)?;
+) -> Result<RenderedImage, ImageError> {
+    let asked = QuantityRequest::new(&request.scene, source.field)?;
     let seen = source.seen(&request.scene, view, engine)?;
     source.input(&asked, &seen).draw(request, design, engine)
 }
@@ -42,12 +42,12 @@ pub fn view_in(
     source: FieldSource<'_>,
     request: &Request,
     view: &View,
-    design: &Design,
-) -> Result<View, ShotError> {
+    design: &FigureStyle,
+) -> Result<View, ImageError> {
     Ok(reshaped(view, plot_area(&title(source, request)?, design)?)?)
 }
 
-/// The page of a picture as a figure of a design, or bare without one, of the part of the plane
+/// The page of an image as a figure of a design, or bare without one, of the part of the plane
 /// that a view shows.
 ///
 /// # Errors
@@ -56,27 +56,27 @@ pub fn page(
     source: FieldSource<'_>,
     request: &Request,
     view: &View,
-    design: Option<&Design>,
+    design: Option<&FigureStyle>,
     engine: &Engine<'_>,
-) -> Result<(Canvas, Shot), ShotError> {
+) -> Result<(Canvas, RenderedImage), ImageError> {
     let of_design = |design| view_in(source, request, view, design);
     let view = design.map_or(Ok(*view), of_design)?;
     let seen = source.seen(&request.scene, &view, engine)?;
     page_seen(source, request, &seen, design, engine)
 }
 
-/// The page of a picture of what is seen.
+/// The page of an image of what is seen.
 ///
 /// # Errors
-/// As [`page`]; a picture that is larger than its room.
+/// As [`page`]; an image that is larger than its room.
 pub fn page_seen(
     source: FieldSource<'_>,
     request: &Request,
     seen: &BodyView<'_>,
-    design: Option<&Design>,
+    design: Option<&FigureStyle>,
     engine: &Engine<'_>,
-) -> Result<(Canvas, Shot), ShotError> {
-    let asked = Asked::new(&request.scene, source.field)?;
+) -> Result<(Canvas, RenderedImage), ImageError> {
+    let asked = QuantityRequest::new(&request.scene, source.field)?;
     let shot = source.input(&asked, seen).draw(request, design, engine)?;
     source.page(shot, request, design, engine)
 }
@@ -84,28 +84,28 @@ pub fn page_seen(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::overlays::{Levels, Overlay, Overlays, SPACING};
-    use crate::scene::Scene;
+    use crate::overlays::{IsolineLevels, Overlay, Overlays, SPACING};
+    use crate::scene::SceneRequest;
     use ppum::field::Field;
-    use ppum_figure::canvas::Item;
+    use ppum_figure::canvas::CanvasItem;
     use ppum_testkit::synthetic::{Coefficients, Recipe};
 
-    use crate::deformed::Factor;
+    use crate::deformed::Magnification;
 
     /// Widths of all lines of a page, and sizes of its letters.
     fn widths(page: &Canvas) -> Vec<f64> {
-        let of = |item: &Item| match item {
-            Item::Line { pen, .. } => {
+        let of = |item: &CanvasItem| match item {
+            CanvasItem::Line { pen, .. } => {
                 vec![pen.width, pen.halo.map_or(0.0, |h| h.width), pen.dashes.map_or(0.0, |d| d[0])]
             }
-            Item::Text(line) => vec![line.size],
-            Item::Inset { canvas, .. } => widths(canvas),
+            CanvasItem::Text(line) => vec![line.size],
+            CanvasItem::Inset { canvas, .. } => widths(canvas),
             _ => Vec::new(),
         };
         page.items.iter().flat_map(of).collect()
     }
 
-    /// Strokes and letters, those over the picture too, are lengths on paper: the same at any
+    /// Strokes and letters, those over the image too, are lengths on paper: the same at any
     /// number of pixels per inch.
     #[test]
     fn strokes_are_lengths_on_paper() {
@@ -116,16 +116,20 @@ mod tests {
             let overlays = Overlays {
                 shown: vec![Overlay::Patches, Overlay::Points, Overlay::Centers, Overlay::Rings],
                 no_cracks: false,
-                isolines: Some(Levels::Count(4)),
+                isolines: Some(IsolineLevels::Count(4)),
                 level_labels: true,
                 arrows: Some(SPACING),
                 crosses: Some(SPACING),
             };
-            let deformed = (seed % 2 == 1).then_some(Factor::Given(0.02));
-            let scene =
-                Scene { overlays, deformed, quantity: Some("ux".into()), ..Scene::default() };
+            let deformed = (seed % 2 == 1).then_some(Magnification::Given(0.02));
+            let scene = SceneRequest {
+                overlays,
+                deformed,
+                quantity: Some("ux".into()),
+                ..SceneRequest::default()
+            };
             let on_paper = |dpi: f64| {
-                let design = Design::inches([3.4, 2.6], dpi);
+                let design = FigureStyle::inches([3.4, 2.6], dpi);
                 let view = View::fit(dataset.domain.bounds, [340, 260]).unwrap();
                 let (source, request) = (FieldSource::of(&dataset, &field), scene.drawn().into());
                 let made = page(source, &request, &view, Some(&design), &Engine::default());

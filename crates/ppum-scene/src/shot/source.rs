@@ -1,4 +1,4 @@
-//! Fields that pictures are made of, and what is said of them.
+//! Fields that images are made of, and what is said of them.
 
 use std::fmt::Write as _;
 
@@ -7,22 +7,23 @@ use ppum::field::Field;
 use ppum::text::trimmed;
 use ppum::vec2::Rect;
 use ppum_figure::canvas::Canvas;
-use ppum_figure::figure::{Design, Labels};
+use ppum_figure::figure::{FigureStyle, Labels};
 use ppum_render::deform::{DeformError, Deformation, DeformedView};
 use ppum_render::picture::Style;
-use ppum_render::range::ValueSpan;
+use ppum_render::range::ColorRange;
 use ppum_render::view::View;
 
-use super::{Input, Shot, ShotError};
+use super::drawn::RenderedImage;
+use super::error::ImageError;
 use crate::body::{BodyView, whole_box};
-use crate::colors::{Colors, MapError};
+use crate::colors::{ColorOptions, MapError};
 use crate::deformed::{self, words};
-use crate::drawing::{Drawn, Shown};
+use crate::difference::{self, DifferenceSide, FieldDifference};
+use crate::drawing::{DisplayedQuantity, PixelValues};
 use crate::engine::Engine;
-use crate::minus::{self, Minus, Side};
 use crate::mirror::{MirrorError, MirrorLines};
 use crate::request::Request;
-use crate::scene::{Scene, ShownError, default_quantity, shown};
+use crate::scene::{DisplayError, SceneRequest, default_quantity, shown};
 
 /// A field of a dataset, and what is subtracted from what is shown of it.
 #[derive(Clone, Copy)]
@@ -32,25 +33,25 @@ pub struct FieldSource<'a> {
     /// Its field, which is that of the request's subject,
     /// see [`Subject::apply`](crate::scene::Subject::apply).
     pub field: &'a Field<'a>,
-    /// What is subtracted; the plate is as it was then.
-    pub left: Option<Side<'a>>,
+    /// The subtrahend; with one the body is drawn undeformed.
+    pub left: Option<DifferenceSide<'a>>,
 }
 
-/// What is shown, by the text that asked for it.
+/// The displayed quantity, with the text that requested it.
 #[derive(Clone, Debug)]
-pub struct Asked {
-    /// What is shown.
-    pub shown: Shown,
+pub struct QuantityRequest {
+    /// The displayed quantity.
+    pub shown: DisplayedQuantity,
     /// Its name in messages and files.
     pub name: String,
 }
 
-impl Asked {
-    /// What a scene shows of a field.
+impl QuantityRequest {
+    /// Parses the quantity of a scene for a field.
     ///
     /// # Errors
     /// A text that means nothing for the field.
-    pub fn new(scene: &Scene, field: &Field<'_>) -> Result<Self, ShownError> {
+    pub fn new(scene: &SceneRequest, field: &Field<'_>) -> Result<Self, DisplayError> {
         let text = scene.quantity.as_deref().unwrap_or(default_quantity(field));
         let shown = shown(text, field)?;
         Ok(Self { name: shown.name(text), shown })
@@ -64,38 +65,29 @@ impl<'a> FieldSource<'a> {
         Self { dataset, field, left: None }
     }
 
-    /// What a picture of it is made of.
-    #[must_use]
-    pub fn input<'b>(self, asked: &'b Asked, seen: &'b BodyView<'b>) -> Input<'b>
-    where
-        'a: 'b,
-    {
-        Input { source: self, shown: &asked.shown, name: &asked.name, seen }
-    }
-
     /// The difference, if something is subtracted from what is shown.
     #[must_use]
-    pub fn minus(self, shown: &'a Shown) -> Option<Minus<'a>> {
-        let right = Side { field: self.field, shown };
-        self.left.map(|left| Minus { right, left })
+    pub fn minus(self, shown: &'a DisplayedQuantity) -> Option<FieldDifference<'a>> {
+        let right = DifferenceSide { field: self.field, shown };
+        self.left.map(|left| FieldDifference { right, left })
     }
 
     /// The words for what is shown, or for the difference, and the unit.
     #[must_use]
-    pub fn words(self, shown: &'a Shown) -> [String; 2] {
+    pub fn words(self, shown: &'a DisplayedQuantity) -> [String; 2] {
         let minus = self.minus(shown);
         minus.map_or_else(|| shown.words(self.field), |minus| minus.words())
     }
 
-    /// The way values become colours, but for the range.
+    /// The way values become colours, except for the range.
     ///
     /// # Errors
     /// A map that there is not.
     pub fn style(
         self,
-        shown: &'a Shown,
-        colors: &Colors,
-        drawn: &Drawn,
+        shown: &'a DisplayedQuantity,
+        colors: &ColorOptions,
+        drawn: &PixelValues,
     ) -> Result<Style, MapError> {
         match self.minus(shown) {
             Some(minus) => minus.style(colors),
@@ -105,9 +97,9 @@ impl<'a> FieldSource<'a> {
 
     /// The range of the colours as far as the pixels tell.
     #[must_use]
-    pub fn pixel_span(self, drawn: &Drawn, style: &Style) -> ValueSpan {
+    pub fn pixel_span(self, drawn: &PixelValues, style: &Style) -> ColorRange {
         match self.left {
-            Some(_) => minus::span(drawn, style),
+            Some(_) => difference::span(drawn, style),
             None => drawn.span(style, None),
         }
     }
@@ -116,7 +108,7 @@ impl<'a> FieldSource<'a> {
     ///
     /// # Errors
     /// A dataset that does not know its lines; differences, which are not mirrored.
-    pub fn lines(self, scene: &Scene) -> Result<MirrorLines, MirrorError> {
+    pub fn lines(self, scene: &SceneRequest) -> Result<MirrorLines, MirrorError> {
         let Some(mirror) = &scene.mirror else { return Ok(MirrorLines::default()) };
         match () {
             () if self.left.is_some() => Err(MirrorError::Difference),
@@ -131,29 +123,29 @@ impl<'a> FieldSource<'a> {
     ///
     /// # Errors
     /// As [`Self::lines`].
-    pub fn settled(self, scene: Scene) -> Result<Scene, MirrorError> {
+    pub fn settled(self, scene: SceneRequest) -> Result<SceneRequest, MirrorError> {
         self.lines(&scene)?;
         let mirror = scene.mirror.as_ref().map(|mirror| mirror.settled(self.dataset));
-        Ok(Scene { mirror: mirror.transpose()?, ..scene })
+        Ok(SceneRequest { mirror: mirror.transpose()?, ..scene })
     }
 
     /// The box of what a scene shows of it, the whole of a body that is mirrored.
     #[must_use]
-    pub fn bounds(self, scene: &Scene) -> Rect {
+    pub fn bounds(self, scene: &SceneRequest) -> Rect {
         self.lines(scene).unwrap_or_default().whole(self.field.domain.bounds)
     }
 
-    /// What is seen of it in a view.
+    /// Returns the part of the field that is visible in a view.
     ///
     /// # Errors
     /// Fields that are no displacements, a dataset that does not know its lines, an engine that
     /// does not draw deformed bodies.
     pub fn seen(
         self,
-        scene: &Scene,
+        scene: &SceneRequest,
         view: &View,
         engine: &Engine<'_>,
-    ) -> Result<BodyView<'a>, ShotError> {
+    ) -> Result<BodyView<'a>, ImageError> {
         let deformed = scene.deformed.filter(|_| self.left.is_none());
         let factor = deformed.map(|factor| factor.number(&[self.field])).transpose()?;
         let Some(factor) = factor else {
@@ -162,13 +154,13 @@ impl<'a> FieldSource<'a> {
         self.moved(scene, &Deformation::new(self.field, factor)?.seen(view), engine)
     }
 
-    /// What is seen of it in a view of the deformed plane.
+    /// Returns the part of the field that is visible in a view of the deformed plane.
     pub(crate) fn moved(
         self,
-        scene: &Scene,
+        scene: &SceneRequest,
         view: &DeformedView<'a>,
         engine: &Engine<'_>,
-    ) -> Result<BodyView<'a>, ShotError> {
+    ) -> Result<BodyView<'a>, ImageError> {
         let lines = self.lines(scene)?;
         engine.check_deformed()?;
         Ok(BodyView::deformed(view, lines, engine.watcher)?)
@@ -178,7 +170,7 @@ impl<'a> FieldSource<'a> {
     ///
     /// # Errors
     /// A field that is no displacement, a factor that is too large, lines that nobody knows.
-    pub fn seen_bounds(self, scene: &Scene) -> Result<Rect, ShotError> {
+    pub fn seen_bounds(self, scene: &SceneRequest) -> Result<Rect, ImageError> {
         let (lines, field) = (self.lines(scene)?, self.field);
         let Some(factor) = scene.deformed else { return Ok(lines.whole(field.domain.bounds)) };
         let factor = factor.number(&[field])?;
@@ -191,7 +183,11 @@ impl<'a> FieldSource<'a> {
     ///
     /// # Errors
     /// Fields that are no displacements.
-    pub fn labels(self, shown: &Shown, request: &Request) -> Result<Labels, DeformError> {
+    pub fn labels(
+        self,
+        shown: &DisplayedQuantity,
+        request: &Request,
+    ) -> Result<Labels, DeformError> {
         let title = title(self, request)?;
         let [quantity, unit] = FieldSource::words(self, shown);
         let labels = Labels { title, quantity, unit, ..Labels::default() };
@@ -202,7 +198,7 @@ impl<'a> FieldSource<'a> {
     }
 
     /// A text with the step of a series and its load in the place of `{step}` and `{load}`.
-    fn filled(self, text: &str, scene: &Scene) -> String {
+    fn filled(self, text: &str, scene: &SceneRequest) -> String {
         if self.dataset.steps.len() < 2 {
             return text.to_owned();
         }
@@ -213,18 +209,18 @@ impl<'a> FieldSource<'a> {
     /// The page of a shot.
     pub(crate) fn page(
         self,
-        shot: Shot,
+        shot: RenderedImage,
         request: &Request,
-        design: Option<&Design>,
+        design: Option<&FigureStyle>,
         engine: &Engine<'_>,
-    ) -> Result<(Canvas, Shot), ShotError> {
+    ) -> Result<(Canvas, RenderedImage), ImageError> {
         let labels = design.map(|_| self.labels(&shot.shown, request)).transpose()?;
         Ok((shot.page(labels.unwrap_or_default(), design, engine)?, shot))
     }
 }
 
 /// The title of a figure: as it is asked for, else that of the dataset, with the step of a series,
-/// the part, and the factor of the deformed plate.
+/// the part, and the factor of the deformed body.
 ///
 /// # Errors
 /// Fields that are no displacements.

@@ -2,20 +2,20 @@
 
 use ppum::field::Field;
 use ppum::quantity::{Reflection, ValueChange};
-use ppum_render::RenderError;
-use ppum_render::raster::{Raster, Sample};
+use ppum_render::RasterError;
+use ppum_render::raster::{Raster, RasterValue};
 
 use crate::body::{BodyPart, BodyView};
-use crate::drawing::{Drawn, RasterValues, Shown};
+use crate::drawing::{DisplayedQuantity, PixelValues, RasterValues};
 
 /// Draws the parts of the whole at the centres of pixels; `draw_part` draws the body itself in the
 /// view of a part. Where parts of a deformed body lie over each other the body itself is seen.
-pub(crate) fn draw<E: From<RenderError>>(
+pub(crate) fn draw<E: From<RasterError>>(
     field: &Field<'_>,
     body: &BodyView<'_>,
-    shown: &Shown,
-    draw_part: &mut dyn FnMut(&BodyPart<'_>, &Shown) -> Result<Drawn, E>,
-) -> Result<Drawn, E> {
+    shown: &DisplayedQuantity,
+    draw_part: &mut dyn FnMut(&BodyPart<'_>, &DisplayedQuantity) -> Result<PixelValues, E>,
+) -> Result<PixelValues, E> {
     let mut whole = draw_part(&body.own, shown)?;
     for image in &body.images {
         let (shown, change) = reflected(shown, &image.reflection, field)?;
@@ -33,22 +33,22 @@ pub(crate) fn draw<E: From<RenderError>>(
     Ok(whole)
 }
 
-/// What has the values of something that is shown in a mirrored part, and their change.
+/// Returns the quantity that gives the values in a mirrored part, and the change that they need.
 pub(crate) fn reflected(
-    shown: &Shown,
+    shown: &DisplayedQuantity,
     reflection: &Reflection,
     field: &Field<'_>,
-) -> Result<(Shown, ValueChange), RenderError> {
+) -> Result<(DisplayedQuantity, ValueChange), RasterError> {
     Ok(match shown {
-        Shown::Quantity(quantity) => {
+        DisplayedQuantity::Quantity(quantity) => {
             let found = quantity.reflected(reflection, field)?;
-            (Shown::Quantity(found.quantity), found.change)
+            (DisplayedQuantity::Quantity(found.quantity), found.change)
         }
-        cells @ Shown::Cells(..) => (cells.clone(), ValueChange::Same),
+        cells @ DisplayedQuantity::Cells(..) => (cells.clone(), ValueChange::Same),
     })
 }
 
-impl Drawn {
+impl PixelValues {
     /// The image of what is drawn in the reflected view.
     fn flipped(mut self, flips: [bool; 2], change: ValueChange) -> Self {
         use RasterValues::{Double, Single};
@@ -96,7 +96,7 @@ impl Drawn {
 }
 
 impl RasterValues {
-    /// Of values of the whole those of a part, as the body has them at the pixels of the reflected
+    /// Restricts values of the whole to a part, as the body has them at the pixels of the reflected
     /// view; none outside of the body's box.
     pub(super) fn restricted(
         &self,
@@ -132,14 +132,14 @@ fn flip([i, j]: [u32; 2], [columns, rows]: [u32; 2], [across, down]: [bool; 2]) 
     [if across { columns - 1 - i } else { i }, if down { rows - 1 - j } else { j }]
 }
 
-fn flipped<T: Sample>(raster: &Raster<T>, flips: [bool; 2], change: ValueChange) -> Raster<T> {
+fn flipped<T: RasterValue>(raster: &Raster<T>, flips: [bool; 2], change: ValueChange) -> Raster<T> {
     Raster::from_fn(raster.size, |i, j| {
         let [i, j] = flip([i, j], raster.size, flips);
         T::from_f64(change.apply(raster.value(i, j).into()))
     })
 }
 
-fn fill<T: Sample>(own: &mut Raster<T>, other: &Raster<T>) {
+fn fill<T: RasterValue>(own: &mut Raster<T>, other: &Raster<T>) {
     for (value, other) in own.values.iter_mut().zip(&other.values) {
         if (*value).into().is_nan() {
             *value = *other;
@@ -147,7 +147,7 @@ fn fill<T: Sample>(own: &mut Raster<T>, other: &Raster<T>) {
     }
 }
 
-fn restricted<T: Sample>(
+fn restricted<T: RasterValue>(
     whole: &Raster<T>,
     part: &BodyPart<'_>,
     change: ValueChange,

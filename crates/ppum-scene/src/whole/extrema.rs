@@ -3,11 +3,11 @@
 use ppum::crack::{SegmentId, Side};
 use ppum::field::Field;
 use ppum::progress::Watcher;
-use ppum::quantity::{Quantity, Reflected, Reflection, ValueChange};
+use ppum::quantity::{Quantity, ReflectedQuantity, Reflection, ValueChange};
 use ppum::vec2::Vec2;
-use ppum_render::RenderError;
+use ppum_render::RasterError;
 use ppum_render::extrema::{
-    BodyRegion, Extrema, Extremum, On, Singular, extrema as extrema_of_body,
+    BodyRegion, Extrema, Extremum, ExtremumSite, SingularPoint, extrema as extrema_of_body,
 };
 
 use crate::mirror::MirrorLines;
@@ -26,18 +26,18 @@ pub(crate) fn extrema(
     (parts, lines): (&[(Reflection, BodyRegion)], &MirrorLines),
     quantity: &Quantity,
     watcher: &dyn Watcher,
-) -> Result<Option<Extrema>, RenderError> {
+) -> Result<Option<Extrema>, RasterError> {
     let mut known: Vec<(Quantity, BodyRegion, Option<Extrema>)> = Vec::new();
     let mut all: Option<Extrema> = None;
     for (reflection, region) in parts {
-        let Reflected { quantity, change } =
+        let ReflectedQuantity { quantity, change } =
             unturned(quantity.reflected(reflection, field)?, field)?;
         let is_same = |one: &&(Quantity, BodyRegion, _)| one.0 == quantity && one.1 == *region;
         let found = match known.iter().find(is_same) {
             Some((_, _, found)) => found.clone(),
             None => extrema_of_body(field, region, &quantity, watcher)?,
         };
-        let image = Image { field, lines, reflection };
+        let image = BodyImage { field, lines, reflection };
         if let Some(found) = found.clone().map(|found| image.extrema(found, change)) {
             all = Some(match all {
                 Some(all) => all.united(&found),
@@ -49,11 +49,14 @@ pub(crate) fn extrema(
     Ok(all)
 }
 
-/// The same values by a quantity whose change keeps or reverses the order of values, but for the
-/// ends of angles.
-fn unturned(reflected: Reflected, field: &Field<'_>) -> Result<Reflected, RenderError> {
+/// Returns the values as those of a quantity whose change keeps or reverses their order, except at
+/// the ends of angles.
+fn unturned(
+    reflected: ReflectedQuantity,
+    field: &Field<'_>,
+) -> Result<ReflectedQuantity, RasterError> {
     Ok(match reflected.change {
-        ValueChange::Turned { is_reversed, is_quarter } => Reflected {
+        ValueChange::Turned { is_reversed, is_quarter } => ReflectedQuantity {
             quantity: match is_quarter {
                 true => Quantity::parse(SECOND_DIRECTION, field)?,
                 false => reflected.quantity,
@@ -65,13 +68,13 @@ fn unturned(reflected: Reflected, field: &Field<'_>) -> Result<Reflected, Render
 }
 
 /// An image of the body.
-struct Image<'a> {
+struct BodyImage<'a> {
     field: &'a Field<'a>,
     lines: &'a MirrorLines,
     reflection: &'a Reflection,
 }
 
-impl Image<'_> {
+impl BodyImage<'_> {
     /// Extreme values of the body as those of the image.
     fn extrema(&self, found: Extrema, change: ValueChange) -> Extrema {
         let Extrema { center, min, max, singular } = found;
@@ -82,11 +85,11 @@ impl Image<'_> {
             let value = if is_negated { -extremum.value } else { extremum.value };
             self.extremum(Extremum { value, ..extremum }, center)
         };
-        let point = |point: Singular| {
+        let point = |point: SingularPoint| {
             let (max, min) = (point.max_infinite, point.min_infinite);
             let (max_infinite, min_infinite) = if is_negated { (min, max) } else { (max, min) };
             let offset = self.reflection.vector(point.offset);
-            Singular { offset, max_infinite, min_infinite, ..point }
+            SingularPoint { offset, max_infinite, min_infinite, ..point }
         };
         let singular = singular.into_iter().map(point).collect();
         Extrema { center, min: sign(least), max: sign(most), singular }
@@ -95,8 +98,10 @@ impl Image<'_> {
     fn extremum(&self, found: Extremum, center: Vec2) -> Extremum {
         let offset = self.reflection.vector(found.offset);
         let on = match found.on {
-            On::Face(segment, side) => On::Face(segment, self.side(segment, side)),
-            On::Border if self.is_on_line(center + offset) => On::Inside,
+            ExtremumSite::Face(segment, side) => {
+                ExtremumSite::Face(segment, self.side(segment, side))
+            }
+            ExtremumSite::Border if self.is_on_line(center + offset) => ExtremumSite::Inside,
             on => on,
         };
         Extremum { offset, on, ..found }

@@ -6,7 +6,7 @@ use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, Reflection, ValueChange};
 use ppum_figure::overlay::carried;
-use ppum_render::RenderError;
+use ppum_render::RasterError;
 use ppum_render::isoline::{Isoline, isolines as isolines_of_body};
 use ppum_render::scatter::render;
 
@@ -24,7 +24,7 @@ pub(crate) fn isolines(
     levels: &[f64],
     values: &RasterValues,
     watcher: &dyn Watcher,
-) -> Result<Vec<Isoline>, RenderError> {
+) -> Result<Vec<Isoline>, RasterError> {
     let is_mirrored = body.lines != MirrorLines::default();
     // of images one level after the other: each keeps its number, however it is rounded
     let together = if is_mirrored { 1 } else { levels.len().max(1) };

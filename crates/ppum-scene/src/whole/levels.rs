@@ -8,7 +8,7 @@
 
 use ppum_render::isoline::Isoline;
 
-/// What values are rounded by, in parts of the largest one.
+/// Tolerance for the rounding of values, relative to the largest one.
 const ROUNDING: f64 = 1e-9;
 
 /// Finds lines of levels, by the values' ends and the ends of their colours. Each line has the

@@ -1,5 +1,5 @@
-//! What is drawn of the whole of a body that is [mirrored](crate::mirror): values, their extrema
-//! and isolines, made of those of the body and of its images.
+//! Drawing of the whole of a body that is [mirrored](crate::mirror): values, their extrema and
+//! isolines, made of those of the body and of its images.
 
 mod drawn;
 mod extrema;

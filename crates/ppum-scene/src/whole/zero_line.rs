@@ -8,7 +8,7 @@ use ppum::crack::Side;
 use ppum::field::{Field, LocalField};
 use ppum::quantity::{Quantity, Reflection, ValueChange};
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_render::RenderError;
+use ppum_render::RasterError;
 use ppum_render::isoline::Isoline;
 use ppum_render::view::View;
 
@@ -31,7 +31,7 @@ pub(super) fn complete(
     (view, lines): (&View, &MirrorLines),
     quantity: &Quantity,
     isolines: &mut Vec<Isoline>,
-) -> Result<(), RenderError> {
+) -> Result<(), RasterError> {
     let single = lines.reflections().filter(|one| one.lines.iter().flatten().count() == 1);
     for reflection in single {
         if !is_odd(field, quantity, &reflection)? {
@@ -52,7 +52,7 @@ fn is_odd(
     field: &Field<'_>,
     quantity: &Quantity,
     reflection: &Reflection,
-) -> Result<bool, RenderError> {
+) -> Result<bool, RasterError> {
     let reflected = quantity.reflected(reflection, field)?;
     if matches!(reflected.change, ValueChange::Turned { .. }) {
         return Ok(false);

@@ -2,13 +2,13 @@
 
 use super::decay::{rate, squares};
 use crate::corner::corners;
-use crate::space::{Change, Space};
+use crate::space::{CellChange, TrialSpace};
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{FieldData, MAX_DEGREE};
 use ppum::field::Field;
 use ppum::function::FunctionKind;
 use ppum::vec2::Vec2;
-use ppum_problem::geometry::{Placed, around};
+use ppum_problem::geometry::{BoxList, around};
 use ppum_problem::{AdaptKind, Problem};
 
 /// The rate σ of the decay of Legendre coefficients from which on a field counts as smooth: each is
@@ -19,18 +19,18 @@ const SMOOTH: f64 = 1.0;
 pub struct Adviser<'a> {
     kind: AdaptKind,
     field: &'a Field<'a>,
-    space: &'a Space<'a>,
+    space: &'a TrialSpace<'a>,
     /// Where the field is singular.
-    singular: Placed<Vec2>,
+    singular: BoxList<Vec2>,
 }
 
 /// Tips, and what else is singular: functions times a few polynomials do not make the rest smooth.
-pub(super) fn singular_points(problem: &Problem) -> Placed<Vec2> {
+pub(super) fn singular_points(problem: &Problem) -> BoxList<Vec2> {
     let place = |tip: TipId| problem.cracks()[tip.crack as usize].end_point(tip.end);
     // where tips have their series, the rest of the field is smooth
     let bare_tips = tips(problem.cracks()).filter(|_| !problem.has_series()).map(place);
     let others = corners(problem).into_iter().map(|corner| corner.at);
-    Placed::new(bare_tips.chain(others).map(|point| (around(&[point]), point)))
+    BoxList::new(bare_tips.chain(others).map(|point| (around(&[point]), point)))
 }
 
 impl<'a> Adviser<'a> {
@@ -39,25 +39,25 @@ impl<'a> Adviser<'a> {
         kind: AdaptKind,
         problem: &'a Problem,
         field: &'a Field<'a>,
-        space: &'a Space<'a>,
+        space: &'a TrialSpace<'a>,
     ) -> Self {
         Self { kind, field, space, singular: singular_points(problem) }
     }
 
-    /// What to do about a cell, if that is possible.
-    pub fn advice(&self, cell: usize) -> Change {
+    /// Returns the change that a cell needs, if it is possible.
+    pub fn advice(&self, cell: usize) -> CellChange {
         let can_rise = self.space.order(cell) < MAX_DEGREE;
         match self.kind {
-            AdaptKind::H => Change::Divide,
-            AdaptKind::P if can_rise => Change::Raise,
-            AdaptKind::P => Change::Keep,
-            AdaptKind::Hp if can_rise && self.is_smooth(cell) => Change::Raise,
-            AdaptKind::Hp => Change::Divide,
+            AdaptKind::H => CellChange::Divide,
+            AdaptKind::P if can_rise => CellChange::Raise,
+            AdaptKind::P => CellChange::Keep,
+            AdaptKind::Hp if can_rise && self.is_smooth(cell) => CellChange::Raise,
+            AdaptKind::Hp => CellChange::Divide,
         }
     }
 
-    /// True if no singular point lies in a patch, and its coefficients decay fast. Of two orders
-    /// nothing can be said: a third one will tell.
+    /// True if no singular point lies in a patch, and its coefficients decay fast. Two orders are
+    /// too few to estimate the decay: then true, and a third one will decide.
     fn is_smooth(&self, patch: usize) -> bool {
         let support = self.space.partition().support(patch);
         if self.singular.near(&support).next().is_some() {

@@ -1,14 +1,14 @@
-//! The border of a plate in parts on each of which the same conditions hold, those that nobody
-//! speaks of among them.
+//! The boundary of a body, divided into parts on each of which the same conditions hold; parts
+//! without conditions are among them.
 
 use ppum::crack::Side;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::around;
-use ppum_problem::{BorderPart, BoundaryCondition, Edge, Problem, SideRun, in_plane};
+use ppum_problem::{BoundaryCondition, BoundaryPart, BoundaryRange, DomainEdge, Problem, in_plane};
 
-/// A part of the border with the conditions on it, by their numbers.
+/// A part of the boundary with the conditions on it, by their numbers.
 pub(super) struct BorderConditions {
-    pub(super) on: BorderPart,
+    pub(super) on: BoundaryPart,
     conditions: Vec<usize>,
     bounds: Rect,
 }
@@ -16,25 +16,26 @@ pub(super) struct BorderConditions {
 impl BorderConditions {
     /// The parts of edges, the rims, and the faces of cracks.
     pub(super) fn all(problem: &Problem) -> Vec<Self> {
-        let edges = Edge::ALL.into_iter().flat_map(|edge| pieces(problem, edge));
+        let edges = DomainEdge::ALL.into_iter().flat_map(|edge| pieces(problem, edge));
         let rims = (0..problem.domain().holes.len()).flat_map(|hole| sides(problem, hole));
         let sides = [Side::Above, Side::Below];
         let faces = (0..problem.cracks().len())
-            .flat_map(|crack| sides.map(|side| BorderPart::Crack { crack, face: Some(side) }));
+            .flat_map(|crack| sides.map(|side| BoundaryPart::Crack { crack, face: Some(side) }));
         edges.chain(rims).chain(faces).map(|on| Self::new(problem, on)).collect()
     }
 
-    fn new(problem: &Problem, on: BorderPart) -> Self {
+    fn new(problem: &Problem, on: BoundaryPart) -> Self {
         let speaks = |condition: &BoundaryCondition| match (condition.on, on) {
             (
-                BorderPart::Edge { edge, from, to },
-                BorderPart::Edge { edge: own, from: a, to: b },
+                BoundaryPart::Edge { edge, from, to },
+                BoundaryPart::Edge { edge: own, from: a, to: b },
             ) => edge == own && from <= a && b <= to,
-            (_, BorderPart::Hole(own)) => condition.on == BorderPart::Hole(own),
-            (part, BorderPart::Sides(run)) => problem.is_on(part, run.hole, run.from),
-            (BorderPart::Crack { crack, face }, BorderPart::Crack { crack: own, face: side }) => {
-                crack == own && (face.is_none() || face == side)
-            }
+            (_, BoundaryPart::Hole(own)) => condition.on == BoundaryPart::Hole(own),
+            (part, BoundaryPart::Sides(run)) => problem.is_on(part, run.hole, run.from),
+            (
+                BoundaryPart::Crack { crack, face },
+                BoundaryPart::Crack { crack: own, face: side },
+            ) => crack == own && (face.is_none() || face == side),
             _ => false,
         };
         let all = problem.boundary.iter().enumerate();
@@ -48,9 +49,9 @@ impl BorderConditions {
         a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y
     }
 
-    /// Of each component whether its value is given, the directions of components, and that value
-    /// or the traction (flux) in the plane, of a field with the values `u` where it yields: zero
-    /// where nothing is said.
+    /// Returns for each component whether its value is given, the directions of the components, and
+    /// the given value or traction (flux) in the plane, zero where none is given. A support that
+    /// yields has that of a field with the values `u`.
     pub(super) fn given(
         &self,
         problem: &Problem,
@@ -79,10 +80,10 @@ impl BorderConditions {
 }
 
 /// The pieces of an edge between the ends of its conditions.
-fn pieces(problem: &Problem, edge: Edge) -> Vec<BorderPart> {
+fn pieces(problem: &Problem, edge: DomainEdge) -> Vec<BoundaryPart> {
     let mut ends = edge.range(&problem.domain().bounds).to_vec();
     for condition in &problem.boundary {
-        if let BorderPart::Edge { edge: own, from, to } = condition.on
+        if let BoundaryPart::Edge { edge: own, from, to } = condition.on
             && own == edge
         {
             ends.extend([from, to]);
@@ -90,30 +91,31 @@ fn pieces(problem: &Problem, edge: Edge) -> Vec<BorderPart> {
     }
     ends.sort_by(f64::total_cmp);
     ends.dedup();
-    ends.windows(2).map(|s| BorderPart::Edge { edge, from: s[0], to: s[1] }).collect()
+    ends.windows(2).map(|s| BoundaryPart::Edge { edge, from: s[0], to: s[1] }).collect()
 }
 
 /// The rim of a hole between the ends of its pieces with conditions.
-fn sides(problem: &Problem, hole: usize) -> Vec<BorderPart> {
+fn sides(problem: &Problem, hole: usize) -> Vec<BoundaryPart> {
     let on = problem.boundary.iter().map(|condition| condition.on);
     let parts: Vec<_> =
-        on.filter(|on| matches!(on, BorderPart::Sides(_) | BorderPart::Piece(_))).collect();
+        on.filter(|on| matches!(on, BoundaryPart::Sides(_) | BoundaryPart::Piece(_))).collect();
     let count = problem.domain().holes[hole].sides().count();
     let of = |side: usize| parts.iter().map(move |part| problem.is_on(*part, hole, side));
     let is_end = |side: &usize| *side == 0 || !of(*side).eq(of(side - 1));
     let mut ends: Vec<_> = (0..count).filter(is_end).collect();
     if ends.len() < 2 && !of(0).any(|is_on| is_on) {
-        return vec![BorderPart::Hole(hole)];
+        return vec![BoundaryPart::Hole(hole)];
     }
     ends.push(count);
-    let run = |ends: &[usize]| BorderPart::Sides(SideRun { hole, from: ends[0], to: ends[1] });
+    let run =
+        |ends: &[usize]| BoundaryPart::Sides(BoundaryRange { hole, from: ends[0], to: ends[1] });
     ends.windows(2).map(run).collect()
 }
 
-fn bounds(problem: &Problem, on: BorderPart) -> Rect {
+fn bounds(problem: &Problem, on: BoundaryPart) -> Rect {
     match on {
-        BorderPart::Hole(hole) => problem.domain().holes[hole].rim_bounds(),
-        BorderPart::Crack { crack, .. } => around(&problem.cracks()[crack].points),
+        BoundaryPart::Hole(hole) => problem.domain().holes[hole].rim_bounds(),
+        BoundaryPart::Crack { crack, .. } => around(&problem.cracks()[crack].points),
         _ => around(&problem.segments_of(on).flatten().collect::<Vec<_>>()),
     }
 }

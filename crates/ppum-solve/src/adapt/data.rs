@@ -1,13 +1,13 @@
-//! What is given and not seen in a solution: sources, tractions and values.
+//! Error of the given data that a solution does not show: sources, tractions and values.
 
 use super::border::BorderConditions;
 use super::span::unseen;
 use crate::assembly::border_rules;
 use crate::law::Law;
-use crate::quadrature::{EdgeRule, Quadrature, Rule};
-use crate::space::Space;
+use crate::quadrature::{CellRule, EdgeRule, Quadrature};
+use crate::space::TrialSpace;
 use crate::terms::{face_law, known_fields};
-use crate::watched::{Halt, Stage, in_batches};
+use crate::watched::{Halt, WorkPhase, in_batches};
 use ppum::crack::Side;
 use ppum::field::Field;
 use ppum::jet::Jet;
@@ -15,9 +15,9 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::Problem;
 use std::f64::consts::PI;
 
-/// Part of a cell around a singular point of a known field within which borders are not looked at:
-/// that field is all there, with no tractions but those of the rounding of places, which have no
-/// bound.
+/// Part of a cell around a singular point of a known field within which boundaries are not looked
+/// at: that field is all there, with no tractions but those of the rounding of places, which have
+/// no bound.
 const AT_POINT: f64 = 1e-6;
 
 /// The squares of what each cell misses of the data. Advances the stage by their number.
@@ -27,9 +27,9 @@ const AT_POINT: f64 = 1e-6;
 pub(super) fn unseen_data(
     problem: &Problem,
     field: &Field<'_>,
-    space: &Space<'_>,
+    space: &TrialSpace<'_>,
     law: &Law<'_>,
-    stage: &Stage<'_>,
+    stage: &WorkPhase<'_>,
 ) -> Result<Vec<f64>, Halt> {
     let n = space.partition().len();
     let data = DataResidual {
@@ -52,7 +52,7 @@ pub(super) fn unseen_data(
 struct DataResidual<'a> {
     problem: &'a Problem,
     field: &'a Field<'a>,
-    space: &'a Space<'a>,
+    space: &'a TrialSpace<'a>,
     law: &'a Law<'a>,
     quadrature: Quadrature<'a>,
     border: Vec<BorderConditions>,
@@ -67,21 +67,24 @@ impl DataResidual<'_> {
         let (rect, order) = (&self.space.partition().cell[cell], self.space.order(cell));
         let mut unseen = 0.0;
         for part in self.border.iter().filter(|part| part.may_meet(rect)) {
-            let coverers = &self.space.coverers[cell];
-            let rules = border_rules(self.problem, part.on, &self.quadrature, rect, coverers);
+            let covering_patches = &self.space.covering_patches[cell];
+            let rules =
+                border_rules(self.problem, part.on, &self.quadrature, rect, covering_patches);
             unseen +=
                 rules.iter().map(|rule| self.on_border(part, rule, (rect, order))).sum::<f64>();
         }
         unseen + self.of_source(cell) + self.of_initial_stress(cell)
     }
 
-    /// ∫ |σ⁰ − Π σ⁰|² / C of the stress where the body does not deform, with the best polynomials of
-    /// a degree below the order p, which the strains of polynomials have: what the rest of it does
-    /// to the energy. Nothing is said of cells with other functions, which may see it.
+    /// ∫ |σ⁰ − Π σ⁰|² / C of the stress where the body does not deform, with the best polynomials
+    /// of a degree below the order p, which the strains of polynomials have: what the rest of it
+    /// does to the energy. Nothing is said of cells with other functions, which may see it.
     fn of_initial_stress(&self, cell: usize) -> f64 {
         let data = &self.space.step().fields[0];
         let has_others = |&patch: &u32| data.blocks(patch as usize).len() > 1;
-        if !self.law.has_varying_strains() || self.space.coverers[cell].iter().any(has_others) {
+        if !self.law.has_varying_strains()
+            || self.space.covering_patches[cell].iter().any(has_others)
+        {
             return 0.0;
         }
         self.unseen_in_cell(cell, &|x| {
@@ -95,7 +98,7 @@ impl DataResidual<'_> {
     /// rest of the source does to the energy. Nothing is said of cells with user-defined functions:
     /// they are there to see what polynomials do not.
     fn of_source(&self, cell: usize) -> f64 {
-        let mut patches = self.space.coverers[cell].iter();
+        let mut patches = self.space.covering_patches[cell].iter();
         if !self.has_source || patches.any(|&k| self.space.has_user_functions(k as usize)) {
             return 0.0;
         }
@@ -177,7 +180,7 @@ impl DataResidual<'_> {
 /// The points of a cell, in units of half its size, with the roots of their weights, and a function
 /// there.
 fn values_in_cell<const N: usize>(
-    rules: &[Rule],
+    rules: &[CellRule],
     rect: &Rect,
     function: &dyn Fn(Vec2) -> [f64; N],
 ) -> (Vec<(Vec2, f64)>, Vec<Vec<f64>>) {

@@ -1,6 +1,6 @@
 //! The cells that make up most of an error.
 
-/// Indicators that differ by no more than this part are equal: a symmetric plate stays symmetric.
+/// Indicators that differ by no more than this part are equal: a symmetric body stays symmetric.
 const SAME: f64 = 1e-6;
 
 /// The fewest cells that make up a part of the sum of the squares η_j² (Dörfler 1996), and all that
@@ -48,7 +48,7 @@ mod tests {
         }
     }
 
-    /// Four cells of a symmetric plate are marked together, whatever the last digits say.
+    /// Four cells of a symmetric body are marked together, whatever the last digits say.
     #[test]
     fn equal_cells_are_marked_together() {
         let squares = [0.1, 1.0, 1.0 + 1e-12, 0.2, 1.0 - 1e-12, 1.0];

@@ -27,7 +27,7 @@ pub use advice::Adviser;
 use advice::singular_points;
 pub use mark::mark;
 
-use crate::watched::{Halt, Stage};
+use crate::watched::{Halt, WorkPhase};
 use data::unseen_data;
 use faer::Mat;
 pub use overlap::LocalFields;
@@ -36,7 +36,7 @@ use ppum::field::Field;
 use ppum_problem::Problem;
 
 /// The estimated error in the energy norm, cell by cell.
-pub struct Estimated {
+pub struct ErrorEstimate {
     /// ½ ∫ σ:(ε − ε⁰) of the field.
     pub energy: f64,
     /// The squares η_j².
@@ -55,10 +55,10 @@ pub fn estimated(
     problem: &Problem,
     field: &Field<'_>,
     local: LocalFields<'_>,
-    stage: &Stage<'_>,
-) -> Result<Estimated, Halt> {
+    stage: &WorkPhase<'_>,
+) -> Result<ErrorEstimate, Halt> {
     let (energy, products) = disagreements(local, &singular_points(problem), stage)?;
     let unseen = unseen_data(problem, field, local.space, local.law, stage)?;
     let squares = products.iter().zip(&unseen).map(|(own, unseen)| own[(0, 0)] + unseen).collect();
-    Ok(Estimated { energy, squares, products })
+    Ok(ErrorEstimate { energy, squares, products })
 }

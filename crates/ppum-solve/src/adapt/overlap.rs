@@ -7,18 +7,18 @@
 //!
 //! Neighbours approximate one smooth field with polynomials of their own; what each of them misses
 //! is other than what the next one misses. Where a patch is alone the integrand vanishes: its error
-//! is seen at the rim of its flat top. Of two fields the same integral has the product (σ(u_i) −
-//! σ(u)) : (ε(v_i) − ε(v)) in place of the square.
+//! is seen at the rim of its flat top. For the product of two fields u and v, (σ(u_i) − σ(u)) :
+//! (ε(v_i) − ε(v)) takes the place of the square.
 
 use crate::basis::{ShapeEvaluator, Shapes};
 use crate::law::Law;
-use crate::quadrature::Rule;
-use crate::space::Space;
-use crate::watched::{Halt, Stage, in_batches};
+use crate::quadrature::CellRule;
+use crate::space::TrialSpace;
+use crate::watched::{Halt, WorkPhase, in_batches};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 use ppum::vec2::{Vec2, vec2};
-use ppum_problem::geometry::Placed;
+use ppum_problem::geometry::BoxList;
 use std::ops::Range;
 
 /// φ below which a local field is not made out of φ times it: its share is rounding.
@@ -28,16 +28,16 @@ const LEAST: f64 = 1e-10;
 #[derive(Clone, Copy)]
 pub struct LocalFields<'a> {
     /// The space of the fields.
-    pub space: &'a Space<'a>,
+    pub space: &'a TrialSpace<'a>,
     /// Its stresses.
     pub law: &'a Law<'a>,
-    /// Of each patch, the coefficients of the functions that the solver evaluates: a row for each
+    /// The coefficients, for each patch, of the functions that the solver evaluates: a row for each
     /// component of each field.
     pub coefficients: &'a [Mat<f64>],
-    /// Of each patch, first functions of components: of these it has nearly nothing for itself, and
-    /// many combinations of those of several patches make one field. Its local field is no
-    /// approximation where one of them is other than zero, and does not count there.
-    pub lonely: &'a [Vec<usize>],
+    /// For each patch, the first functions of components whose support lies almost entirely under
+    /// other patches: many combinations of those of several patches make one field. Its local field
+    /// is no approximation where one of them is other than zero, and does not count there.
+    pub sole_support: &'a [Vec<usize>],
 }
 
 /// The energy of the first field, and the products of the disagreements of all of them in each
@@ -47,8 +47,8 @@ pub struct LocalFields<'a> {
 /// Cancelled.
 pub(super) fn disagreements(
     fields: LocalFields<'_>,
-    singular: &Placed<Vec2>,
-    stage: &Stage<'_>,
+    singular: &BoxList<Vec2>,
+    stage: &WorkPhase<'_>,
 ) -> Result<(f64, Vec<Mat<f64>>), Halt> {
     let LocalFields { space, law, coefficients, .. } = fields;
     let quadrature = space.quadrature(0);
@@ -90,12 +90,12 @@ struct SampledFields<'a> {
     /// s_i of each patch.
     shares: &'a [f64],
     law: &'a Law<'a>,
-    rule: &'a Rule,
+    rule: &'a CellRule,
     shapes: &'a Shapes,
 }
 
 /// φ u and its gradient of all components of all fields of a patch: a row of points for each.
-struct Products {
+struct PatchProducts {
     patch: usize,
     /// The row of φ among the shapes.
     phi: usize,
@@ -157,7 +157,7 @@ impl SampledFields<'_> {
         }
     }
 
-    fn products(&self) -> Vec<Products> {
+    fn products(&self) -> Vec<PatchProducts> {
         let coefficients = self.fields.coefficients;
         let mut first = 0;
         let of_patch = |&patch: &u32| {
@@ -167,13 +167,13 @@ impl SampledFields<'_> {
             let combined = |array: &Vec<f64>| self.combined(patch, array, range.clone());
             let [value, dx, dy] =
                 [&self.shapes.value, &self.shapes.dx, &self.shapes.dy].map(combined);
-            Products { patch, phi: range.start, value, slopes: [dx, dy] }
+            PatchProducts { patch, phi: range.start, value, slopes: [dx, dy] }
         };
         self.rule.patches.iter().map(of_patch).collect()
     }
 
     /// s φ times the weights of the rule; zero where the local field does not count.
-    fn weights(&self, part: &Products) -> Vec<f64> {
+    fn weights(&self, part: &PatchProducts) -> Vec<f64> {
         let weight = |(q, (weight, phi)): (usize, (&f64, &f64))| {
             let counts = *phi >= LEAST && !self.is_lonely(part, q);
             if counts { weight * self.shares[part.patch] * phi } else { 0.0 }
@@ -182,9 +182,9 @@ impl SampledFields<'_> {
         self.rule.weights.iter().zip(phi).enumerate().map(weight).collect()
     }
 
-    fn is_lonely(&self, part: &Products, q: usize) -> bool {
+    fn is_lonely(&self, part: &PatchProducts, q: usize) -> bool {
         let of = |function: &usize| self.row(&self.shapes.value, part.phi + function)[q];
-        self.fields.lonely[part.patch].iter().any(|function| of(function) != 0.0)
+        self.fields.sole_support[part.patch].iter().any(|function| of(function) != 0.0)
     }
 
     fn combined(&self, patch: usize, array: &[f64], range: Range<usize>) -> Vec<f64> {
@@ -203,7 +203,7 @@ impl SampledFields<'_> {
 
     /// The gradients of a part become ∇u_i − ∇u of all fields, ∇u_i = (∇(φ_i u_i) − u_i ∇φ_i)/φ_i,
     /// and ∇u, given whole, being Σ_i ∇(φ_i u_i); some finite number where they have no weight.
-    fn make_differences(&self, part: &mut Products, whole: &[Vec<f64>; 2], weights: &[f64]) {
+    fn make_differences(&self, part: &mut PatchProducts, whole: &[Vec<f64>; 2], weights: &[f64]) {
         let phi = self.row(&self.shapes.value, part.phi).iter().zip(weights);
         let inverse: Vec<f64> =
             phi.map(|(phi, weight)| if *weight > 0.0 { 1.0 / phi } else { 0.0 }).collect();
@@ -222,7 +222,7 @@ impl SampledFields<'_> {
 }
 
 /// The sum over the patches of the slopes along an axis.
-fn total(products: &[Products], axis: usize) -> Vec<f64> {
+fn total(products: &[PatchProducts], axis: usize) -> Vec<f64> {
     let mut sum = products[0].slopes[axis].clone();
     for part in &products[1..] {
         sum.iter_mut().zip(&part.slopes[axis]).for_each(|(sum, part)| *sum += part);

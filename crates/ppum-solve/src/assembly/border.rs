@@ -1,5 +1,5 @@
-//! Conditions on the border of a cell: Nitsche's method for given values, loads for
-//! given tractions.
+//! Conditions on the boundary of a cell: Nitsche's method for given values, loads for given
+//! tractions.
 //!
 //! If component i of u is given, u_i = g_i on Γ, the traction t_i(u) = (σ(u) n)_i is unknown.
 //! Multiplying −div σ(u) = b by a test function v and integrating by parts leaves it in the
@@ -19,8 +19,8 @@
 //! traction      B_(a,j)(b,k) = ∫_Γ t_i(N_a e_j) t_i(N_b e_k)
 //! ```
 //!
-//! summed over the components i that are held. What t_i(u) has where the body does not deform goes to
-//! the load. β must be chosen so that v·K v > 0. By Cauchy's
+//! summed over the components i that are held. The part of t_i(u) where the body does not deform
+//! goes to the load. β must be chosen so that v·K v > 0. By Cauchy's
 //! inequality 2 ∫ t_i(v) v_i ≤ ε ∫ t_i(v)² + ε⁻¹ ∫ v_i², and ∫ t_i(v)² ≤ λ a(v, v) with the largest
 //! λ of the pencil B x = λ A x, A the cell's stiffness before the terms above: any β > λ will do.
 //! β = 2 λ, and a cell cut into slivers so gets the larger value it needs (Griebel & Schweitzer
@@ -37,7 +37,7 @@
 //! If Γ is much shorter than the cell, that β is small: functions of the cell's size carry no
 //! traction through a short restraint, and β M would be a soft spring. So β is C h/ℓ² at least, C
 //! the modulus, h the size of the cell, ℓ the length of Γ in it: a spring C h/ℓ times as stiff as
-//! the plate.
+//! the body.
 
 use super::Assembly;
 use super::cell_system::CellSystem;
@@ -54,10 +54,10 @@ use ppum_problem::in_plane;
 /// β in units of λ_max: below 1 the system is indefinite, 2 to 10 give the same error.
 const FACTOR: f64 = 2.0;
 
-/// Data given on a border: position, normal out of the material → values, one per component.
+/// Data given on a boundary: position, normal out of the material → values, one per component.
 pub(crate) type BorderData<'a> = &'a (dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync);
 
-/// Largest ratio of cell to border that the spring of a short restraint grows with: it yields a
+/// Largest ratio of cell to boundary that the spring of a short restraint grows with: it yields a
 /// thousandth then, and the condition number does not suffer.
 const STIFFEST: f64 = 1e3;
 
@@ -69,7 +69,7 @@ enum BorderTerms {
     Data,
 }
 
-/// A piece of a cell's border with what is given on it.
+/// A piece of a cell's boundary with what is given on it.
 pub(crate) struct BorderPiece<'a> {
     pub(crate) rules: Vec<EdgeRule>,
     /// Rules for what is given that take the place of those, where they do not resolve it.
@@ -98,9 +98,9 @@ impl BorderPiece<'_> {
     }
 }
 
-/// Sums over the pieces of a cell's border where values are given. Matrices are over the cell's
+/// Sums over the pieces of a cell's boundary where values are given. Matrices are over the cell's
 /// unknowns.
-pub(crate) struct Border<'a> {
+pub(crate) struct BoundarySums<'a> {
     assembly: Assembly<'a>,
     /// C = ∫ N_a t_i(N_b e_j)
     consistency: Mat<f64>,
@@ -139,7 +139,7 @@ struct Trace {
     traction_rows: Vec<usize>,
 }
 
-impl<'a> Border<'a> {
+impl<'a> BoundarySums<'a> {
     pub(crate) fn new(assembly: Assembly<'a>, unknowns: usize) -> Self {
         let zero = || Mat::zeros(unknowns, unknowns);
         Self {
@@ -365,13 +365,13 @@ impl<'a> Border<'a> {
             }
         }
         let points = rule.offsets.iter().zip(&rule.normals).zip(&rule.weights);
-        let lacking = |((&o, &normal), w): ((&Vec2, &Vec2), &f64)| {
+        let prestress = |((&o, &normal), w): ((&Vec2, &Vec2), &f64)| {
             -self.initial_traction(rule.anchor + o, normal).dot(trace.axis) * w.sqrt()
         };
-        let lacking: Vec<f64> = points.map(lacking).collect();
+        let prestress: Vec<f64> = points.map(prestress).collect();
         let restraint = self.restraint(piece.condition);
         for k in 0..piece.modes.count() {
-            restraint.give(k, &mode(piece, rule, k, trace.axis), &given, &lacking);
+            restraint.give(k, &mode(piece, rule, k, trace.axis), &given, &prestress);
         }
     }
 

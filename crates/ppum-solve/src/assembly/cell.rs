@@ -7,15 +7,15 @@
 //! with the given strains ε⁰ and the known part u_s of the field.
 
 use super::Assembly;
-use super::border::{Border, BorderPiece};
+use super::border::{BorderPiece, BoundarySums};
 use super::cell_matrix::{CellMatrix, Stiffness};
 use super::cell_system::CellSystem;
 use super::dual::Duals;
 use super::functions::CellFunctions;
-use super::gauge::FreeModes;
-use super::stiffness::Gradients;
+use super::null_space::FreeModes;
+use super::stiffness::PointGradients;
 use crate::basis::{BasisEvaluator, Shapes};
-use crate::quadrature::Rule;
+use crate::quadrature::CellRule;
 use ppum::vec2::{Vec2, vec2};
 use ppum_linear::EigenError;
 
@@ -26,7 +26,7 @@ pub(crate) type Data<'a> = &'a (dyn Fn(Vec2) -> [f64; 2] + Sync);
 #[derive(Clone, Copy)]
 pub(crate) struct SourceTerm<'a> {
     pub(crate) values: Data<'a>,
-    pub(crate) rules: Option<&'a [Rule]>,
+    pub(crate) rules: Option<&'a [CellRule]>,
 }
 
 /// Functionals whose values for all functions are integrated with the system.
@@ -45,7 +45,7 @@ pub(crate) struct CellAssembler<'s> {
     functionals: Option<Functionals<'s>>,
     evaluator: BasisEvaluator<'s>,
     shapes: Shapes,
-    gradients: Gradients,
+    gradients: PointGradients,
     /// Memory for the next matrix.
     pub(super) memory: Vec<f64>,
 }
@@ -53,13 +53,13 @@ pub(crate) struct CellAssembler<'s> {
 impl<'s> CellAssembler<'s> {
     pub(crate) fn new(assembly: Assembly<'s>, functionals: Option<Functionals<'s>>) -> Self {
         let evaluator = BasisEvaluator::new(assembly.space, assembly.basis);
-        let (shapes, gradients) = (Shapes::default(), Gradients::default());
+        let (shapes, gradients) = (Shapes::default(), PointGradients::default());
         let memory = Vec::new();
         Self { assembly, functionals, evaluator, shapes, gradients, memory }
     }
 
-    /// The system of one cell, given its quadrature, body forces and the pieces of its border. A
-    /// stiffness that is `known` needs no rules, and if nothing on the border is held it is the
+    /// The system of one cell, given its quadrature, body forces and the pieces of its boundary. A
+    /// stiffness that is `known` needs no rules, and if nothing on the boundary is held it is the
     /// cell's: none is returned then.
     ///
     /// # Errors
@@ -67,7 +67,7 @@ impl<'s> CellAssembler<'s> {
     pub(crate) fn assemble(
         &mut self,
         cell: usize,
-        rules: &[Rule],
+        rules: &[CellRule],
         source: Option<SourceTerm<'_>>,
         border: &[BorderPiece<'_>],
         known: Option<&Stiffness<'_>>,
@@ -100,7 +100,7 @@ impl<'s> CellAssembler<'s> {
         }
         // where nothing is held there are loads alone, and the matrices stay empty
         let unknowns = if is_restrained { system.load.len() } else { 0 };
-        let mut on_border = Border::new(self.assembly, unknowns);
+        let mut on_border = BoundarySums::new(self.assembly, unknowns);
         for piece in border {
             on_border.add(piece, &mut self.evaluator, &mut self.shapes, &mut system);
         }
@@ -119,8 +119,8 @@ impl<'s> CellAssembler<'s> {
         Ok((system, Some(tied)))
     }
 
-    /// The stiffness of a cell of which nothing on the border is held.
-    pub(super) fn stiffness(&mut self, cell: usize, rules: &[Rule]) -> CellMatrix {
+    /// The stiffness of a cell of which nothing on the boundary is held.
+    pub(super) fn stiffness(&mut self, cell: usize, rules: &[CellRule]) -> CellMatrix {
         let functions = CellFunctions::new(&self.assembly, cell);
         let mut matrix = functions.zero(&self.assembly, true, Vec::new());
         for rule in rules {
@@ -146,7 +146,7 @@ impl<'s> CellAssembler<'s> {
     }
 
     /// Adds a source at the points of the rule that was looked at last.
-    fn load(&mut self, rule: &Rule, source: Option<Data<'_>>, system: &mut CellSystem) {
+    fn load(&mut self, rule: &CellRule, source: Option<Data<'_>>, system: &mut CellSystem) {
         let Some(source) = source else { return };
         self.evaluator.apply(&rule.patches, &mut self.shapes);
         let numbers = system.functions.numbers(&rule.patches);
@@ -158,7 +158,7 @@ impl<'s> CellAssembler<'s> {
 
     /// Adds ∫ ∇N·C (ε⁰ − ∇u_s) of the strains that are given, and of the known part of the field,
     /// at the points of the rule that was looked at last.
-    fn prestress(&mut self, rule: &Rule, system: &mut CellSystem) {
+    fn prestress(&mut self, rule: &CellRule, system: &mut CellSystem) {
         let law = self.assembly.law;
         let known = self.known_gradients(rule);
         if !law.has_initial_stress() && known.is_empty() {
@@ -190,7 +190,7 @@ impl<'s> CellAssembler<'s> {
     }
 
     /// ∇u_s at the points of the rule that was looked at last; none if all of u_s is zero.
-    fn known_gradients(&self, rule: &Rule) -> Vec<[Vec2; 2]> {
+    fn known_gradients(&self, rule: &CellRule) -> Vec<[Vec2; 2]> {
         let (space, plain) = (self.assembly.space, self.evaluator.plain());
         let (mut first, mut sum) = (0, Vec::new());
         for &patch in &rule.patches {
@@ -212,7 +212,7 @@ impl<'s> CellAssembler<'s> {
     /// where they are not tied.
     fn stiffen(
         &mut self,
-        rule: &Rule,
+        rule: &CellRule,
         tied: bool,
         matrix: Option<&mut CellMatrix>,
         functions: &CellFunctions,
@@ -224,7 +224,7 @@ impl<'s> CellAssembler<'s> {
     }
 
     /// Adds these points to the functionals of the plain functions.
-    fn add_functionals(&self, (cell, rule): (usize, &Rule), plain: &mut CellSystem) {
+    fn add_functionals(&self, (cell, rule): (usize, &CellRule), plain: &mut CellSystem) {
         let Some(all) = self.functionals.filter(|all| all.are_of(cell)) else { return };
         let (numbers, shapes) = (plain.functions.numbers(&rule.patches), self.evaluator.plain());
         all.free.add(rule, shapes, &numbers, self.assembly.components(), &mut plain.moments);

@@ -23,9 +23,9 @@
 //! ```
 //!
 //! is least. That function has a continuous slope; it is convex if ∫ σ_d² ≤ λ a(u, u) with λ < β,
-//! and λ is known cell by cell, as on held borders (`border`). So there is one solution, and β does
-//! not matter: with that of the body, all terms with β vanish. At points where P_d is inside of
-//! its interval the term is that of Nitsche for a tie, at others that of a known traction c:
+//! and λ is known cell by cell, as on held boundaries (`border`). So there is one solution, and β
+//! does not matter: with that of the body, all terms with β vanish. At points where P_d is inside
+//! of its interval the term is that of Nitsche for a tie, at others that of a known traction c:
 //!
 //! ```text
 //! tied      K += (p pᵀ − σ σᵀ)/β     f += (σ⁰ σ − σ⁰ p)/β
@@ -41,17 +41,17 @@ use super::cell::CellAssembler;
 use super::cell_matrix::CellMatrix;
 use super::functions::CellFunctions;
 use crate::basis::{BasisEvaluator, Shapes};
-use crate::quadrature::{EdgeRule, Face, Quadrature};
+use crate::quadrature::{CrackFace, EdgeRule, Quadrature};
 use crate::report::SolverReport;
 use crate::terms::face_law;
-use crate::watched::{Halt, Stage, in_batches};
+use crate::watched::{Halt, WorkPhase, in_batches};
 use faer::{Mat, MatRef};
 use ppum::crack::Side;
 use ppum::vec2::{Vec2, vec2};
 use ppum_linear::{BlockMatrix, EigenError, largest_eigenvalue, product, taken};
 
-/// β in units of λ: what is left of the energy is a half beside a border that is held with its own
-/// terms, and three quarters elsewhere.
+/// β in units of λ: what is left of the energy is a half beside a boundary that is held with its
+/// own terms, and three quarters elsewhere.
 const FACTOR: f64 = 4.0;
 
 /// All faces that may touch.
@@ -111,7 +111,7 @@ pub struct RowFactors {
     pub force: f64,
 }
 
-/// What holds at a row.
+/// The state of the faces in the direction of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FaceState {
     /// The faces are tied in this direction.
@@ -125,7 +125,7 @@ impl FaceContacts {
     ///
     /// # Errors
     /// Data that are not finite, with their place; cancelled.
-    pub fn new(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
+    pub fn new(assembly: Assembly<'_>, stage: &WorkPhase<'_>) -> Result<Self, Halt> {
         let (mut cells, space) = (Vec::new(), assembly.space);
         let quadrature = space.quadrature(0);
         let mut cracks = 0..assembly.problem.cracks().len() as u32;
@@ -278,7 +278,8 @@ impl FaceStress {
 }
 
 impl FaceState {
-    /// What holds where P_d is clamped onto an interval.
+    /// Returns the state for a projection P_d: tied inside of the interval, else loaded with the
+    /// end of the interval that it is clamped to.
     pub fn new(projection: f64, [low, high]: [f64; 2]) -> Self {
         match projection {
             p if p < low => Self::Loaded(low),
@@ -480,21 +481,21 @@ impl FacePoint<'_> {
     }
 }
 
-/// The same points on the other face.
+/// Returns the rule with its points on the other face.
 fn other_side(rule: &EdgeRule) -> EdgeRule {
     let mut other = rule.clone();
-    other.face = rule.face.map(|face| Face { side: Side::Below, ..face });
+    other.face = rule.face.map(|face| CrackFace { side: Side::Below, ..face });
     other
 }
 
-/// The rules on the faces above in a cell, of the cracks that may touch. Of a crack along a border
-/// of cells it is the cell above.
+/// The rules on the faces above in a cell, of the cracks that may touch. A crack along the boundary
+/// of two cells belongs to the cell above.
 fn faces(assembly: Assembly<'_>, quadrature: &Quadrature<'_>, cell: usize) -> Vec<EdgeRule> {
     let Assembly { problem, space, .. } = assembly;
-    let (rect, coverers) = (&space.partition().cell[cell], &space.coverers[cell]);
+    let (rect, covering_patches) = (&space.partition().cell[cell], &space.covering_patches[cell]);
     let touching = (0..problem.cracks().len()).filter(|&k| face_law(problem, k as u32).is_some());
-    let all = touching.flat_map(|k| Face::of(&problem.cracks()[k], k, Side::Above));
-    all.flat_map(|face| quadrature.face(rect, coverers, face)).collect()
+    let all = touching.flat_map(|k| CrackFace::of(&problem.cracks()[k], k, Side::Above));
+    all.flat_map(|face| quadrature.face(rect, covering_patches, face)).collect()
 }
 
 /// Columns over the cell's functions in each component as columns over its unknowns.

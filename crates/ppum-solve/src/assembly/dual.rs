@@ -1,42 +1,42 @@
 //! Loads whose solutions are dual to stress intensity factors: K(v) = a(v, z) for all v.
 
 use crate::basis::Shapes;
-use crate::quadrature::Rule;
-use crate::space::Space;
+use crate::quadrature::CellRule;
+use crate::space::TrialSpace;
 use faer::Mat;
 use ppum::vec2::Vec2;
-use ppum_problem::geometry::Placed;
+use ppum_problem::geometry::BoxList;
 
 /// The modes I and II.
 pub const FACTORS: usize = 2;
 
 /// G of a mode at a point, times the weight of the point: of each component the vector that its
 /// gradient is multiplied with.
-pub type Kernel = [Vec2; 2];
+pub type ModeKernel = [Vec2; 2];
 
 /// The stress intensity factors of one tip as linear functionals K_m(v) = ∫ G_m : ∇v dA.
 pub trait LinearFunctional: Sync {
     /// The cells in which G is not zero.
-    fn cells(&self, cells: &Placed<usize>) -> Vec<usize>;
+    fn cells(&self, cells: &BoxList<usize>) -> Vec<usize>;
 
     /// G of both modes at the points of a rule.
-    fn kernels(&self, rule: &Rule) -> Vec<[Kernel; FACTORS]>;
+    fn kernels(&self, rule: &CellRule) -> Vec<[ModeKernel; FACTORS]>;
 }
 
 /// The factors of all tips as functionals: K(N) of both modes is integrated with the system, summed
 /// over the tips.
 pub struct Duals<'a> {
     tips: Vec<&'a dyn LinearFunctional>,
-    /// Of each cell, the tips whose discs it meets.
+    /// For each cell, the tips whose discs it meets.
     near: Vec<Vec<u32>>,
 }
 
 impl<'a> Duals<'a> {
     /// Finds the cells that each functional is integrated over.
-    pub fn new(tips: Vec<&'a dyn LinearFunctional>, space: &Space<'_>) -> Self {
+    pub fn new(tips: Vec<&'a dyn LinearFunctional>, space: &TrialSpace<'_>) -> Self {
         let cells = &space.partition().cell;
         let mut near = vec![Vec::new(); cells.len()];
-        let placed = Placed::new(cells.iter().copied().zip(0..));
+        let placed = BoxList::new(cells.iter().copied().zip(0..));
         for (k, tip) in (0..).zip(&tips) {
             tip.cells(&placed).into_iter().for_each(|cell| near[cell].push(k));
         }
@@ -57,7 +57,7 @@ impl<'a> Duals<'a> {
     /// rule's patches, `numbers` their places in a part.
     pub(super) fn add(
         &self,
-        (cell, rule): (usize, &Rule),
+        (cell, rule): (usize, &CellRule),
         shapes: &Shapes,
         numbers: &[usize],
         parts: &mut [Vec<f64>],

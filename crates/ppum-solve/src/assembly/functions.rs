@@ -4,7 +4,7 @@
 use super::cell_matrix::CellMatrix;
 use crate::basis::StableBasis;
 use crate::law::Law;
-use crate::space::Space;
+use crate::space::TrialSpace;
 use faer::{Mat, MatRef};
 use ppum_linear::{BlockMatrix, add_at, product, taken};
 use ppum_problem::Problem;
@@ -15,7 +15,7 @@ pub struct Assembly<'a> {
     /// Its body, loads and material.
     pub problem: &'a Problem,
     /// The patches with their local spaces.
-    pub space: &'a Space<'a>,
+    pub space: &'a TrialSpace<'a>,
     /// The unknowns of each patch in terms of its local functions.
     pub basis: &'a StableBasis,
     /// Stress or flux of a gradient.
@@ -46,12 +46,12 @@ pub(crate) struct CellFunctions {
 impl CellFunctions {
     /// Those of the basis.
     pub(crate) fn new(assembly: &Assembly<'_>, cell: usize) -> Self {
-        Self::of(&assembly.space.coverers[cell], |patch| assembly.basis.sizes[patch])
+        Self::of(&assembly.space.covering_patches[cell], |patch| assembly.basis.sizes[patch])
     }
 
     /// Those that are evaluated, of which the basis is made.
     pub(crate) fn plain(assembly: &Assembly<'_>, cell: usize) -> Self {
-        Self::of(&assembly.space.coverers[cell], |patch| assembly.space.evaluated(patch))
+        Self::of(&assembly.space.covering_patches[cell], |patch| assembly.space.evaluated(patch))
     }
 
     fn of(patches: &[u32], size: impl Fn(usize) -> usize) -> Self {

@@ -7,30 +7,30 @@ use super::loads::{LoadRules, border_rules, of_condition, of_source, unresolved_
 use super::point::point_rule;
 use super::reaction::modes;
 use crate::equilibrium::{Balance, BodyPieces};
-use crate::quadrature::{EdgeRule, Face, Quadrature, Rule};
-use crate::report::Unresolved;
-use crate::space::Space;
+use crate::quadrature::{CellRule, CrackFace, EdgeRule, Quadrature};
+use crate::report::UnresolvedIntegrand;
+use crate::space::TrialSpace;
 use crate::terms::{is_held_exactly, known_fields};
-use crate::watched::{Halt, Stage, in_batches};
+use crate::watched::{Halt, WorkPhase, in_batches};
 use ppum::vec2::Vec2;
 use ppum_problem::{BoundaryCondition, Problem, held_directions};
 
 /// A source as a function of position.
-type Values<'p> = Box<dyn Fn(Vec2) -> [f64; 2] + Sync + Send + 'p>;
+type SourceFunction<'p> = Box<dyn Fn(Vec2) -> [f64; 2] + Sync + Send + 'p>;
 
 /// The source and the boundary conditions of a problem.
-pub struct Given<'p> {
+pub struct PrescribedData<'p> {
     problem: &'p Problem,
     /// The source; none where it is zero.
-    source: Option<Values<'p>>,
-    source_rules: LoadRules<Rule>,
-    conditions: Vec<GivenCondition<'p>>,
-    /// Of given strains that are not resolved, the error and its place.
+    source: Option<SourceFunction<'p>>,
+    source_rules: LoadRules<CellRule>,
+    conditions: Vec<PrescribedCondition<'p>>,
+    /// The errors of given strains that are not resolved, with their places.
     strains: Vec<(f64, Vec2)>,
 }
 
 /// A boundary condition with its data along its axes as a function of position and normal.
-struct GivenCondition<'p> {
+struct PrescribedCondition<'p> {
     number: usize,
     condition: &'p BoundaryCondition,
     values: Box<dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync + Send + 'p>,
@@ -40,22 +40,26 @@ struct GivenCondition<'p> {
     is_exact: bool,
 }
 
-impl<'p> Given<'p> {
+impl<'p> PrescribedData<'p> {
     /// All that is given, and rules that resolve it.
     ///
     /// # Errors
     /// Cancelled.
-    pub fn new(problem: &'p Problem, space: &Space<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
+    pub fn new(
+        problem: &'p Problem,
+        space: &TrialSpace<'_>,
+        stage: &WorkPhase<'_>,
+    ) -> Result<Self, Halt> {
         let has_source = problem.source.iter().any(|e| e.formula().constant() != Some(0.0));
         let source = move |x: Vec2| problem.source_at(x);
         let conditions = problem.boundary.iter().enumerate();
         let given = |(number, condition)| {
             let own = of_condition(problem, space, condition, stage)?;
-            Ok(GivenCondition::new(problem, (number, condition), own))
+            Ok(PrescribedCondition::new(problem, (number, condition), own))
         };
         Ok(Self {
             problem,
-            source: has_source.then(|| Box::new(source) as Values<'p>),
+            source: has_source.then(|| Box::new(source) as SourceFunction<'p>),
             source_rules: of_source(problem, space, stage)?,
             conditions: conditions.map(given).collect::<Result<_, Halt>>()?,
             strains: unresolved_strains(problem, space, stage)?,
@@ -71,7 +75,7 @@ impl<'p> Given<'p> {
             source: None,
             source_rules: LoadRules::default(),
             conditions: holding
-                .map(|given| GivenCondition::new(problem, given, LoadRules::default()))
+                .map(|given| PrescribedCondition::new(problem, given, LoadRules::default()))
                 .collect(),
             strains: Vec::new(),
         }
@@ -88,31 +92,32 @@ impl<'p> Given<'p> {
         Some(SourceTerm { values, rules: self.source_rules.of(cell) })
     }
 
-    /// The pieces of a cell's border on which something is given.
+    /// The pieces of a cell's boundary on which something is given.
     pub(crate) fn border(
         &self,
-        space: &Space<'_>,
+        space: &TrialSpace<'_>,
         quadrature: &Quadrature<'_>,
         cell: usize,
     ) -> Vec<BorderPiece<'_>> {
-        let (rect, coverers) = (&space.partition().cell[cell], &space.coverers[cell]);
-        let piece = |given: &'_ GivenCondition<'p>| {
-            border_rules(self.problem, given.condition.on, quadrature, rect, coverers)
+        let (rect, covering_patches) =
+            (&space.partition().cell[cell], &space.covering_patches[cell]);
+        let piece = |given: &'_ PrescribedCondition<'p>| {
+            border_rules(self.problem, given.condition.on, quadrature, rect, covering_patches)
         };
         let all = self.conditions.iter().map(|given| (given, piece(given)));
         let some = all.filter(|(_, rules)| !rules.is_empty());
         some.map(|(given, rules)| given.piece(self.problem, cell, rules)).collect()
     }
 
-    /// Restraints and loads of the pieces of the plate.
+    /// Restraints and loads of the pieces of the body.
     ///
     /// # Errors
     /// Data that are not finite, with their place; cancelled.
     pub fn balance(
         &self,
-        space: &Space<'_>,
+        space: &TrialSpace<'_>,
         pieces: &BodyPieces,
-        stage: &Stage<'_>,
+        stage: &WorkPhase<'_>,
     ) -> Result<Vec<Balance>, Halt> {
         let components = self.problem.components();
         let quadrature = space.quadrature(0);
@@ -138,18 +143,19 @@ impl<'p> Given<'p> {
             |_, part| sum.iter_mut().zip(&part).for_each(|(sum, part)| sum.add(part)),
         )?;
         for field in known_fields(self.problem) {
-            let (_, rule) = point_rule(space, (field.at, field.face.map(Face::from)));
+            let (_, rule) = point_rule(space, (field.at, field.face.map(CrackFace::from)));
             sum[pieces.of_border(&rule, 0)].add_load(field.at, &<[f64; 2]>::from(field.load), 1.0);
         }
         Ok(sum)
     }
 
     /// The loads, given strains and data that no rules resolve.
-    pub(crate) fn unresolved(&self) -> Vec<Unresolved> {
-        let unresolved = |what: String, (error, at)| Unresolved { load: Some(what), error, at };
+    pub(crate) fn unresolved(&self) -> Vec<UnresolvedIntegrand> {
+        let unresolved =
+            |what: String, (error, at)| UnresolvedIntegrand { load: Some(what), error, at };
         let name = if self.problem.components() == 1 { "the source" } else { "the body force" };
         let inside = self.source_rules.doubt().map(|doubt| unresolved(name.into(), doubt));
-        let of_given = |given: &GivenCondition<'p>| {
+        let of_given = |given: &PrescribedCondition<'p>| {
             let what = format!("what is given on {}", self.problem.words_of(given.condition.on));
             given.own.doubt().map(|doubt| unresolved(what, doubt))
         };
@@ -159,7 +165,7 @@ impl<'p> Given<'p> {
     }
 }
 
-impl<'p> GivenCondition<'p> {
+impl<'p> PrescribedCondition<'p> {
     fn new(
         problem: &Problem,
         (number, condition): (usize, &'p BoundaryCondition),
@@ -188,7 +194,7 @@ impl<'p> GivenCondition<'p> {
 fn add_source(
     sum: &mut [Balance],
     source: &SourceTerm<'_>,
-    rules: &[Rule],
+    rules: &[CellRule],
     pieces: &BodyPieces,
     components: usize,
 ) {
@@ -221,7 +227,7 @@ fn add_border(
     });
 }
 
-/// True if all that is given on a piece of the border is finite, values that hold it among them,
+/// True if all that is given on a piece of the boundary is finite, values that hold it among them,
 /// and no coefficient of an exchange negative.
 fn is_finite(piece: &BorderPiece<'_>) -> bool {
     piece.own.unwrap_or(&piece.rules).iter().all(|rule| {

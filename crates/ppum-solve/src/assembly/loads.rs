@@ -7,13 +7,13 @@
 //! other one takes its place for this load.
 
 use crate::law::Law;
-use crate::quadrature::{Doubt, EdgeRule, Face, Kink, Quadrature, Rule};
+use crate::quadrature::{CellRule, CrackFace, EdgeRule, KinkLine, Quadrature, QuadratureError};
 use crate::smoothness::{Smoothness, box_of};
-use crate::space::Space;
-use crate::watched::{Halt, Stage, in_batches};
+use crate::space::TrialSpace;
+use crate::watched::{Halt, WorkPhase, in_batches};
 use ppum::crack::Side;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_problem::{BorderPart, BoundaryCondition, Expression, Problem};
+use ppum_problem::{BoundaryCondition, BoundaryPart, Expression, Problem};
 
 /// Difference of moments up to which the rule of the system stays, as a part of the mean load: of
 /// formulas with kinks, layers or spikes somewhere, and of smooth ones, which the polynomials of
@@ -44,11 +44,11 @@ const MOMENTS: usize = 6;
 const SIDES: usize = 2;
 
 /// A rule with its points.
-pub(crate) trait Points: Clone + Send + Sync {
-    /// Calls `visit` with places, normals (zero inside the plate) and weights.
+pub(crate) trait RulePoints: Clone + Send + Sync {
+    /// Calls `visit` with places, normals (zero inside the body) and weights.
     fn visit(&self, visit: &mut dyn FnMut(Vec2, Vec2, f64));
 
-    fn doubt(&self) -> &Doubt;
+    fn doubt(&self) -> &QuadratureError;
 
     /// The side of the crack whose face the points lie on; above if they lie on none.
     fn side(&self) -> Side {
@@ -56,24 +56,24 @@ pub(crate) trait Points: Clone + Send + Sync {
     }
 }
 
-impl Points for Rule {
+impl RulePoints for CellRule {
     fn visit(&self, visit: &mut dyn FnMut(Vec2, Vec2, f64)) {
         let points = self.offsets.iter().zip(&self.weights);
         points.for_each(|(&x, &w)| visit(self.anchor + x, Vec2::ZERO, w));
     }
 
-    fn doubt(&self) -> &Doubt {
+    fn doubt(&self) -> &QuadratureError {
         &self.doubt
     }
 }
 
-impl Points for EdgeRule {
+impl RulePoints for EdgeRule {
     fn visit(&self, visit: &mut dyn FnMut(Vec2, Vec2, f64)) {
         let points = self.offsets.iter().zip(&self.weights).zip(&self.normals);
         points.for_each(|((&x, &w), &normal)| visit(self.anchor + x, normal, w));
     }
 
-    fn doubt(&self) -> &Doubt {
+    fn doubt(&self) -> &QuadratureError {
         &self.doubt
     }
 
@@ -85,10 +85,10 @@ impl Points for EdgeRule {
 /// The rules of one load that take the place of the system's, and what they do not resolve.
 #[derive(Clone, Debug)]
 pub(crate) struct LoadRules<R> {
-    /// Of each cell.
+    /// The rules of each cell.
     own: Vec<Option<Vec<R>>>,
     /// Estimated error of ∫|f|, and where.
-    doubt: Doubt,
+    doubt: QuadratureError,
     /// ∫|f|
     magnitude: f64,
 }
@@ -96,11 +96,11 @@ pub(crate) struct LoadRules<R> {
 /// A load that the rules of the system resolve.
 impl<R> Default for LoadRules<R> {
     fn default() -> Self {
-        Self { own: Vec::new(), doubt: Doubt::default(), magnitude: 0.0 }
+        Self { own: Vec::new(), doubt: QuadratureError::default(), magnitude: 0.0 }
     }
 }
 
-impl<R: Points> LoadRules<R> {
+impl<R: RulePoints> LoadRules<R> {
     /// The rules of a cell, if they are not those of the system.
     pub(crate) fn of(&self, cell: usize) -> Option<&[R]> {
         self.own.get(cell)?.as_deref()
@@ -115,13 +115,13 @@ impl<R: Points> LoadRules<R> {
 }
 
 /// Divisions that a load may cost in a cell.
-fn divisions(space: &Space<'_>) -> usize {
+fn divisions(space: &TrialSpace<'_>) -> usize {
     (DIVISIONS / space.partition().len()).max(LEAST_DIVISIONS)
 }
 
 /// A load: its formulas, its values at places with their normals, and the rules that a quadrature
 /// has for the part of a cell that it acts on.
-struct Load<'l, R> {
+struct LoadIntegrals<'l, R> {
     formulas: Vec<&'l Expression>,
     values: &'l (dyn Fn(Vec2, Vec2) -> [f64; 2] + Sync),
     rules: &'l (dyn Fn(&Quadrature<'_>, usize) -> Vec<R> + Sync),
@@ -130,33 +130,33 @@ struct Load<'l, R> {
 /// The rules of the source.
 pub(super) fn of_source(
     problem: &Problem,
-    space: &Space<'_>,
-    stage: &Stage<'_>,
-) -> Result<LoadRules<Rule>, Halt> {
-    let load = Load {
+    space: &TrialSpace<'_>,
+    stage: &WorkPhase<'_>,
+) -> Result<LoadRules<CellRule>, Halt> {
+    let load = LoadIntegrals {
         formulas: problem.source.iter().collect(),
         values: &|x, _| problem.source_at(x),
         rules: &|quadrature, cell| {
-            quadrature.cell(&space.partition().cell[cell], &space.coverers[cell])
+            quadrature.cell(&space.partition().cell[cell], &space.covering_patches[cell])
         },
     };
     load.rules_on(space, stage)
 }
 
-/// Of each given strain that no rule resolves, the estimated error of its integral as a part of its
-/// magnitude, and the place. The system keeps its own rules.
+/// Returns, for each given strain that no rule resolves, the estimated error of its integral
+/// relative to its magnitude, and the place. The system keeps its own rules.
 pub(super) fn unresolved_strains(
     problem: &Problem,
-    space: &Space<'_>,
-    stage: &Stage<'_>,
+    space: &TrialSpace<'_>,
+    stage: &WorkPhase<'_>,
 ) -> Result<Vec<(f64, Vec2)>, Halt> {
     let strains = Law::new(&problem.equation).strain_formulas();
     let doubt = |&strain: &&Expression| {
-        let rules = Load {
+        let rules = LoadIntegrals {
             formulas: vec![strain],
             values: &|x, _| [strain.value(x), 0.0],
             rules: &|quadrature, cell| {
-                quadrature.cell(&space.partition().cell[cell], &space.coverers[cell])
+                quadrature.cell(&space.partition().cell[cell], &space.covering_patches[cell])
             },
         };
         Ok(rules.rules_on(space, stage)?.doubt())
@@ -167,34 +167,39 @@ pub(super) fn unresolved_strains(
 /// The rules of the data of a condition.
 pub(super) fn of_condition(
     problem: &Problem,
-    space: &Space<'_>,
+    space: &TrialSpace<'_>,
     condition: &BoundaryCondition,
-    stage: &Stage<'_>,
+    stage: &WorkPhase<'_>,
 ) -> Result<LoadRules<EdgeRule>, Halt> {
     // of an exchange both h g and h are integrated
     let values = |x, normal| match (condition.values(x, normal), condition.exchange_at(x)) {
         (values, 0.0) => values,
         ([value, _], h) => [h * value, h],
     };
-    let load = Load {
+    let load = LoadIntegrals {
         formulas: condition.formulas().collect(),
         values: &values,
         rules: &|quadrature, cell| {
-            let (rect, coverers) = (&space.partition().cell[cell], &space.coverers[cell]);
-            border_rules(problem, condition.on, quadrature, rect, coverers)
+            let (rect, covering_patches) =
+                (&space.partition().cell[cell], &space.covering_patches[cell]);
+            border_rules(problem, condition.on, quadrature, rect, covering_patches)
         },
     };
     load.rules_on(space, stage)
 }
 
 /// The findings of a round.
-struct Round<R> {
+struct LoadRound<R> {
     rules: LoadRules<R>,
     measure: f64,
 }
 
-impl<R: Points> Load<'_, R> {
-    fn rules_on(&self, space: &Space<'_>, stage: &Stage<'_>) -> Result<LoadRules<R>, Halt> {
+impl<R: RulePoints> LoadIntegrals<'_, R> {
+    fn rules_on(
+        &self,
+        space: &TrialSpace<'_>,
+        stage: &WorkPhase<'_>,
+    ) -> Result<LoadRules<R>, Halt> {
         let mut mean = 0.0;
         if self.extended(space, mean).is_none() {
             return Ok(LoadRules::default());
@@ -216,7 +221,7 @@ impl<R: Points> Load<'_, R> {
         Ok(LoadRules::default())
     }
 
-    fn extended(&self, space: &Space<'_>, mean: f64) -> Option<(Smoothness, Vec<Kink>)> {
+    fn extended(&self, space: &TrialSpace<'_>, mean: f64) -> Option<(Smoothness, Vec<KinkLine>)> {
         let data: Vec<_> = self.formulas.iter().map(|&formula| (formula, mean)).collect();
         space.smoothness().with_data(&box_of(space.partition()), &data)
     }
@@ -225,15 +230,15 @@ impl<R: Points> Load<'_, R> {
     /// system, to find one.
     fn round(
         &self,
-        space: &Space<'_>,
-        (smoothness, places): (&Smoothness, &[Kink]),
+        space: &TrialSpace<'_>,
+        (smoothness, places): (&Smoothness, &[KinkLine]),
         mean: f64,
-        stage: &Stage<'_>,
-    ) -> Result<Round<R>, Halt> {
+        stage: &WorkPhase<'_>,
+    ) -> Result<LoadRound<R>, Halt> {
         let [plain, finer] = [0, EXTRA].map(|extra| space.quadrature(extra));
         let own = space.quadrature_of(smoothness, 0).with_divisions(divisions(space));
         let same = mean * if places.is_empty() { SAME_OF_SMOOTH } else { SAME };
-        let mut round = Round { rules: LoadRules::default(), measure: 0.0 };
+        let mut round = LoadRound { rules: LoadRules::default(), measure: 0.0 };
         in_batches(
             stage,
             space.partition().len(),
@@ -256,7 +261,7 @@ impl<R: Points> Load<'_, R> {
                 Ok((better, (!is_same).then_some(own)))
             },
             |_, (moments, own)| {
-                let doubts = own.iter().flatten().map(Points::doubt);
+                let doubts = own.iter().flatten().map(RulePoints::doubt);
                 doubts.for_each(|doubt| round.rules.doubt.add(doubt));
                 round.measure += moments.measure;
                 round.rules.magnitude += moments.magnitude;
@@ -283,7 +288,7 @@ impl<R: Points> Load<'_, R> {
 /// Integrals of a load times polynomials of a cell.
 #[derive(Default)]
 struct Moments {
-    /// Of each side of a crack and each component.
+    /// The moments for each side of a crack and each component.
     sums: [[[f64; MOMENTS]; 2]; SIDES],
     magnitude: f64,
     measure: f64,
@@ -307,35 +312,36 @@ impl Moments {
     }
 }
 
-/// The rules on a part of the border in one cell.
+/// The rules on a part of the boundary in one cell.
 pub(crate) fn border_rules(
     problem: &Problem,
-    on: BorderPart,
+    on: BoundaryPart,
     quadrature: &Quadrature<'_>,
     rect: &Rect,
-    coverers: &[u32],
+    covering_patches: &[u32],
 ) -> Vec<EdgeRule> {
     match on {
-        BorderPart::Edge { edge, from, to } => {
+        BoundaryPart::Edge { edge, from, to } => {
             let ends = [from, to].map(|s| edge.point(&problem.domain().bounds, s));
-            quadrature.edge(rect, coverers, ends, edge.normal())
+            quadrature.edge(rect, covering_patches, ends, edge.normal())
         }
-        BorderPart::Hole(hole) => {
-            quadrature.rim(rect, coverers, &problem.domain().holes[hole], |_| true)
+        BoundaryPart::Hole(hole) => {
+            quadrature.rim(rect, covering_patches, &problem.domain().holes[hole], |_| true)
         }
-        BorderPart::Sides(run) => {
+        BoundaryPart::Sides(run) => {
             let is_wanted = |side| run.holds(run.hole, side);
-            quadrature.rim(rect, coverers, &problem.domain().holes[run.hole], is_wanted)
+            quadrature.rim(rect, covering_patches, &problem.domain().holes[run.hole], is_wanted)
         }
-        BorderPart::Piece(piece) => {
-            let runs = problem.pieces()[piece].runs.iter().map(|run| BorderPart::Sides(*run));
-            runs.flat_map(|run| border_rules(problem, run, quadrature, rect, coverers)).collect()
+        BoundaryPart::Piece(piece) => {
+            let runs = problem.pieces()[piece].runs.iter().map(|run| BoundaryPart::Sides(*run));
+            runs.flat_map(|run| border_rules(problem, run, quadrature, rect, covering_patches))
+                .collect()
         }
-        BorderPart::Crack { crack, face } => {
+        BoundaryPart::Crack { crack, face } => {
             let both = [Side::Above, Side::Below];
             let sides = both.into_iter().filter(|side| face.is_none_or(|face| face == *side));
-            let faces = sides.flat_map(|side| Face::of(&problem.cracks()[crack], crack, side));
-            faces.flat_map(|face| quadrature.face(rect, coverers, face)).collect()
+            let faces = sides.flat_map(|side| CrackFace::of(&problem.cracks()[crack], crack, side));
+            faces.flat_map(|face| quadrature.face(rect, covering_patches, face)).collect()
         }
     }
 }

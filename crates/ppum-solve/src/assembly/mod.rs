@@ -4,9 +4,9 @@
 //! K = ∫ ∇N·C·∇N + Nitsche's terms        f = ∫ N·b + ∫_Γt N·t + Nitsche's terms
 //! ```
 //!
-//! [`Given`] says what acts on a cell and on its border, `CellAssembler` integrates it into a
-//! `CellSystem`, [`System`] adds these up. [`Gauge`] makes solutions unique on pieces of the plate
-//! that nothing holds.
+//! [`PrescribedData`] says what acts on a cell and on its boundary, `CellAssembler` integrates it
+//! into a `CellSystem`, [`System`] adds these up. [`NullSpaceConstraint`] makes solutions unique on
+//! pieces of the body that nothing holds.
 
 mod border;
 mod cell;
@@ -15,9 +15,9 @@ mod cell_system;
 mod contact;
 mod dual;
 mod functions;
-mod gauge;
 mod given;
 mod loads;
+mod null_space;
 mod point;
 mod reaction;
 mod spring;
@@ -27,10 +27,10 @@ mod template;
 
 pub use cell::Functionals;
 pub use contact::{CellErrors, FaceContacts, FaceState, RowFactors};
-pub use dual::{Duals, FACTORS, Kernel, LinearFunctional};
+pub use dual::{Duals, FACTORS, LinearFunctional, ModeKernel};
 pub use functions::Assembly;
-pub use gauge::{FreeModes, Gauge};
-pub use given::Given;
+pub use given::PrescribedData;
 pub(crate) use loads::border_rules;
+pub use null_space::{FreeModes, NullSpaceConstraint};
 pub use point::values_at;
 pub use system::{System, pattern, slivers};

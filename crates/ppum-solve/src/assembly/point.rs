@@ -3,13 +3,16 @@
 use super::Assembly;
 use super::functions::CellFunctions;
 use crate::basis::{ShapeEvaluator, Shapes};
-use crate::quadrature::{Doubt, EdgeRule, Face};
-use crate::space::Space;
+use crate::quadrature::{CrackFace, EdgeRule, QuadratureError};
+use crate::space::TrialSpace;
 use ppum::vec2::Vec2;
 use ppum_linear::BlockMatrix;
 
 /// The rule of a point, which may lie on a face of a crack, in the cell that holds it.
-pub(super) fn point_rule(space: &Space<'_>, (x, face): (Vec2, Option<Face>)) -> (usize, EdgeRule) {
+pub(super) fn point_rule(
+    space: &TrialSpace<'_>,
+    (x, face): (Vec2, Option<CrackFace>),
+) -> (usize, EdgeRule) {
     let partition = space.partition();
     let distance = |cell: &usize| partition.cell[*cell].distance(x);
     let cell = (0..partition.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
@@ -19,9 +22,9 @@ pub(super) fn point_rule(space: &Space<'_>, (x, face): (Vec2, Option<Face>)) -> 
         offsets: vec![Vec2::ZERO],
         weights: vec![1.0],
         normals: vec![Vec2::ZERO],
-        patches: space.coverers[cell].iter().filter(holds).copied().collect(),
+        patches: space.covering_patches[cell].iter().filter(holds).copied().collect(),
         face,
-        doubt: Doubt::default(),
+        doubt: QuadratureError::default(),
     };
     (cell, rule)
 }
@@ -38,7 +41,7 @@ pub struct PointValues {
 pub fn values_at(
     assembly: Assembly<'_>,
     matrix: &BlockMatrix,
-    place: (Vec2, Option<Face>),
+    place: (Vec2, Option<CrackFace>),
 ) -> PointValues {
     let Assembly { space, basis, .. } = assembly;
     let components = assembly.components();

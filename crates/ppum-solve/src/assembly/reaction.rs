@@ -1,4 +1,4 @@
-//! Reactions: the resultant force and moment that restraints exert on the plate.
+//! Reactions: the resultant force and moment that restraints exert on the body.
 //!
 //! ```text
 //! R_k = ∫ m_k,i t_i     t_i = (C(ε(u) − ε⁰) n)_i − β (u_i − g_i)     over the i that are held
@@ -20,7 +20,7 @@ pub(crate) fn modes(problem: &Problem) -> RigidModes {
     RigidModes::new(problem.domain().bounds.center(), 1.0, problem.components())
 }
 
-/// Integrals over the border of a cell where one condition gives values, for every rigid-body
+/// Integrals over the boundary of a cell where one condition gives values, for every rigid-body
 /// mode m.
 #[derive(Clone, Debug)]
 pub(crate) struct Restraint {

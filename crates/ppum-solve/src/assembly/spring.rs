@@ -40,7 +40,7 @@ impl PieceMoments<'_> {
 }
 
 impl Spring {
-    /// Of each patch γ Σ_k r_k r_kᵀ, with a part of its largest stiffness over |r|² for γ.
+    /// Returns for each patch γ Σ_k r_k r_kᵀ, with a part of its largest stiffness over |r|² for γ.
     pub(super) fn new(holders: &[Holder], part: f64, matrix: &BlockMatrix) -> Self {
         let of_patch = |rows: &[Holder]| {
             let patch = rows[0].patch;

@@ -12,22 +12,22 @@
 
 use super::Assembly;
 use super::cell_matrix::CellMatrix;
-use crate::basis::{Fields, Shapes};
+use crate::basis::{PatchFields, Shapes};
 use crate::law::{Law, LawAt, Rigidity};
-use crate::quadrature::Rule;
+use crate::quadrature::CellRule;
 use faer::linalg::matmul::matmul;
 use faer::prelude::ReborrowMut;
 use faer::{Accum, MatMut, MatRef, Par};
-use ppum::real::{Job, Real, Scalar};
+use ppum::real::{LaneJob, LaneNumber, Real};
 use ppum::vec2::Vec2;
 use std::ops::Range;
 
 /// Gradients and stresses of unknowns at the points of a rule.
 #[derive(Debug, Default)]
-pub(super) struct Gradients {
+pub(super) struct PointGradients {
     /// ∂_k ψ, of each patch \[points, axes, functions\].
     slopes: Vec<f64>,
-    /// The same times weights and a coefficient of the law.
+    /// The slopes times weights and a coefficient of the law.
     weighted: Vec<f64>,
     /// ∫ a ∂_k ψ_a ∂_l ψ_b of two patches, \[axes, functions, axes, functions\].
     products: Vec<f64>,
@@ -48,15 +48,15 @@ struct PatchUnknowns {
     vectors_before: usize,
 }
 
-impl Gradients {
+impl PointGradients {
     /// Adds the points of a rule to the stiffness of a cell. `shapes` are the plain functions
     /// there; `fields` are the unknowns of the rule's patches, and `numbers` the places of these
     /// patches in the matrix, ascending.
     pub(super) fn integrate(
         &mut self,
         law: &Law<'_>,
-        (rule, shapes): (&Rule, &Shapes),
-        (fields, numbers): (&[Fields<'_>], &[usize]),
+        (rule, shapes): (&CellRule, &Shapes),
+        (fields, numbers): (&[PatchFields<'_>], &[usize]),
         matrix: &mut CellMatrix,
     ) {
         let all = self.evaluate_all(fields, shapes);
@@ -78,13 +78,13 @@ impl Gradients {
     }
 
     /// The gradients of the unknowns of all patches, whose functions stand one after the other.
-    fn evaluate_all(&mut self, fields: &[Fields<'_>], shapes: &Shapes) -> Vec<PatchUnknowns> {
+    fn evaluate_all(&mut self, fields: &[PatchFields<'_>], shapes: &Shapes) -> Vec<PatchUnknowns> {
         let scalars: usize = fields.iter().map(|fields| fields.scalar.nrows()).sum();
-        let vectors: usize = fields.iter().map(Fields::vectors).sum();
+        let vectors: usize = fields.iter().map(PatchFields::vectors).sum();
         self.slopes.resize(2 * scalars * shapes.points, 0.0);
         self.gradients.resize(4 * vectors * shapes.points, 0.0);
         let (mut first, mut scalars_before, mut vectors_before) = (0, 0, 0);
-        let of_patch = |fields: &Fields<'_>| {
+        let of_patch = |fields: &PatchFields<'_>| {
             let (points, scalars) = (shapes.points, fields.scalar.nrows());
             let vectors = fields.vectors();
             let unknowns =
@@ -100,7 +100,7 @@ impl Gradients {
     /// The gradients of the unknowns of a patch, whose functions stand from `first` on.
     fn evaluate(
         &mut self,
-        fields: &Fields<'_>,
+        fields: &PatchFields<'_>,
         shapes: &Shapes,
         first: usize,
         unknowns: &PatchUnknowns,
@@ -121,14 +121,14 @@ impl Gradients {
     }
 
     /// Multiplies the slopes by the weights of a rule and a coefficient.
-    fn weigh(&mut self, rule: &Rule, all: &[PatchUnknowns], coefficient: impl Fn(Vec2) -> f64) {
+    fn weigh(&mut self, rule: &CellRule, all: &[PatchUnknowns], coefficient: impl Fn(Vec2) -> f64) {
         let points = rule.offsets.iter().zip(&rule.weights);
         let factors: Vec<f64> = points.map(|(&o, w)| w * coefficient(rule.anchor + o)).collect();
         self.weighted.resize(self.slopes.len(), 0.0);
         for unknowns in all {
             let range = unknowns.scalar_range();
             let (from, to) = (&self.slopes[range.clone()], &mut self.weighted[range]);
-            f64::dispatch(Weighing { from, factors: &factors, to });
+            f64::dispatch(FactorWeights { from, factors: &factors, to });
         }
     }
 
@@ -175,7 +175,7 @@ impl Gradients {
     }
 
     /// σ = C ∇v times weights.
-    fn find_stresses(&mut self, law: &Law<'_>, rule: &Rule, all: &[PatchUnknowns]) {
+    fn find_stresses(&mut self, law: &Law<'_>, rule: &CellRule, all: &[PatchUnknowns]) {
         let uniform = law.is_uniform().then(|| law.rigidity(rule.anchor));
         let points = rule.offsets.iter().zip(&rule.weights);
         let weighted = |(&offset, weight): (&Vec2, &f64)| {
@@ -227,13 +227,13 @@ impl PatchUnknowns {
 }
 
 /// Numbers of all functions at each point times the factor of the point.
-struct Weighing<'a> {
+struct FactorWeights<'a> {
     from: &'a [f64],
     factors: &'a [f64],
     to: &'a mut [f64],
 }
 
-impl Job<f64> for Weighing<'_> {
+impl LaneJob<f64> for FactorWeights<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -257,7 +257,7 @@ struct Contraction<'a> {
     places: [usize; 2],
 }
 
-impl Job<f64> for Contraction<'_> {
+impl LaneJob<f64> for Contraction<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -286,7 +286,7 @@ struct Stresses<'a> {
     to: &'a mut [f64],
 }
 
-impl Job<f64> for Stresses<'_> {
+impl LaneJob<f64> for Stresses<'_> {
     type Output = ();
 
     #[inline(always)]
@@ -312,7 +312,7 @@ impl Job<f64> for Stresses<'_> {
 
 impl Assembly<'_> {
     /// The unknowns of some patches.
-    pub(super) fn fields(&self, patches: &[u32], tied: bool) -> Vec<Fields<'_>> {
+    pub(super) fn fields(&self, patches: &[u32], tied: bool) -> Vec<PatchFields<'_>> {
         patches.iter().map(|&patch| self.basis.fields(patch, tied)).collect()
     }
 }

@@ -5,14 +5,14 @@ use super::border::BorderPiece;
 use super::cell::{CellAssembler, Functionals};
 use super::cell_matrix::Stiffness;
 use super::cell_system::CellSystem;
-use super::given::Given;
+use super::given::PrescribedData;
 use super::reaction::Reactions;
 use super::template::Templates;
 use crate::basis::Penalty;
-use crate::quadrature::{Doubt, EdgeRule, Rule};
-use crate::report::Unresolved;
-use crate::space::Space;
-use crate::watched::{Halt, Stage, in_batches};
+use crate::quadrature::{CellRule, EdgeRule, QuadratureError};
+use crate::report::UnresolvedIntegrand;
+use crate::space::TrialSpace;
+use crate::watched::{Halt, WorkPhase, in_batches};
 use ppum::vec2::Rect;
 use ppum_linear::{BlockMatrix, BlockPattern};
 use std::borrow::Cow;
@@ -33,26 +33,26 @@ pub struct System {
     pub duals: Vec<Vec<f64>>,
     /// The largest Nitsche's β of a cell, times the cell's width over λ + 2μ or the conductivity.
     pub nitsche: f64,
-    /// Forces of the restraints on the plate.
+    /// Forces of the restraints on the body.
     pub reactions: Reactions,
-    /// Of each cell, what its integrals have taken and what they leave.
+    /// The cost of the integrals of each cell, and the errors that they leave.
     cells: Vec<CellFacts>,
     /// Loads and data, functions and coefficients that are not resolved.
-    pub unresolved: Vec<Unresolved>,
+    pub unresolved: Vec<UnresolvedIntegrand>,
 }
 
-/// What is told of a cell.
+/// Cost and errors of the integrals of a cell.
 #[derive(Clone, Copy)]
 struct CellFacts {
     /// Number of quadrature points, those of loads that have their own among them.
     points: usize,
     /// Errors that its rules leave.
-    doubt: Doubt,
+    doubt: QuadratureError,
     /// Seconds that one core took to find its points and integrate.
     seconds: f64,
 }
 
-/// Nitsche's β in units of (λ + 2μ) / width from which on a cell's border is cut into slivers;
+/// Nitsche's β in units of (λ + 2μ) / width from which on a cell's boundary is cut into slivers;
 /// whole cells have 3 to 36.
 const SLIVER: f64 = 50.0;
 
@@ -61,10 +61,10 @@ const SLIVER: f64 = 50.0;
 ///
 /// # Errors
 /// Data that are not finite, with their place; cancelled.
-pub fn slivers(assembly: Assembly<'_>, stage: &Stage<'_>) -> Result<Vec<Penalty>, Halt> {
+pub fn slivers(assembly: Assembly<'_>, stage: &WorkPhase<'_>) -> Result<Vec<Penalty>, Halt> {
     let Assembly { problem, space, .. } = assembly;
     let quadrature = space.quadrature(0);
-    let given = Given::restraints(problem);
+    let given = PrescribedData::restraints(problem);
     let mut found = Vec::new();
     in_batches(
         stage,
@@ -93,7 +93,7 @@ fn width(cell: &Rect) -> f64 {
     cell.size().x.max(cell.size().y)
 }
 
-fn n_cell_points(rules: &[Rule]) -> usize {
+fn n_cell_points(rules: &[CellRule]) -> usize {
     rules.iter().map(|rule| rule.weights.len()).sum()
 }
 
@@ -106,10 +106,10 @@ fn n_edge_points(rules: &[EdgeRule]) -> usize {
     rules.iter().map(|rule| rule.weights.len()).sum()
 }
 
-/// Errors that the rules of a cell and of its border leave.
-fn doubt_of(rules: &[Rule], pieces: &[BorderPiece<'_>]) -> Doubt {
+/// Errors that the rules of a cell and of its boundary leave.
+fn doubt_of(rules: &[CellRule], pieces: &[BorderPiece<'_>]) -> QuadratureError {
     let border = pieces.iter().flat_map(|piece| &piece.rules).map(|rule| &rule.doubt);
-    let mut sum = Doubt::default();
+    let mut sum = QuadratureError::default();
     rules.iter().map(|rule| &rule.doubt).chain(border).for_each(|doubt| sum.add(doubt));
     sum
 }
@@ -122,9 +122,9 @@ impl System {
     /// Data that are not finite, with their place; cancelled.
     pub fn new(
         assembly: Assembly<'_>,
-        given: &Given<'_>,
+        given: &PrescribedData<'_>,
         functionals: Functionals<'_>,
-        stage: &Stage<'_>,
+        stage: &WorkPhase<'_>,
     ) -> Result<Self, Halt> {
         let Assembly { space, .. } = assembly;
         let quadrature = space.quadrature(0);
@@ -175,23 +175,24 @@ impl System {
         Ok(system)
     }
 
-    /// What is not resolved.
-    fn sum_up(&mut self, given: &Given<'_>) {
-        let mut doubt = Doubt::default();
+    /// Collects the unresolved integrands of the data and of all cells.
+    fn sum_up(&mut self, given: &PrescribedData<'_>) {
+        let mut doubt = QuadratureError::default();
         self.cells.iter().for_each(|cell| doubt.add(&cell.doubt));
         self.unresolved = given.unresolved();
         if doubt.functions > 0.0 {
-            let functions = Unresolved { load: None, error: doubt.functions, at: doubt.at };
+            let functions =
+                UnresolvedIntegrand { load: None, error: doubt.functions, at: doubt.at };
             self.unresolved.push(functions);
         }
     }
 
-    /// Of each cell, the number of quadrature points.
+    /// Returns the number of quadrature points of each cell.
     pub fn points(&self) -> Vec<f64> {
         self.cells.iter().map(|cell| cell.points as f64).collect()
     }
 
-    /// Of each cell, the seconds that one core took for it.
+    /// Returns the seconds that one core took for each cell.
     pub fn seconds(&self) -> Vec<f64> {
         self.cells.iter().map(|cell| cell.seconds).collect()
     }
@@ -241,10 +242,10 @@ impl System {
 }
 
 /// Two patches are coupled when their open supports meet.
-pub fn pattern(space: &Space<'_>) -> BlockPattern {
+pub fn pattern(space: &TrialSpace<'_>) -> BlockPattern {
     let support = |p: u32| space.partition().support(p as usize);
     let mut rows = vec![Vec::new(); space.partition().len()];
-    for patches in &space.coverers {
+    for patches in &space.covering_patches {
         for (k, &p) in patches.iter().enumerate() {
             let meets = |q: &&u32| support(p).overlaps(&support(**q));
             rows[p as usize].extend(patches[k..].iter().filter(meets));

@@ -17,7 +17,7 @@ const MANY: usize = 6;
 /// The templates of a system.
 pub(super) struct Templates<'a> {
     assembly: Assembly<'a>,
-    /// Of each cell that has one, its template.
+    /// The template of each cell that has one.
     of_cell: Vec<Option<u32>>,
     all: Vec<Template<'a>>,
 }
@@ -60,7 +60,8 @@ impl<'a> Templates<'a> {
         };
         let seated = &self.assembly.space.alike().cell(cell)?.patches;
         let seat = |patch: &u32| seated.iter().position(|p| p == patch);
-        let seats = self.assembly.space.coverers[cell].iter().map(seat).collect::<Option<_>>()?;
+        let seats =
+            self.assembly.space.covering_patches[cell].iter().map(seat).collect::<Option<_>>()?;
         Some(Stiffness { matrix, seats: Some(seats) })
     }
 
@@ -86,14 +87,14 @@ mod tests {
     use super::*;
     use crate::basis::StableBasis;
     use crate::law::Law;
-    use crate::space::{Space, discretise};
-    use crate::watched::Stage;
+    use crate::space::{TrialSpace, discretise};
+    use crate::watched::WorkPhase;
     use ppum::progress::{Phase, unwatched};
     use ppum_problem::Problem;
     use ppum_testkit::random::Random;
     use std::path::Path;
 
-    /// A plate with an edge crack somewhere, at a place that no coordinate is exact at.
+    /// A body with an edge crack somewhere, at a place that no coordinate is exact at.
     fn plate(random: &mut Random, young: &str, cells: &str) -> Problem {
         let [x, y] = [random.between(0.5, 0.8), random.between(0.3, 0.7)];
         let text = format!(
@@ -111,8 +112,8 @@ mod tests {
     /// Calls `look` with the assembly of a problem.
     fn with_assembly(problem: &Problem, look: &mut dyn FnMut(Assembly<'_>)) {
         let step = discretise(problem, unwatched()).expect("a cover");
-        let space = &Space::of_problem(problem, step, None).expect("a space");
-        let stage = Stage::uncounted(unwatched(), Phase::Basis).expect("nobody stops it");
+        let space = &TrialSpace::of_problem(problem, step, None).expect("a space");
+        let stage = WorkPhase::uncounted(unwatched(), Phase::Basis).expect("nobody stops it");
         let basis = &StableBasis::new(space, &stage).expect("a basis");
         look(Assembly { problem, space, basis, law: &Law::new(&problem.equation) });
     }
@@ -123,7 +124,7 @@ mod tests {
         "cells = [9, 7], order = 3",
     ];
 
-    /// What a template gives is what is integrated on the cell itself.
+    /// Templates give the same stiffness as integration on the cell itself.
     #[test]
     fn templates_are_the_stiffness_of_their_cells() {
         let (mut random, mut all) = (Random(8), 0);
@@ -135,10 +136,12 @@ mod tests {
                 let (mut found, mut worst) = (0, 0.0_f64);
                 for cell in 0..assembly.n_cells() {
                     let Some(template) = templates.of(cell) else { continue };
-                    let (rect, coverers) =
-                        (&assembly.space.partition().cell[cell], &assembly.space.coverers[cell]);
-                    let own = assembler.stiffness(cell, &quadrature.cell(rect, coverers));
-                    let n = coverers.len();
+                    let (rect, covering_patches) = (
+                        &assembly.space.partition().cell[cell],
+                        &assembly.space.covering_patches[cell],
+                    );
+                    let own = assembler.stiffness(cell, &quadrature.cell(rect, covering_patches));
+                    let n = covering_patches.len();
                     let largest = (0..n).map(|k| own.block(k, k).norm_max()).fold(0.0, f64::max);
                     let functions = CellFunctions::new(&assembly, cell);
                     for (k, l) in functions.pairs(&assembly) {

@@ -3,8 +3,9 @@
 //! Where cracks branch, what lies between two arms may belong to two patches only where these
 //! overlap. There the sum of their partition functions is one, or nearly, and a function b of the
 //! one can be had from the other as well: φ₁ (φ₂ q) = φ₂ (φ₁ q). Jumps *confined* so make the
-//! system singular, or nearly so as the branch moves. Of each patch what earlier ones have of them
-//! is left out: with their joint Gram matrix and N for what the earlier ones keep,
+//! system singular, or nearly so as the branch moves. Each patch leaves out the combinations that
+//! earlier patches already represent: with their joint Gram matrix, and N for the functions that
+//! earlier patches keep,
 //!
 //! ```text
 //! S = G_ii − G_iN G_NN⁻¹ G_Ni = U Λ Uᵀ,   keep λ > τ        where G_ii = I
@@ -13,9 +14,9 @@
 use super::gram::{Gram, LEAST};
 use super::shape::{ShapeEvaluator, Shapes};
 use super::transform::{CUT_OFF, FunctionCombinations};
-use crate::quadrature::Rule;
-use crate::space::Space;
-use crate::watched::{Halt, Stage, in_batches};
+use crate::quadrature::CellRule;
+use crate::space::TrialSpace;
+use crate::watched::{Halt, WorkPhase, in_batches};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
 use ppum::dataset::monomials;
@@ -46,25 +47,25 @@ struct Jump {
 
 /// Integrals over what two jumps have in common.
 #[derive(Clone, Debug)]
-struct Common {
-    /// Of ∇(φψ)·∇(φψ′) + h⁻² φ² ψ ψ′.
+struct JumpIntegrals {
+    /// The integrals of ∇(φψ)·∇(φψ′) + h⁻² φ² ψ ψ′.
     gram: Mat<f64>,
-    /// Of h⁻² ψ² for the first functions of both, where both patches are.
+    /// The integrals of h⁻² ψ² for the first functions of both, where both patches are.
     squares: [f64; 2],
 }
 
-/// Of the patches that lose functions, the combinations of these functions that stay.
+/// Returns, for the patches that lose functions, the combinations of these functions that stay.
 ///
 /// # Errors
 /// Functions that are not finite, with their place; cancelled.
 pub(super) fn reductions(
-    space: &Space<'_>,
+    space: &TrialSpace<'_>,
     grams: &[Arc<Gram>],
-    stage: &Stage<'_>,
+    stage: &WorkPhase<'_>,
 ) -> Result<BTreeMap<usize, Vec<FunctionCombinations>>, Halt> {
     let jumps: Vec<Jump> =
-        (0..grams.len()).flat_map(|i| lonely_jumps(space, i, &grams[i], is_jump)).collect();
-    let shared = Shared { jumps: &jumps, grams, common: common(space, &jumps, stage)? };
+        (0..grams.len()).flat_map(|i| sole_support_jumps(space, i, &grams[i], is_jump)).collect();
+    let shared = SharedJumps { jumps: &jumps, grams, common: common(space, &jumps, stage)? };
     let mut kept = BTreeMap::new();
     for i in shared.all() {
         let rows = shared.kept(i, &kept);
@@ -87,20 +88,20 @@ struct ReducedJump {
 }
 
 /// Jumps and what pairs of them have in common.
-struct Shared<'a> {
+struct SharedJumps<'a> {
     jumps: &'a [Jump],
     grams: &'a [Arc<Gram>],
     /// By the numbers of two jumps, the smaller one first; only those that confine each other.
     common: BTreeMap<(usize, usize), Mat<f64>>,
 }
 
-impl Shared<'_> {
+impl SharedJumps<'_> {
     /// The jumps that share something, ascending.
     fn all(&self) -> BTreeSet<usize> {
         self.common.keys().flat_map(|&(a, b)| [a, b]).collect()
     }
 
-    /// What is kept of a jump beside what is kept of those before it.
+    /// Returns the part of a jump that is kept beside those before it.
     fn kept(
         &self,
         i: usize,
@@ -190,7 +191,7 @@ const CORNER: f64 = 0.3;
 /// The first functions of the jumps of a patch of which nearly nothing lies where it is alone: of
 /// the components at junctions, and of the sides of a crack that turns in the patch. Slivers beside
 /// straight cracks are none of them.
-pub(super) fn lonely(space: &Space<'_>, patch: usize, gram: &Gram) -> Vec<usize> {
+pub(super) fn sole_support(space: &TrialSpace<'_>, patch: usize, gram: &Gram) -> Vec<usize> {
     let (step, support) = (space.step(), space.partition().support(patch));
     let turns = |points: &[Vec2]| {
         let [before, after] = [points[1] - points[0], points[2] - points[1]];
@@ -206,7 +207,7 @@ pub(super) fn lonely(space: &Space<'_>, patch: usize, gram: &Gram) -> Vec<usize>
         FunctionKind::Side { crack } => bends(*crack),
         _ => false,
     };
-    let jumps = lonely_jumps(space, patch, gram, is_wedge);
+    let jumps = sole_support_jumps(space, patch, gram, is_wedge);
     jumps.into_iter().map(|jump| jump.functions.start).collect()
 }
 
@@ -215,8 +216,8 @@ fn is_jump(kind: &FunctionKind) -> bool {
 }
 
 /// The jumps of some kinds of a patch of which nearly nothing lies where it is alone.
-fn lonely_jumps(
-    space: &Space<'_>,
+fn sole_support_jumps(
+    space: &TrialSpace<'_>,
     patch: usize,
     gram: &Gram,
     is_meant: impl Fn(&FunctionKind) -> bool,
@@ -234,22 +235,26 @@ fn lonely_jumps(
     found
 }
 
-/// What pairs of jumps have in common, for those that confine each other.
+/// Returns the integrals of pairs of jumps that confine each other.
 fn common(
-    space: &Space<'_>,
+    space: &TrialSpace<'_>,
     jumps: &[Jump],
-    stage: &Stage<'_>,
+    stage: &WorkPhase<'_>,
 ) -> Result<BTreeMap<(usize, usize), Mat<f64>>, Halt> {
     let mut of_patch: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     for (k, jump) in jumps.iter().enumerate() {
         of_patch.entry(jump.patch as u32).or_default().push(k);
     }
     let is_shared = |cell: &usize| {
-        space.coverers[*cell].iter().filter(|patch| of_patch.contains_key(patch)).nth(1).is_some()
+        space.covering_patches[*cell]
+            .iter()
+            .filter(|patch| of_patch.contains_key(patch))
+            .nth(1)
+            .is_some()
     };
-    let cells: Vec<usize> = (0..space.coverers.len()).filter(is_shared).collect();
+    let cells: Vec<usize> = (0..space.covering_patches.len()).filter(is_shared).collect();
     let quadrature = space.quadrature(0);
-    let mut sums: BTreeMap<(usize, usize), Common> = BTreeMap::new();
+    let mut sums: BTreeMap<(usize, usize), JumpIntegrals> = BTreeMap::new();
     in_batches(
         stage,
         cells.len(),
@@ -276,14 +281,14 @@ fn common(
             }
         },
     )?;
-    let confine = |&((a, b), ref common): &((usize, usize), Common)| {
+    let confine = |&((a, b), ref common): &((usize, usize), JumpIntegrals)| {
         let within = |k: usize, square: f64| square >= (1.0 - OUTSIDE) * jumps[k].square;
         within(a, common.squares[0]) && within(b, common.squares[1])
     };
     Ok(sums.into_iter().filter(confine).map(|(pair, common)| (pair, common.gram)).collect())
 }
 
-impl Common {
+impl JumpIntegrals {
     fn add(&mut self, part: &Self) {
         self.gram += &part.gram;
         self.squares.iter_mut().zip(part.squares).for_each(|(sum, part)| *sum += part);
@@ -292,8 +297,8 @@ impl Common {
 
 /// Shapes times the roots of the weights at the points of a rule.
 struct WeightedShapes<'a> {
-    space: &'a Space<'a>,
-    rule: &'a Rule,
+    space: &'a TrialSpace<'a>,
+    rule: &'a CellRule,
     shapes: &'a Shapes,
 }
 
@@ -303,13 +308,13 @@ fn add_pairs(
     seen: &WeightedShapes<'_>,
     jumps: &[Jump],
     here: &[usize],
-    parts: &mut Vec<((usize, usize), Common)>,
+    parts: &mut Vec<((usize, usize), JumpIntegrals)>,
 ) {
     let pairs = here.iter().enumerate().flat_map(|(k, &b)| here[..k].iter().map(move |&a| (a, b)));
     for (a, b) in pairs.filter(|&(a, b)| jumps[a].patch != jumps[b].patch) {
         let squares = [seen.square(&jumps[a], &jumps[b]), seen.square(&jumps[b], &jumps[a])];
         if squares[0] > 0.0 {
-            parts.push(((a, b), Common { gram: seen.gram(&jumps[a], &jumps[b]), squares }));
+            parts.push(((a, b), JumpIntegrals { gram: seen.gram(&jumps[a], &jumps[b]), squares }));
         }
     }
 }

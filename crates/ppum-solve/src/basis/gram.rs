@@ -1,9 +1,9 @@
 //! Gram matrices of the functions of patches, over the domain.
 
 use super::shape::{ShapeEvaluator, Shapes};
-use crate::quadrature::Rule;
-use crate::space::Space;
-use crate::watched::{Halt, Stage, each, in_batches};
+use crate::quadrature::CellRule;
+use crate::space::TrialSpace;
+use crate::watched::{Halt, WorkPhase, each, in_batches};
 use faer::linalg::matmul::triangular::{BlockStructure, matmul as triangular};
 use faer::{Accum, Mat, Par};
 use ppum::vec2::Vec2;
@@ -17,7 +17,7 @@ pub(super) struct Gram {
     pub(super) weighted: Mat<f64>,
     /// ∫ h⁻² ψ²
     pub(super) plain: Vec<f64>,
-    /// The same where the patch is alone.
+    /// ∫ h⁻² ψ² where the patch is alone
     pub(super) alone: Vec<f64>,
 }
 
@@ -36,8 +36,8 @@ impl Gram {
         self.alone.iter_mut().zip(&part.alone).for_each(|(sum, part)| *sum += part);
     }
 
-    /// Adds points of a patch's functions φψ times the roots of the weights; the first one has
-    /// ψ = 1. Of the weighted matrix only the lower half is added to.
+    /// Adds points of a patch's functions φψ times the roots of the weights; the first one has ψ
+    /// = 1. Only the lower half of the weighted matrix is added to.
     fn add(&mut self, shapes: &Shapes, range: Range<usize>, weights: &[f64], half: Vec2) {
         let h2 = 1.0 / (half.x * half.y);
         for (array, factor) in [(&shapes.dx, 1.0), (&shapes.dy, 1.0), (&shapes.value, h2)] {
@@ -72,12 +72,12 @@ impl Gram {
 pub(super) const LEAST: f64 = 1e-280;
 
 /// The Gram matrix of every patch, over the domain.
-pub(super) fn grams(space: &Space<'_>, stage: &Stage<'_>) -> Result<Vec<Arc<Gram>>, Halt> {
+pub(super) fn grams(space: &TrialSpace<'_>, stage: &WorkPhase<'_>) -> Result<Vec<Arc<Gram>>, Halt> {
     let (quadrature, alike) = (space.quadrature(0), space.alike());
     let of_cells = each(stage, alike.kinds().len(), |kind| {
         let (kind, alone) = (&alike.kinds()[kind], alike.kinds()[kind].space(space));
         let mut seen = (ShapeEvaluator::of_series(&alone), Shapes::default());
-        Ok(parts(&alone, &alone.coverers[0], kind.rules(), &mut seen))
+        Ok(parts(&alone, &alone.covering_patches[0], kind.rules(), &mut seen))
     })?;
     let of_kinds: Vec<_> =
         alike.patch_kinds().iter().map(|cells| Arc::new(sum(cells, &of_cells))).collect();
@@ -90,11 +90,11 @@ pub(super) fn grams(space: &Space<'_>, stage: &Stage<'_>) -> Result<Vec<Arc<Gram
         |seen, cell| {
             let rules = || space.rules(&quadrature, cell);
             let is_alike = alike.cell(cell).is_some();
-            let coverers = &space.coverers[cell];
-            Ok(if is_alike { Vec::new() } else { parts(space, coverers, &rules(), seen) })
+            let covering_patches = &space.covering_patches[cell];
+            Ok(if is_alike { Vec::new() } else { parts(space, covering_patches, &rules(), seen) })
         },
         |cell, parts| {
-            let own = space.coverers[cell].iter().zip(&parts);
+            let own = space.covering_patches[cell].iter().zip(&parts);
             let of_kind = alike
                 .cell(cell)
                 .into_iter()
@@ -125,28 +125,28 @@ fn sum(cells: &[(u32, u32)], of_cells: &[Vec<Gram>]) -> Gram {
     gram
 }
 
-/// What a cell adds to the Gram matrices of its patches.
+/// Returns the contributions of a cell to the Gram matrices of its patches.
 fn parts<'s>(
-    space: &'s Space<'s>,
-    coverers: &[u32],
-    rules: &[Rule],
+    space: &'s TrialSpace<'s>,
+    covering_patches: &[u32],
+    rules: &[CellRule],
     (evaluator, shapes): &mut (ShapeEvaluator<'s>, Shapes),
 ) -> Vec<Gram> {
     let mut parts: Vec<_> =
-        coverers.iter().map(|&p| Gram::zero(space.evaluated(p as usize))).collect();
+        covering_patches.iter().map(|&p| Gram::zero(space.evaluated(p as usize))).collect();
     for rule in rules {
         evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, shapes);
         shapes.scale(&rule.weights);
-        add_grams(space, rule, coverers, shapes, &mut parts);
+        add_grams(space, rule, covering_patches, shapes, &mut parts);
     }
     parts
 }
 
 /// Adds the points of shapes that carry the roots of the weights.
 fn add_grams(
-    space: &Space<'_>,
-    rule: &Rule,
-    coverers: &[u32],
+    space: &TrialSpace<'_>,
+    rule: &CellRule,
+    covering_patches: &[u32],
     shapes: &Shapes,
     parts: &mut [Gram],
 ) {
@@ -154,7 +154,7 @@ fn add_grams(
     for &patch in &rule.patches {
         let range = first..first + space.evaluated(patch as usize);
         first = range.end;
-        let k = coverers.binary_search(&patch).expect("a rule's patches meet its cell");
+        let k = covering_patches.binary_search(&patch).expect("a rule's patches meet its cell");
         parts[k].add(shapes, range, &rule.weights, space.partition().half[patch as usize]);
     }
 }

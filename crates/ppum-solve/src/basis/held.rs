@@ -15,7 +15,7 @@
 
 use super::tie::VectorField;
 use super::transform::{CUT_OFF, Transform};
-use crate::space::Space;
+use crate::space::TrialSpace;
 use crate::terms::HeldLine;
 use faer::Mat;
 use ppum::dataset::monomials;
@@ -38,7 +38,7 @@ pub(super) struct HeldFields {
 /// # Errors
 /// Functions that are not finite.
 pub(super) fn held_fields(
-    space: &Space<'_>,
+    space: &TrialSpace<'_>,
     patch: usize,
     (weighted, squares): (&Mat<f64>, &[f64]),
     series: Vec<VectorField>,
@@ -61,7 +61,7 @@ pub(super) fn held_fields(
 }
 
 /// The fields of each block of polynomials or jumps, which come before all series.
-fn plain_fields(space: &Space<'_>, patch: usize) -> Vec<Vec<VectorField>> {
+fn plain_fields(space: &TrialSpace<'_>, patch: usize) -> Vec<Vec<VectorField>> {
     let (data, mut first, n) = (space.data(), 0, space.evaluated(patch));
     let parts = directions(space.held_lines(patch));
     let is_plain = |block: &usize| {
@@ -112,7 +112,7 @@ fn directions(lines: &[HeldLine]) -> [(Vec2, Vec<HeldLine>); 2] {
 
 /// A basis of the polynomials up to a degree that vanish on lines, in monomials of this degree.
 fn polynomials(
-    space: &Space<'_>,
+    space: &TrialSpace<'_>,
     patch: usize,
     lines: &[HeldLine],
     degree: usize,

@@ -6,7 +6,7 @@ use super::held::{HeldFields, held_fields};
 use super::tie::{self, tie};
 use super::transform::{CUT_OFF, FunctionCombinations, Transform};
 use super::williams::{fields, parts};
-use crate::space::{KnownFunction, Space};
+use crate::space::{KnownFunction, TrialSpace};
 use faer::{Mat, MatRef};
 use ppum_linear::{EigenError, SymmetricEigen, inverse_root_diagonal, times};
 use std::borrow::Cow;
@@ -16,13 +16,13 @@ use std::borrow::Cow;
 pub(super) struct LocalBasis {
     /// T, shape [kept, functions].
     pub(super) matrix: Mat<f64>,
-    /// What the unknowns are of the functions of all components, where these share any: [unknowns,
+    /// The unknowns in terms of the functions of all components, where these share any: [unknowns,
     /// components · kept].
     pub(super) tie: Option<Mat<f64>>,
-    /// What takes the functions of a field to the unknowns, where that is not the tie itself: its
-    /// product with the transposed tie is the unit matrix.
+    /// The matrix that takes the functions of a field to the unknowns, where that is not the tie
+    /// itself: its product with the transposed tie is the unit matrix.
     pub(super) inverse: Option<Mat<f64>>,
-    tied: Option<Tied>,
+    tied: Option<TiedUnknowns>,
     /// Number of unknowns that were cut off for each component, or for all where they are tied.
     dropped: usize,
     /// The least eigenvalue that was kept, see [`Transform::least`].
@@ -32,7 +32,7 @@ pub(super) struct LocalBasis {
 /// The unknowns of a patch where components share any: first those of functions that each component
 /// has for itself, component by component, then those of vector fields.
 #[derive(Clone, Debug)]
-struct Tied {
+struct TiedUnknowns {
     /// Number of functions that each component has for itself: the first ones. They are polynomials
     /// and jumps.
     scalar: usize,
@@ -42,8 +42,8 @@ struct Tied {
     fields: [Mat<f64>; 2],
 }
 
-impl Tied {
-    /// Of a tie whose first rows are those of `scalar` functions of each component.
+impl TiedUnknowns {
+    /// The unknowns of a tie whose first rows are those of `scalar` functions of each component.
     fn new(tie: &Mat<f64>, matrix: &Mat<f64>, scalar: usize, plain: usize) -> Self {
         let kept = matrix.nrows();
         let rows =
@@ -54,14 +54,14 @@ impl Tied {
 
 /// The unknowns of a patch as fields made of its plain functions.
 #[derive(Clone, Copy)]
-pub(crate) struct Fields<'a> {
+pub(crate) struct PatchFields<'a> {
     /// Functions that each component has for itself, of the first plain ones: [functions, plain].
     pub(crate) scalar: MatRef<'a, f64>,
     /// After those of all components, fields with two: each component [fields, plain].
     pub(crate) vector: Option<[MatRef<'a, f64>; 2]>,
 }
 
-impl Fields<'_> {
+impl PatchFields<'_> {
     /// Number of unknowns of a field of so many components.
     pub(crate) fn len(&self, components: usize) -> usize {
         components * self.scalar.nrows() + self.vectors()
@@ -84,7 +84,7 @@ impl LocalBasis {
     /// # Errors
     /// Functions that are not finite.
     pub(super) fn new(
-        space: &Space<'_>,
+        space: &TrialSpace<'_>,
         patch: usize,
         gram: &Gram,
         confined: &[FunctionCombinations],
@@ -113,7 +113,7 @@ impl LocalBasis {
         let dropped = wanted - tie.nrows();
         let is_seen = |j: &usize| (0..first).any(|k| rows[(k, *j)] != 0.0);
         let plain = (0..rows.ncols()).rfind(is_seen).map_or(0, |last| last + 1);
-        let tied = Tied::new(&tie, &transform.matrix, transform.first, plain);
+        let tied = TiedUnknowns::new(&tie, &transform.matrix, transform.first, plain);
         let matrix = transform.matrix;
         Ok(Self { matrix, tie: Some(tie), inverse: None, tied: Some(tied), dropped, least })
     }
@@ -134,17 +134,17 @@ impl LocalBasis {
             inverse: Some(Mat::from_fn(m, 2 * n, |k, j| {
                 weighted[j / n][(k, j % n)] * scale[j % n]
             })),
-            tied: Some(Tied { scalar: 0, plain: 0, fields }),
+            tied: Some(TiedUnknowns { scalar: 0, plain: 0, fields }),
             dropped: transform.dropped,
             least: transform.least,
         }
     }
 
-    /// What the unknowns are, or all functions in each component where `tied` is false.
-    pub(super) fn fields(&self, tied: bool) -> Fields<'_> {
+    /// Returns the unknowns, or all functions in each component where `tied` is false.
+    pub(super) fn fields(&self, tied: bool) -> PatchFields<'_> {
         match self.tied.as_ref().filter(|_| tied) {
-            None => Fields { scalar: self.matrix.as_ref(), vector: None },
-            Some(Tied { scalar, plain, fields }) => Fields {
+            None => PatchFields { scalar: self.matrix.as_ref(), vector: None },
+            Some(TiedUnknowns { scalar, plain, fields }) => PatchFields {
                 scalar: self.matrix.submatrix(0, 0, *scalar, *plain),
                 vector: Some(fields.each_ref().map(|part| part.as_ref())),
             },
@@ -178,7 +178,7 @@ impl LocalBasis {
             self.inverse = None;
         }
         self.matrix = root * &self.matrix;
-        self.tied = self.tie.as_ref().map(|tie| Tied::new(tie, &self.matrix, 0, 0));
+        self.tied = self.tie.as_ref().map(|tie| TiedUnknowns::new(tie, &self.matrix, 0, 0));
         Ok(())
     }
 
@@ -195,7 +195,7 @@ impl LocalBasis {
 }
 
 /// Functions whose coefficients are known: no combination of them has an unknown.
-fn known(space: &Space<'_>, patch: usize) -> Vec<FunctionCombinations> {
+fn known(space: &TrialSpace<'_>, patch: usize) -> Vec<FunctionCombinations> {
     let part = |known: &KnownFunction| (known.evaluated..known.evaluated + 1, Mat::zeros(0, 1));
     space.known(patch).iter().map(part).collect()
 }

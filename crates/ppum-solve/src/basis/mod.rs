@@ -15,25 +15,25 @@ mod tie;
 mod transform;
 mod williams;
 
-use crate::quadrature::{EdgeRule, Rule};
-use crate::space::Space;
-use crate::watched::{Halt, Stage, in_batches};
-use confined::{lonely, reductions};
+use crate::quadrature::{CellRule, EdgeRule};
+use crate::space::TrialSpace;
+use crate::watched::{Halt, WorkPhase, in_batches};
+use confined::{reductions, sole_support};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
 use gram::grams;
-pub(crate) use local::Fields;
 use local::LocalBasis;
+pub(crate) use local::PatchFields;
 use ppum::dataset::monomials;
 pub(crate) use shape::{ShapeEvaluator, Shapes};
 use std::collections::BTreeMap;
 use std::sync::Arc;
 use williams::stored;
 
-/// A penalty on values at a part of the border, β ∫ N Nᵀ: what Nitsche's method adds to a
+/// A penalty on values at a part of the boundary, β ∫ N Nᵀ: what Nitsche's method adds to a
 /// cell's system.
 pub struct Penalty {
-    /// Rules on the border of one cell where values are given.
+    /// Rules on the boundary of one cell where values are given.
     pub(crate) rules: Vec<EdgeRule>,
     /// β over λ + 2μ or the conductivity \[1/L\].
     pub(crate) weight: f64,
@@ -43,13 +43,13 @@ pub struct Penalty {
 #[derive(Debug)]
 pub struct StableBasis {
     patches: Vec<Arc<LocalBasis>>,
-    /// Of each patch that has the functions of all of its kind, that kind.
+    /// The kind of each patch that has the functions of all of its kind.
     kinds: Vec<Option<usize>>,
-    /// Of each patch, the number of functions kept.
+    /// The number of functions kept in each patch.
     pub(crate) sizes: Vec<usize>,
-    /// Of each patch, the first functions of the jumps around corners and junctions of cracks of
-    /// which nearly nothing lies where it is alone.
-    pub lonely: Vec<Vec<usize>>,
+    /// For each patch, the first functions of the jumps around corners and junctions of cracks
+    /// whose support lies almost entirely under other patches.
+    pub sole_support: Vec<Vec<usize>>,
 }
 
 impl StableBasis {
@@ -58,7 +58,7 @@ impl StableBasis {
     ///
     /// # Errors
     /// Functions that are not finite, with their place; cancelled.
-    pub fn new(space: &Space<'_>, stage: &Stage<'_>) -> Result<Self, Halt> {
+    pub fn new(space: &TrialSpace<'_>, stage: &WorkPhase<'_>) -> Result<Self, Halt> {
         let grams = grams(space, stage)?;
         let reductions = reductions(space, &grams, stage)?;
         let (alike, none) = (space.alike(), Vec::new());
@@ -94,8 +94,8 @@ impl StableBasis {
                 });
             },
         )?;
-        let lonely = (0..patches.len()).map(|i| lonely(space, i, &grams[i])).collect();
-        Ok(Self { sizes: sizes(&patches), patches, kinds, lonely })
+        let sole_support = (0..patches.len()).map(|i| sole_support(space, i, &grams[i])).collect();
+        Ok(Self { sizes: sizes(&patches), patches, kinds, sole_support })
     }
 
     /// The basis of some patches of kinds alone, as of a space that has no others.
@@ -103,8 +103,8 @@ impl StableBasis {
         let patches: Vec<_> =
             patches.iter().map(|&p| Arc::clone(&self.patches[p as usize])).collect();
         let n = patches.len();
-        let (kinds, lonely) = (vec![None; n], vec![Vec::new(); n]);
-        Self { sizes: sizes(&patches), patches, kinds, lonely }
+        let (kinds, sole_support) = (vec![None; n], vec![Vec::new(); n]);
+        Self { sizes: sizes(&patches), patches, kinds, sole_support }
     }
 
     /// The kind of a patch, if it has the functions that all of its kind have.
@@ -112,9 +112,9 @@ impl StableBasis {
         self.kinds[patch as usize]
     }
 
-    /// What the unknowns of a patch are: vector fields, or all functions in each component where
-    /// `tied` is false.
-    pub(crate) fn fields(&self, patch: u32, tied: bool) -> Fields<'_> {
+    /// Returns the unknowns of a patch as fields: vector fields, or all functions in each component
+    /// where `tied` is false.
+    pub(crate) fn fields(&self, patch: u32, tied: bool) -> PatchFields<'_> {
         self.patches[patch as usize].fields(tied)
     }
 
@@ -124,7 +124,7 @@ impl StableBasis {
     ///
     /// # Errors
     /// Functions that are not finite, with their place; cancelled.
-    pub fn damp(&mut self, space: &Space<'_>, penalties: &[Penalty]) -> Result<(), Halt> {
+    pub fn damp(&mut self, space: &TrialSpace<'_>, penalties: &[Penalty]) -> Result<(), Halt> {
         for (patch, gram) in self.border_grams(space, penalties) {
             self.kinds[patch as usize] = None;
             Arc::make_mut(&mut self.patches[patch as usize])
@@ -134,8 +134,12 @@ impl StableBasis {
         Ok(())
     }
 
-    /// I + Σ w ∫ N Nᵀ of the patches that rules on the border see.
-    fn border_grams(&self, space: &Space<'_>, penalties: &[Penalty]) -> BTreeMap<u32, Mat<f64>> {
+    /// I + Σ w ∫ N Nᵀ of the patches that rules on the boundary see.
+    fn border_grams(
+        &self,
+        space: &TrialSpace<'_>,
+        penalties: &[Penalty],
+    ) -> BTreeMap<u32, Mat<f64>> {
         let (mut evaluator, mut shapes) = (BasisEvaluator::new(space, self), Shapes::default());
         let mut grams = BTreeMap::new();
         for (rule, weight) in
@@ -155,18 +159,18 @@ impl StableBasis {
         grams
     }
 
-    /// Of each patch, the number of unknowns.
+    /// Returns the number of unknowns of each patch.
     pub fn unknowns(&self, components: usize) -> impl Iterator<Item = usize> + '_ {
         self.patches.iter().map(move |patch| patch.unknowns(components))
     }
 
-    /// Of each patch, the number of unknowns cut off.
+    /// Returns the number of unknowns cut off in each patch.
     pub fn cut_off(&self, components: usize) -> impl Iterator<Item = usize> + '_ {
         self.patches.iter().map(move |patch| patch.cut_off(components))
     }
 
-    /// Of each patch, the least eigenvalue of its Gram matrix that was kept,
-    /// see [`LocalBasis::least`].
+    /// Returns the least eigenvalue of each patch's Gram matrix that was kept, see
+    /// `LocalBasis::least`.
     pub fn least(&self) -> Vec<f64> {
         self.patches.iter().map(|patch| patch.least).collect()
     }
@@ -183,13 +187,14 @@ impl StableBasis {
         self.patches[patch as usize].matrix.as_ref()
     }
 
-    /// Of a patch whose components share unknowns, what these are of each function in each
-    /// component: [unknowns, components · functions], component by component.
+    /// Returns the unknowns of a patch whose components share some, in terms of each function in
+    /// each component: [unknowns, components · functions], component by component.
     pub(crate) fn tie(&self, patch: u32) -> Option<&Mat<f64>> {
         self.patches[patch as usize].tie.as_ref()
     }
 
-    /// What takes the functions of a field to the unknowns of a patch with a tie.
+    /// Returns the matrix that takes the functions of a field to the unknowns of a patch with a
+    /// tie.
     pub(crate) fn inverse_tie(&self, patch: u32) -> Option<&Mat<f64>> {
         self.patches[patch as usize].inverse.as_ref().or(self.tie(patch))
     }
@@ -214,8 +219,8 @@ impl StableBasis {
         }
     }
 
-    /// Of each patch, the coefficients of the functions that the solver evaluates from those of the
-    /// basis: a row for each component of each of some solutions.
+    /// Returns the coefficients of the functions that the solver evaluates from those of the basis,
+    /// for each patch: a row for each component of each of some solutions.
     pub fn local_coefficients(&self, solutions: &[Vec<f64>], components: usize) -> Vec<Mat<f64>> {
         let mut first = 0;
         let of_patch = |basis: &Arc<LocalBasis>| {
@@ -229,7 +234,7 @@ impl StableBasis {
     }
 
     /// Plain coefficients from those of the basis, patch by patch and component by component.
-    pub fn plain(&self, space: &Space<'_>, solution: &[f64], components: usize) -> Vec<f64> {
+    pub fn plain(&self, space: &TrialSpace<'_>, solution: &[f64], components: usize) -> Vec<f64> {
         let mut rest = solution;
         let mut out = Vec::new();
         for (patch, basis) in self.patches.iter().enumerate() {
@@ -251,7 +256,7 @@ fn sizes(patches: &[Arc<LocalBasis>]) -> Vec<usize> {
 
 /// c (f − σ) = c f − σ c: takes the constant parts of a patch's functions to its polynomials. Jumps
 /// have the degree of the polynomials, which come first.
-fn undo_shifts(space: &Space<'_>, patch: usize, coefficients: &mut [f64]) {
+fn undo_shifts(space: &TrialSpace<'_>, patch: usize, coefficients: &mut [f64]) {
     let mut first = 0;
     for block in space.data().blocks(patch) {
         let size = monomials(space.data().block_degree[block] as usize);
@@ -274,12 +279,12 @@ pub(crate) struct BasisEvaluator<'s> {
 }
 
 impl<'s> BasisEvaluator<'s> {
-    pub(crate) fn new(space: &'s Space<'s>, basis: &'s StableBasis) -> Self {
+    pub(crate) fn new(space: &'s TrialSpace<'s>, basis: &'s StableBasis) -> Self {
         Self { basis, evaluator: ShapeEvaluator::of_series(space), plain: Shapes::default() }
     }
 
     /// The plain functions at the points of a rule.
-    pub(crate) fn see(&mut self, rule: &Rule) -> &Shapes {
+    pub(crate) fn see(&mut self, rule: &CellRule) -> &Shapes {
         self.evaluator.evaluate(rule.anchor, &rule.offsets, &rule.patches, &mut self.plain);
         &self.plain
     }

@@ -1,18 +1,18 @@
 //! Shape functions φ_i ψ at quadrature points.
 //!
-//! Sides of cracks enter shifted, see [`Space::shifts`].
+//! Sides of cracks enter shifted, see [`TrialSpace::shifts`].
 
-use super::williams::TipFrame;
-use crate::quadrature::{EdgeRule, Face};
-use crate::space::{ANGULAR, Origin, SeriesFunctions, Space};
+use super::williams::PatchTipFrame;
+use crate::quadrature::{CrackFace, EdgeRule};
+use crate::space::{ANGULAR, Origin, SeriesFunctions, TrialSpace};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
 use ppum::crack::Side;
 use ppum::dataset::{MAX_DEGREE, monomials as monomials_of};
-use ppum::formula::Scratch;
+use ppum::formula::BlockScratch;
 use ppum::function::{GROUP, LocalFunctions, Slot};
 use ppum::jet::Jet;
-use ppum::real::{Job, Real, Scalar};
+use ppum::real::{LaneJob, LaneNumber, Real};
 use ppum::vec2::Vec2;
 use std::ops::Range;
 
@@ -154,27 +154,27 @@ impl Shapes {
 /// Evaluates shape functions; keeps what belongs to the last anchor.
 #[derive(Debug)]
 pub(crate) struct ShapeEvaluator<'s> {
-    space: &'s Space<'s>,
-    seen: Option<(Seat, LocalFunctions<'s>)>,
-    scratch: Scratch<f64>,
+    space: &'s TrialSpace<'s>,
+    seen: Option<(EvaluationOrigin, LocalFunctions<'s>)>,
+    scratch: BlockScratch<f64>,
     /// True if series of tips are evaluated as such, not as the functions that they are stored as.
     series: bool,
 }
 
-/// The seat that functions are seen from: the anchor, and the face that points lie on.
-type Seat = (Vec2, Option<Face>);
+/// The origin from which functions are evaluated: the anchor, and the face that points lie on.
+type EvaluationOrigin = (Vec2, Option<CrackFace>);
 
 impl<'s> ShapeEvaluator<'s> {
     /// An evaluator for the functions of a space as they are stored.
     #[must_use]
-    pub(crate) fn new(space: &'s Space<'s>) -> Self {
-        Self { space, seen: None, scratch: Scratch::default(), series: false }
+    pub(crate) fn new(space: &'s TrialSpace<'s>) -> Self {
+        Self { space, seen: None, scratch: BlockScratch::default(), series: false }
     }
 
     /// An evaluator for the functions that the solver takes: of the series of a tip those of their
     /// terms, 4N in place of 2N(N + 1).
     #[must_use]
-    pub(crate) fn of_series(space: &'s Space<'s>) -> Self {
+    pub(crate) fn of_series(space: &'s TrialSpace<'s>) -> Self {
         Self { series: true, ..Self::new(space) }
     }
 
@@ -194,7 +194,13 @@ impl<'s> ShapeEvaluator<'s> {
         self.fill((rule.anchor, rule.face), &rule.offsets, &rule.patches, out);
     }
 
-    fn fill(&mut self, seat: Seat, offsets: &[Vec2], patches: &[u32], out: &mut Shapes) {
+    fn fill(
+        &mut self,
+        seat: EvaluationOrigin,
+        offsets: &[Vec2],
+        patches: &[u32],
+        out: &mut Shapes,
+    ) {
         let (space, (anchor, face)) = (self.space, seat);
         if self.seen.as_ref().is_none_or(|(known, _)| *known != seat) {
             self.seen = Some((seat, functions(space, seat)));
@@ -207,7 +213,7 @@ impl<'s> ShapeEvaluator<'s> {
         out.resize(patches.iter().map(size).sum(), offsets.len());
         let groups = groups_of(space, patches);
         let blocks = self.blocks(anchor, patches, &groups);
-        f64::dispatch(Filling {
+        f64::dispatch(PointFill {
             space,
             functions,
             anchor,
@@ -222,7 +228,10 @@ impl<'s> ShapeEvaluator<'s> {
     }
 }
 
-fn functions<'s>(space: &'s Space<'s>, (anchor, face): Seat) -> LocalFunctions<'s> {
+fn functions<'s>(
+    space: &'s TrialSpace<'s>,
+    (anchor, face): EvaluationOrigin,
+) -> LocalFunctions<'s> {
     let cracks = &space.step().cracks;
     match face {
         Some(face) => space.functions.on(cracks, face.segment, anchor),
@@ -231,7 +240,7 @@ fn functions<'s>(space: &'s Space<'s>, (anchor, face): Seat) -> LocalFunctions<'
 }
 
 /// The function groups that the blocks of some patches use, ascending.
-fn groups_of(space: &Space<'_>, patches: &[u32]) -> Vec<usize> {
+fn groups_of(space: &TrialSpace<'_>, patches: &[u32]) -> Vec<usize> {
     let blocks = patches.iter().flat_map(|&p| space.data().blocks(p as usize));
     let mut groups: Vec<_> = blocks
         .filter_map(|b| match space.functions.of(space.data().block_function[b]) {
@@ -253,7 +262,7 @@ struct FunctionBatch {
     shift: f64,
     /// Its function, and of a series those after it; in place of the function 1 there is none.
     functions: [Option<GroupEntry>; GROUP],
-    series: Option<Terms>,
+    series: Option<TipTerms>,
 }
 
 /// A function: the place of its group among those that are evaluated, and its entry there.
@@ -261,9 +270,9 @@ type GroupEntry = [usize; 2];
 
 /// The terms of a series of a tip.
 #[derive(Clone, Copy)]
-struct Terms {
+struct TipTerms {
     count: usize,
-    frame: TipFrame,
+    frame: PatchTipFrame,
     /// From the tip to the anchor.
     from_tip: Vec2,
 }
@@ -304,10 +313,10 @@ impl ShapeEvaluator<'_> {
         anchor: Vec2,
         patch: u32,
         series: &SeriesFunctions,
-    ) -> Option<(Range<usize>, Terms)> {
+    ) -> Option<(Range<usize>, TipTerms)> {
         let Origin::Tip(tip, _) = series.origin else { return None };
-        let frame = TipFrame::new(self.space.step(), patch as usize, tip);
-        let terms = Terms { count: series.terms(), frame, from_tip: anchor - frame.at };
+        let frame = PatchTipFrame::new(self.space.step(), patch as usize, tip);
+        let terms = TipTerms { count: series.terms(), frame, from_tip: anchor - frame.at };
         self.series.then(|| (series.blocks.clone(), terms))
     }
 
@@ -322,9 +331,9 @@ impl ShapeEvaluator<'_> {
     }
 }
 
-/// Work on all points of a seat, a vector of points after the other.
-struct Filling<'a, 's> {
-    space: &'a Space<'s>,
+/// Work on all points of an evaluation origin, one vector of points after the other.
+struct PointFill<'a, 's> {
+    space: &'a TrialSpace<'s>,
     functions: &'a LocalFunctions<'s>,
     anchor: Vec2,
     side: Side,
@@ -332,11 +341,11 @@ struct Filling<'a, 's> {
     patches: &'a [u32],
     groups: &'a [usize],
     blocks: &'a [FunctionBatch],
-    scratch: &'a mut Scratch<f64>,
+    scratch: &'a mut BlockScratch<f64>,
     out: &'a mut Shapes,
 }
 
-impl Job<f64> for Filling<'_, '_> {
+impl LaneJob<f64> for PointFill<'_, '_> {
     type Output = ();
 
     #[inline(always)]
@@ -370,7 +379,7 @@ fn in_vectors<R: Real<Scalar = f64>>(points: &[Vec2], zero: R) -> Vec<[R; 2]> {
     vectors
 }
 
-impl Filling<'_, '_> {
+impl PointFill<'_, '_> {
     /// The functions of all groups: those of the first group at all points, then those of the next.
     #[inline(always)]
     fn jets<R: Real<Scalar = f64>>(&mut self, points: &[[R; 2]], zero: R) -> Vec<[Jet<R>; GROUP]> {
@@ -389,7 +398,7 @@ impl Filling<'_, '_> {
     /// is alone.
     #[inline(always)]
     fn partition<R: Real<Scalar = f64>>(&self, points: &[[R; 2]], zero: R) -> Vec<Jet<R>> {
-        let (n, one) = (points.len(), zero.lit(1.0));
+        let (n, one) = (points.len(), zero.broadcast(1.0));
         let mut all = vec![Jet::constant(one); self.patches.len() * n];
         if self.patches.len() == 1 {
             return all;
@@ -422,7 +431,10 @@ impl Filling<'_, '_> {
     fn local<R: Real<Scalar = f64>>(&self, point: [R; 2], origin: Vec2, inverse: Vec2) -> [R; 2] {
         let d = self.anchor - origin;
         let [x, y] = point;
-        [(x.lit(d.x) + x) * x.lit(inverse.x), (y.lit(d.y) + y) * y.lit(inverse.y)]
+        [
+            (x.broadcast(d.x) + x) * x.broadcast(inverse.x),
+            (y.broadcast(d.y) + y) * y.broadcast(inverse.y),
+        ]
     }
 
     /// Writes a block's function times monomials, from a function on; returns their number.
@@ -443,7 +455,7 @@ impl Filling<'_, '_> {
                 None => phi[k],
                 Some([group, entry]) => {
                     let mut function = jets[group * n + k][entry];
-                    function.v = function.v - phi[k].v.lit(block.shift);
+                    function.v = function.v - phi[k].v.broadcast(block.shift);
                     phi[k].times::<1>(function)
                 }
             };
@@ -462,7 +474,7 @@ impl Filling<'_, '_> {
     fn terms<R: Real<Scalar = f64>>(
         &mut self,
         block: &FunctionBatch,
-        terms: &Terms,
+        terms: &TipTerms,
         first: usize,
         points: &[[R; 2]],
         phi: &[Jet<R>],
@@ -478,7 +490,7 @@ impl Filling<'_, '_> {
                 }
                 j += 1;
             }
-            let two = phi[k].v.lit(2.0);
+            let two = phi[k].v.broadcast(2.0);
             f[2] = f[0].minus::<1>(f[2].scaled::<1>(two));
             f[3] = f[1].minus::<1>(f[3].scaled::<1>(two));
             let z = terms.z(points[k]);
@@ -498,16 +510,16 @@ impl Filling<'_, '_> {
     }
 }
 
-impl Terms {
+impl TipTerms {
     /// z = x + iy in the frame of the tip, in its unit.
     #[inline(always)]
     fn z<R: Real<Scalar = f64>>(&self, [x, y]: [R; 2]) -> [Jet<R>; 2] {
-        let TipFrame { axis, unit, .. } = self.frame;
-        let (c, s) = (x.lit(axis.x * unit), x.lit(axis.y * unit));
-        let (x, y) = (x + x.lit(self.from_tip.x), y + y.lit(self.from_tip.y));
-        let zero = Jet::constant(x.lit(0.0));
+        let PatchTipFrame { axis, unit, .. } = self.frame;
+        let (c, s) = (x.broadcast(axis.x * unit), x.broadcast(axis.y * unit));
+        let (x, y) = (x + x.broadcast(self.from_tip.x), y + y.broadcast(self.from_tip.y));
+        let zero = Jet::constant(x.broadcast(0.0));
         let re = Jet { v: c * x + s * y, x: c, y: s, ..zero };
-        [re, Jet { v: c * y - s * x, x: x.lit(0.0) - s, y: c, ..zero }]
+        [re, Jet { v: c * y - s * x, x: x.broadcast(0.0) - s, y: c, ..zero }]
     }
 }
 
@@ -534,13 +546,13 @@ struct Monomials<R> {
 impl<R: Real<Scalar = f64>> Monomials<R> {
     #[inline(always)]
     fn new([xi, eta]: [R; 2], inverse: Vec2, degree: usize) -> Self {
-        let (zero, one) = (xi.lit(0.0), xi.lit(1.0));
+        let (zero, one) = (xi.broadcast(0.0), xi.broadcast(1.0));
         let (mut x, mut y) = ([one; MAX_DEGREE + 1], [one; MAX_DEGREE + 1]);
         let (mut dx, mut dy) = ([zero; MAX_DEGREE + 1], [zero; MAX_DEGREE + 1]);
         let mut k = 1;
         while k <= degree {
-            dx[k] = x[k - 1] * xi.lit(k as f64 * inverse.x);
-            dy[k] = y[k - 1] * xi.lit(k as f64 * inverse.y);
+            dx[k] = x[k - 1] * xi.broadcast(k as f64 * inverse.x);
+            dy[k] = y[k - 1] * xi.broadcast(k as f64 * inverse.y);
             (x[k], y[k]) = (x[k - 1] * xi, y[k - 1] * eta);
             k += 1;
         }
@@ -552,17 +564,21 @@ impl<R: Real<Scalar = f64>> Monomials<R> {
 mod tests {
     use super::*;
     use ppum::field::Field;
-    use ppum_testkit::fields::{Case, coverings, functions, junctions};
+    use ppum_testkit::fields::{DrawingCase, coverings, functions, junctions};
     use ppum_testkit::random::Random;
 
     /// Points near each other in a dataset's domain, with the patches that cover any of them.
-    fn points(random: &mut Random, space: &Space<'_>, n: usize) -> (Vec2, Vec<Vec2>, Vec<u32>) {
+    fn points(
+        random: &mut Random,
+        space: &TrialSpace<'_>,
+        n: usize,
+    ) -> (Vec2, Vec<Vec2>, Vec<u32>) {
         let partition = space.partition();
         let cell = random.below(partition.len());
         let rect = partition.cell[cell];
         let offset = |p: Vec2| p - rect.center();
         let offsets = (0..n).map(|_| offset(random.point(&rect))).collect();
-        (rect.center(), offsets, space.coverers[cell].clone())
+        (rect.center(), offsets, space.covering_patches[cell].clone())
     }
 
     /// Combined with coefficients, all functions at all points are what the field is there, point
@@ -571,9 +587,9 @@ mod tests {
     fn shapes_are_those_of_the_field() {
         let mut random = Random(5);
         let cases = coverings().into_iter().chain(functions()).chain(junctions());
-        for Case { name, dataset, .. } in cases {
+        for DrawingCase { name, dataset, .. } in cases {
             let step = &dataset.steps[0];
-            let space = Space::new(step, &dataset.domain, &dataset.equation, &dataset.tables)
+            let space = TrialSpace::new(step, &dataset.domain, &dataset.equation, &dataset.tables)
                 .expect("the corpus compiles");
             let field = Field::new(&dataset, 0).expect("the corpus is in order");
             let (mut evaluator, mut shapes) = (ShapeEvaluator::new(&space), Shapes::default());
@@ -608,7 +624,7 @@ mod tests {
 
     /// A component and its slopes at a point, and the sums of the sizes of all terms.
     fn combined(
-        space: &Space<'_>,
+        space: &TrialSpace<'_>,
         shapes: &Shapes,
         patches: &[u32],
         component: usize,
@@ -629,7 +645,7 @@ mod tests {
     }
     /// The coefficients of a patch's functions as they are evaluated, from those of the dataset:
     /// Σ c f = Σ c (f − σ) + σ c.
-    fn shifted(space: &Space<'_>, patch: usize, plain: &[f64]) -> Vec<f64> {
+    fn shifted(space: &TrialSpace<'_>, patch: usize, plain: &[f64]) -> Vec<f64> {
         let (mut coefficients, mut first) = (plain.to_vec(), 0);
         for block in space.data().blocks(patch) {
             let size = monomials_of(space.data().block_degree[block].into());

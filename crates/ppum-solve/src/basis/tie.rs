@@ -10,8 +10,8 @@
 //! ```
 //!
 //! The rows of C are orthonormal. The unknowns are those of C N, fields that are formed at the
-//! quadrature points, before anything is integrated. Where borders are held the system of a cell is
-//! assembled in N with all components free, and what goes into the matrix is C K Cᵀ: rounding
+//! quadrature points, before anything is integrated. Where boundaries are held the system of a cell
+//! is assembled in N with all components free, and what goes into the matrix is C K Cᵀ: rounding
 //! errors are not amplified.
 
 use super::transform::{CUT_OFF, Transform};

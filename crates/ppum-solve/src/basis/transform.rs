@@ -26,7 +26,7 @@
 //! weight: a jump there has a tiny norm, and made to have norm one it gets coefficients that hide
 //! the field elsewhere, where they have to cancel. n² = ∫ h⁻² ψ² dx, without φ, tells such a
 //! function from one that is merely small: no function is scaled beyond κ/n, with κ = [`REACH`].
-//! What φ reaches with less than √ε/κ is cut off, and coefficients are at most κ/(n √ε).
+//! Functions that φ weights with less than √ε/κ are cut off, and coefficients are at most κ/(n √ε).
 //!
 //! The construction follows Schweitzer, "Stable enrichment and local preconditioning in the
 //! particle-partition of unity method", Numer. Math. 118 (2011), with another inner product: one

@@ -10,11 +10,11 @@
 //! in the frame of the tip or of the wedge's bisector, from Kolosov's potentials φ = z^λ, ψ = b z^λ
 //! and φ = i z^λ, ψ = −i b z^λ. At a tip λ = n + ½ with b = 1 − λ and 1 + λ (Williams 1957), of a
 //! wedge they are [`WedgeTerm`]s (Williams 1952). One unknown each: they *tie* the components of
-//! the functions c, s, C and S. Of Poisson's equation s alone leaves the faces of a crack free.
+//! the functions c, s, C and S. For Poisson's equation, s alone leaves the faces of a crack free.
 
 use super::transform::FunctionCombinations;
 use crate::corner::WedgeTerm;
-use crate::space::{ANGULAR, Origin, SeriesFunctions, Space};
+use crate::space::{ANGULAR, Origin, SeriesFunctions, TrialSpace};
 use faer::Mat;
 use ppum::crack::TipId;
 use ppum::dataset::{BoxPartition, Elasticity, Equation, Step, monomials};
@@ -25,10 +25,10 @@ use ppum_problem::Symmetry;
 use std::ops::Range;
 
 /// A polynomial in ξ and η with values in the complex plane, in the order of the dataset.
-type Polynomial = Vec<[f64; 2]>;
+type ComplexPolynomial = Vec<[f64; 2]>;
 
 /// The combinations that the functions of a patch's series are taken in.
-pub(super) fn parts(space: &Space<'_>, patch: usize) -> Vec<FunctionCombinations> {
+pub(super) fn parts(space: &TrialSpace<'_>, patch: usize) -> Vec<FunctionCombinations> {
     let is_scalar = space.equation().components() == 1;
     let part = |(functions, series): (Range<usize>, &SeriesFunctions)| {
         let n = functions.len();
@@ -46,7 +46,7 @@ pub(super) fn parts(space: &Space<'_>, patch: usize) -> Vec<FunctionCombinations
 
 /// Coefficients of the functions of a patch as they are stored from those of the functions that the
 /// solver evaluates.
-pub(super) fn stored(space: &Space<'_>, patch: usize, mut evaluated: &[f64]) -> Vec<f64> {
+pub(super) fn stored(space: &TrialSpace<'_>, patch: usize, mut evaluated: &[f64]) -> Vec<f64> {
     let mut out = Vec::with_capacity(space.sizes[patch]);
     for series in space.series(patch) {
         let Origin::Tip(tip, _) = series.origin else { continue };
@@ -62,7 +62,7 @@ pub(super) fn stored(space: &Space<'_>, patch: usize, mut evaluated: &[f64]) -> 
 
 /// The fields of the series of a patch as combinations of the functions that the solver evaluates,
 /// one for each component; none without series, or with one component.
-pub(super) fn fields(space: &Space<'_>, patch: usize) -> Option<Vec<[Vec<f64>; 2]>> {
+pub(super) fn fields(space: &TrialSpace<'_>, patch: usize) -> Option<Vec<[Vec<f64>; 2]>> {
     let Equation::Elasticity(body) = space.equation() else { return None };
     if space.series(patch).is_empty() {
         return None;
@@ -74,7 +74,7 @@ pub(super) fn fields(space: &Space<'_>, patch: usize) -> Option<Vec<[Vec<f64>; 2
             Origin::Corner { at, bisector, term } => vec![of_corner(at, bisector, &term, body)],
         };
         let modes = fields.len() * ANGULAR / functions.len();
-        let place = move |(k, field): (usize, Field)| {
+        let place = move |(k, field): (usize, TermFactors)| {
             field.map(|part| placed(&part, functions.start + ANGULAR * (k / modes), n))
         };
         fields.into_iter().enumerate().map(place)
@@ -83,7 +83,7 @@ pub(super) fn fields(space: &Space<'_>, patch: usize) -> Option<Vec<[Vec<f64>; 2
 }
 
 /// Factors of c, s, C and S of a term in the two components of a field.
-type Field = [[f64; ANGULAR]; 2];
+type TermFactors = [[f64; ANGULAR]; 2];
 
 /// The fields of a tip, of each term for opening and for sliding, or of one symmetry alone.
 fn of_tip(
@@ -91,7 +91,7 @@ fn of_tip(
     (tip, only): (TipId, Option<Symmetry>),
     series: &SeriesFunctions,
     body: &Elasticity,
-) -> Vec<Field> {
+) -> Vec<TermFactors> {
     let crack = &step.cracks[tip.crack as usize];
     let axis = crack.growth_direction(tip.end);
     let kappa = body.at(crack.end_point(tip.end)).kolosov();
@@ -106,12 +106,12 @@ fn of_tip(
 }
 
 /// The field of a corner.
-fn of_corner(at: Vec2, bisector: f64, term: &WedgeTerm, body: &Elasticity) -> Field {
+fn of_corner(at: Vec2, bisector: f64, term: &WedgeTerm, body: &Elasticity) -> TermFactors {
     world(&mode(body.at(at).kolosov(), term), vec2(bisector.cos(), bisector.sin()))
 }
 
 /// A term in the frame of the tip or corner.
-fn mode(kappa: f64, term: &WedgeTerm) -> Field {
+fn mode(kappa: f64, term: &WedgeTerm) -> TermFactors {
     let WedgeTerm { exponent: l, factor: b, symmetry } = *term;
     match symmetry {
         Symmetry::Symmetric => [[kappa - b, 0.0, -l, 0.0], [0.0, kappa + b, 0.0, l]],
@@ -120,7 +120,7 @@ fn mode(kappa: f64, term: &WedgeTerm) -> Field {
 }
 
 /// A mode in the world's frame.
-fn world([along, across]: &Field, axis: Vec2) -> Field {
+fn world([along, across]: &TermFactors, axis: Vec2) -> TermFactors {
     let sum = |a: f64, b: f64| std::array::from_fn(|j| a * along[j] + b * across[j]);
     [sum(axis.x, -axis.y), sum(axis.y, axis.x)]
 }
@@ -159,7 +159,7 @@ fn angular(step: &Step, patch: usize, tip: TipId, series: &SeriesFunctions) -> M
 
 /// The frame that a patch sees a tip in.
 #[derive(Clone, Copy)]
-pub(super) struct TipFrame {
+pub(super) struct PatchTipFrame {
     pub(super) at: Vec2,
     /// Direction of growth.
     pub(super) axis: Vec2,
@@ -167,7 +167,7 @@ pub(super) struct TipFrame {
     pub(super) unit: f64,
 }
 
-impl TipFrame {
+impl PatchTipFrame {
     pub(super) fn new(step: &Step, patch: usize, tip: TipId) -> Self {
         let crack = &step.cracks[tip.crack as usize];
         let at = crack.end_point(tip.end);
@@ -178,21 +178,30 @@ impl TipFrame {
 }
 
 /// zⁿ for n up to N − 1, z being in the tip's frame and over the farthest distance in the patch.
-fn powers(step: &Step, patch: usize, tip: TipId, series: &SeriesFunctions) -> Vec<Polynomial> {
+fn powers(
+    step: &Step,
+    patch: usize,
+    tip: TipId,
+    series: &SeriesFunctions,
+) -> Vec<ComplexPolynomial> {
     let (origin, scale) =
         (step.partition.boxes().origin[patch], step.partition.boxes().scale[patch]);
-    let TipFrame { at, axis, unit } = TipFrame::new(step, patch, tip);
+    let PatchTipFrame { at, axis, unit } = PatchTipFrame::new(step, patch, tip);
     let from_tip = origin - at;
     let turned = |v: Vec2| [axis.dot(v) * unit, axis.cross(v) * unit];
     let linear = [from_tip, Vec2 { x: scale.x, y: 0.0 }, Vec2 { x: 0.0, y: scale.y }].map(turned);
     let mut one = vec![[0.0; 2]; monomials(series.degree)];
     one[0] = [1.0, 0.0];
-    let next = |last: &Polynomial| Some(product(last, &linear, series.degree));
+    let next = |last: &ComplexPolynomial| Some(product(last, &linear, series.degree));
     std::iter::successors(Some(one), next).take(series.terms()).collect()
 }
 
 /// A polynomial times the linear one c₀ + c₁ ξ + c₂ η, up to a degree.
-fn product(polynomial: &Polynomial, linear: &[[f64; 2]; 3], degree: usize) -> Polynomial {
+fn product(
+    polynomial: &ComplexPolynomial,
+    linear: &[[f64; 2]; 3],
+    degree: usize,
+) -> ComplexPolynomial {
     let mut product = vec![[0.0; 2]; polynomial.len()];
     for ((a, b), [re, im]) in exponents(degree).zip(polynomial) {
         for ((da, db), c) in [(0, 0), (1, 0), (0, 1)].into_iter().zip(linear) {

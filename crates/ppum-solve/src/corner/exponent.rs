@@ -11,9 +11,9 @@
 //! Two conditions on each of the two rays make a determinant of order four, an entire function of λ
 //! (real and imaginary parts of A and B are its unknowns); its zeros are the exponents (Williams
 //! 1952). The smallest is found by counting zeros in rectangles with the argument principle, so
-//! that complex ones are not missed. Of free sides it is the first zero of sin λω + λ sin ω, which
-//! is real and changes the sign. Laplace: λ = π/ω with the same condition on both rays,
-//! π/(2ω) otherwise.
+//! that complex ones are not missed. For free sides it is the first zero of sin λω + λ sin ω, which
+//! is real and changes the sign. Laplace: λ = π/ω with the same condition on both rays, π/(2ω)
+//! otherwise.
 
 use super::sectors::Sector;
 use faer::c64;

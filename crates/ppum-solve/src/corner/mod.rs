@@ -1,4 +1,4 @@
-//! Singular points that are no tips: where the border of the plate turns inwards or its
+//! Singular points that are no tips: where the boundary of the body turns inwards or its
 //! conditions change.
 //!
 //! Around such a point the solution is a sum of r^λ times functions of the angle, with exponents λ
@@ -12,7 +12,7 @@ mod exponent;
 mod sectors;
 mod wedge;
 
-use crate::quadrature::{sign_changes, tame};
+use crate::quadrature::{clamp_non_finite, sign_changes};
 use crate::smoothness::levels_of_data;
 use exponent::{Constants, smallest};
 use ppum::border::touch;
@@ -21,8 +21,8 @@ use ppum::domain::Hole;
 use ppum::formula::Formula;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::{rim_crossings, sure_side};
-use ppum_problem::{BorderPart, BoundaryCondition, Problem};
-use sectors::{LOOK, Sector, Surroundings};
+use ppum_problem::{BoundaryCondition, BoundaryPart, Problem};
+use sectors::{CornerSurroundings, LOOK, Sector};
 use std::f64::consts::TAU;
 pub(crate) use wedge::WedgeTerm;
 
@@ -41,16 +41,16 @@ const MOST: usize = 64;
 
 /// A singular point.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Corner {
+pub struct SingularCorner {
     /// Its place.
     pub at: Vec2,
-    /// The smallest Re λ > 0 of u ~ r^λ there; below one, but for the ends of loads; zero where
+    /// The smallest Re λ > 0 of u ~ r^λ there; below one, except for the ends of loads; zero where
     /// values jump.
     pub exponent: f64,
-    /// Distance to what is next: another corner of the border, a tip, a rim, a crack.
+    /// Distance to the nearest other feature: a corner of the boundary, a tip, a rim, a crack.
     pub(crate) room: f64,
     /// Its nature.
-    pub nature: Nature,
+    pub nature: CornerMedium,
     /// Its fields, where they are known in all of the room.
     pub wedge: Option<Wedge>,
 }
@@ -58,7 +58,7 @@ pub struct Corner {
 /// The material around a corner that turns inwards, with free sides.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Wedge {
-    /// Angle of its bisector from the plate's x axis.
+    /// Angle of its bisector from the body's x axis.
     pub(crate) bisector: f64,
     /// Radius of the disc in which it is all there is.
     room: f64,
@@ -68,10 +68,10 @@ pub struct Wedge {
     pub(crate) terms: Vec<WedgeTerm>,
 }
 
-impl Corner {
+impl SingularCorner {
     /// True for a kink that the field along a free crack hardly sees.
     pub(crate) fn is_gentle(&self) -> bool {
-        matches!(self.nature, Nature::Kink(_)) && self.is_mild()
+        matches!(self.nature, CornerMedium::Kink(_)) && self.is_mild()
     }
 
     fn is_mild(&self) -> bool {
@@ -88,7 +88,7 @@ impl Corner {
     /// loads jump.
     pub fn weakness(&self) -> f64 {
         match self.nature {
-            Nature::Load => LOGARITHM,
+            CornerMedium::Load => LOGARITHM,
             _ => 1.0 - self.exponent,
         }
     }
@@ -96,10 +96,10 @@ impl Corner {
 
 /// The cause of a singular point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Nature {
+pub enum CornerMedium {
     /// A kink of the crack with this index.
     Kink(usize),
-    /// A corner of the plate, at its border or at holes, free or held alike on its two sides.
+    /// A corner of the body, at its boundary or at holes, free or held alike on its two sides.
     Corner,
     /// The end of what is held.
     Support,
@@ -110,7 +110,7 @@ pub enum Nature {
     Jump,
 }
 
-impl Nature {
+impl CornerMedium {
     /// In words.
     pub fn name(self) -> String {
         match self {
@@ -125,7 +125,7 @@ impl Nature {
 
 /// The singular points of a problem, in the order: box, edges, holes, cracks. Its cost is quadratic
 /// in their number.
-pub fn corners(problem: &Problem) -> Vec<Corner> {
+pub fn corners(problem: &Problem) -> Vec<SingularCorner> {
     let touch = touch(&problem.domain().bounds);
     let tips: Vec<_> = tips(problem.cracks())
         .map(|tip| problem.cracks()[tip.crack as usize].end_point(tip.end))
@@ -133,7 +133,7 @@ pub fn corners(problem: &Problem) -> Vec<Corner> {
     let mut places = distinct(places(problem), touch);
     // symmetries end at tips on edges
     places.retain(|at| tips.iter().all(|tip| (*tip - *at).length() > touch));
-    let around = Surroundings { problem, touch };
+    let around = CornerSurroundings { problem, touch };
     let scale = scale_of_values(problem);
     let corner = |&at: &Vec2| {
         let apart = |others: &[Vec2]| {
@@ -143,7 +143,13 @@ pub fn corners(problem: &Problem) -> Vec<Corner> {
         let room = around.distance(at).min(apart(&places)).min(apart(&tips));
         let sectors = around.sectors(at, room);
         if sectors.iter().any(|sector| values_jump(sector, scale)) {
-            return Some(Corner { at, exponent: 0.0, room, nature: Nature::Jump, wedge: None });
+            return Some(SingularCorner {
+                at,
+                exponent: 0.0,
+                room,
+                nature: CornerMedium::Jump,
+                wedge: None,
+            });
         }
         let constants = Constants::at(&problem.equation, at);
         let exponents = sectors.iter().map(|sector| (smallest(sector, constants), sector));
@@ -153,16 +159,22 @@ pub fn corners(problem: &Problem) -> Vec<Corner> {
             let wedge = is_free(sector)
                 .then(|| wedge(problem, (at, room, nature), sector, &sectors, constants))
                 .flatten();
-            return Some(Corner { at, exponent, room, nature, wedge });
+            return Some(SingularCorner { at, exponent, room, nature, wedge });
         }
         let unfit = sectors.iter().any(|sector| is_unfit(sector, problem.components()));
-        unfit.then_some(Corner { at, exponent, room, nature: Nature::Load, wedge: None })
+        unfit.then_some(SingularCorner {
+            at,
+            exponent,
+            room,
+            nature: CornerMedium::Load,
+            wedge: None,
+        })
     };
     with_functions(problem, places.iter().filter_map(corner).collect())
 }
 
 /// The corners, with wedges only where and as long as there are functions for them.
-fn with_functions(problem: &Problem, mut corners: Vec<Corner>) -> Vec<Corner> {
+fn with_functions(problem: &Problem, mut corners: Vec<SingularCorner>) -> Vec<SingularCorner> {
     corners.iter_mut().filter(|corner| corner.is_mild()).for_each(|corner| corner.wedge = None);
     let count = corners.iter().filter(|corner| corner.wedge.is_some()).count();
     if count > MOST || !problem.has_series() {
@@ -179,8 +191,8 @@ const UNFIT: f64 = 1e-4;
 const BEND: f64 = 0.3;
 
 /// True if no uniform stress (gradient) has the loads of a sector's two rays: t₁ = σ n₁ and t₂ = σ
-/// n₂ need n₂·t₁ = n₁·t₂, on a straight border t₁ = t₂. Any two fluxes fit but on a
-/// straight border.
+/// n₂ need n₂·t₁ = n₁·t₂, on a straight boundary t₁ = t₂. Any two fluxes fit but on a straight
+/// boundary.
 fn is_unfit(sector: &Sector, components: usize) -> bool {
     let [n1, n2] = sector.normals();
     let [t1, t2] = sector.load.map(Vec2::from);
@@ -205,7 +217,7 @@ fn is_free(sector: &Sector) -> bool {
 /// a hole, or on the other side of the crack.
 fn wedge(
     problem: &Problem,
-    (at, room, nature): (Vec2, f64, Nature),
+    (at, room, nature): (Vec2, f64, CornerMedium),
     sector: &Sector,
     sectors: &[Sector],
     constants: Constants,
@@ -214,7 +226,7 @@ fn wedge(
     let fills = sectors.iter().map(|s| s.opening).sum::<f64>() > TAU - SAME_ANGLE;
     let (side, room) = match (nature, sectors.len()) {
         (_, 1) => (None, room),
-        (Nature::Kink(crack), 2) if fills => {
+        (CornerMedium::Kink(crack), 2) if fills => {
             let inside = at + vec2(bisector.cos(), bisector.sin()) * (LOOK * room);
             let (own, bounds) = (&problem.cracks()[crack], &problem.domain().bounds);
             let seen = LocalCrack::new(own, inside);
@@ -242,7 +254,7 @@ fn scale_of_values(problem: &Problem) -> f64 {
     let sizes = problem.boundary.iter().flat_map(|condition| {
         let bounds = &problem.domain().bounds;
         let all: Vec<Vec2> = match condition.on {
-            BorderPart::Edge { edge, from, to } => (0..=4)
+            BoundaryPart::Edge { edge, from, to } => (0..=4)
                 .map(|k| edge.point(bounds, from + (to - from) * f64::from(k) / 4.0))
                 .collect(),
             part => problem.segments_of(part).flatten().collect(),
@@ -256,26 +268,26 @@ fn scale_of_values(problem: &Problem) -> f64 {
     sizes.fold(0.0, f64::max)
 }
 
-fn nature(problem: &Problem, sector: &Sector, at: Vec2, touch: f64) -> Nature {
+fn nature(problem: &Problem, sector: &Sector, at: Vec2, touch: f64) -> CornerMedium {
     let inner = |crack: &Crack| {
         let inner = &crack.points[1..crack.points.len() - 1];
         inner.iter().any(|p| (*p - at).length() <= touch)
     };
     match problem.cracks().iter().position(inner) {
-        Some(crack) => Nature::Kink(crack),
+        Some(crack) => CornerMedium::Kink(crack),
         None if (sector.held[0], sector.axes[0]) == (sector.held[1], sector.axes[1]) => {
-            Nature::Corner
+            CornerMedium::Corner
         }
-        None => Nature::Support,
+        None => CornerMedium::Support,
     }
 }
 
-/// Points at which the border turns or its conditions may change: not all of them do, some twice.
+/// Points at which the boundary turns or its conditions may change: not all of them do, some twice.
 fn places(problem: &Problem) -> Vec<Vec2> {
     let bounds = &problem.domain().bounds;
     let mut all = bounds.corners().to_vec();
     for condition in &problem.boundary {
-        if let BorderPart::Edge { edge, from, to } = condition.on {
+        if let BoundaryPart::Edge { edge, from, to } = condition.on {
             all.extend([from, to].map(|s| edge.point(bounds, s)));
         }
         all.extend(jumps(condition, problem));
@@ -293,7 +305,7 @@ fn places(problem: &Problem) -> Vec<Vec2> {
     all
 }
 
-/// A part of the border that is smooth: its points by a coordinate, and the ends of that.
+/// A part of the boundary that is smooth: its points by a coordinate, and the ends of that.
 type BorderCurve<'p> = (Box<dyn Fn(f64) -> Vec2 + 'p>, [f64; 2]);
 
 /// Places at which the data of a condition may jump.
@@ -304,7 +316,7 @@ fn jumps(condition: &BoundaryCondition, problem: &Problem) -> Vec<Vec2> {
     }
     let on_curve = |(at, [from, to]): BorderCurve<'_>| {
         let of_level = |level: &Formula| {
-            let value = |s: f64| tame(level.evaluate(&<[f64; 2]>::from(at(s))));
+            let value = |s: f64| clamp_non_finite(level.evaluate(&<[f64; 2]>::from(at(s))));
             sign_changes(&value, from, to)
         };
         levels.iter().flat_map(of_level).map(&at).collect::<Vec<_>>()
@@ -312,19 +324,19 @@ fn jumps(condition: &BoundaryCondition, problem: &Problem) -> Vec<Vec2> {
     curves(condition.on, problem).into_iter().flat_map(on_curve).collect()
 }
 
-/// The edges, circles and segments that a part of the border consists of.
-fn curves(part: BorderPart, problem: &Problem) -> Vec<BorderCurve<'_>> {
+/// The edges, circles and segments that a part of the boundary consists of.
+fn curves(part: BoundaryPart, problem: &Problem) -> Vec<BorderCurve<'_>> {
     let straight =
         |[a, b]: [Vec2; 2]| -> BorderCurve<'_> { (Box::new(move |s| a + (b - a) * s), [0.0, 1.0]) };
     match part {
-        BorderPart::Edge { edge, from, to } => {
+        BoundaryPart::Edge { edge, from, to } => {
             let bounds = &problem.domain().bounds;
             vec![(Box::new(move |s| edge.point(bounds, s)), [from, to])]
         }
-        BorderPart::Crack { crack, .. } => {
+        BoundaryPart::Crack { crack, .. } => {
             problem.cracks()[crack].points.windows(2).map(|s| straight([s[0], s[1]])).collect()
         }
-        BorderPart::Hole(hole)
+        BoundaryPart::Hole(hole)
             if let Hole::Circle { center, radius } = problem.domain().holes[hole] =>
         {
             let at = move |angle: f64| center + vec2(angle.cos(), angle.sin()) * radius;

@@ -1,10 +1,10 @@
-//! The plate around a point of its border: sectors of material between rays.
+//! The body around a point of its boundary: sectors of material between rays.
 
 use ppum::crack::Side;
 use ppum::domain::Hole;
 use ppum::segment;
 use ppum::vec2::{Vec2, vec2};
-use ppum_problem::{BorderPart, Edge, Problem};
+use ppum_problem::{BoundaryPart, DomainEdge, Problem};
 use std::f64::consts::TAU;
 
 /// Angles nearer than this are the same ray.
@@ -16,7 +16,7 @@ pub(super) const LOOK: f64 = 1e-3;
 /// Material between two rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Sector {
-    /// Angle of the first ray from the plate's x axis.
+    /// Angle of the first ray from the body's x axis.
     pub(super) from: f64,
     /// The angle counter-clockwise to the second ray, at most 2π.
     pub(super) opening: f64,
@@ -38,11 +38,11 @@ impl Sector {
     }
 }
 
-/// A ray along which the border, or a crack, leaves a point.
+/// A ray along which the boundary, or a crack, leaves a point.
 #[derive(Clone, Copy)]
 struct Ray {
     angle: f64,
-    on: On,
+    on: RayLine,
 }
 
 /// Distance at which loads are looked at, in parts of the room around the point.
@@ -50,25 +50,25 @@ const BESIDE: f64 = 1e-9;
 
 /// The line that a ray runs on.
 #[derive(Clone, Copy)]
-enum On {
+enum RayLine {
     /// An edge, with its own coordinate a step from the point.
-    Edge(Edge, f64),
+    Edge(DomainEdge, f64),
     /// A side of the rim of a hole; 0 of a circle.
     Rim { hole: usize, side: usize },
     /// A crack, in its direction or against it.
     Crack { crack: usize, ahead: bool },
 }
 
-impl On {
-    /// True if conditions on a part of the border hold here. The material is on the left of a
+impl RayLine {
+    /// True if conditions on a part of the boundary hold here. The material is on the left of a
     /// first ray.
-    fn is_part_of(self, part: BorderPart, problem: &Problem, is_first: bool) -> bool {
+    fn is_part_of(self, part: BoundaryPart, problem: &Problem, is_first: bool) -> bool {
         match (self, part) {
-            (Self::Edge(edge, s), BorderPart::Edge { edge: other, from, to }) => {
+            (Self::Edge(edge, s), BoundaryPart::Edge { edge: other, from, to }) => {
                 other == edge && from < s && s < to
             }
             (Self::Rim { hole, side }, part) => problem.is_on(part, hole, side),
-            (Self::Crack { crack, ahead }, BorderPart::Crack { crack: other, face }) => {
+            (Self::Crack { crack, ahead }, BoundaryPart::Crack { crack: other, face }) => {
                 let side = if ahead == is_first { Side::Above } else { Side::Below };
                 crack == other && face.is_none_or(|face| face == side)
             }
@@ -77,19 +77,19 @@ impl On {
     }
 }
 
-/// The plate around points.
-pub(super) struct Surroundings<'p> {
+/// The body around points.
+pub(super) struct CornerSurroundings<'p> {
     pub(super) problem: &'p Problem,
     /// Lengths below this are zero.
     pub(super) touch: f64,
 }
 
-impl Surroundings<'_> {
-    /// Distance of a point to the nearest part of the border and of cracks that does not go through
-    /// it. A circle that does is as far as its radius.
+impl CornerSurroundings<'_> {
+    /// Distance of a point to the nearest part of the boundary and of cracks that does not go
+    /// through it. A circle that does is as far as its radius.
     pub(super) fn distance(&self, p: Vec2) -> f64 {
         let domain = self.problem.domain();
-        let edges = Edge::ALL.map(|edge| edge.depth(&domain.bounds, p).abs());
+        let edges = DomainEdge::ALL.map(|edge| edge.depth(&domain.bounds, p).abs());
         let circles = domain.holes.iter().filter_map(|hole| match hole {
             Hole::Circle { radius, .. } if self.is_on(hole.rim_distance(p)) => Some(*radius),
             Hole::Circle { .. } => Some(hole.rim_distance(p)),
@@ -104,14 +104,14 @@ impl Surroundings<'_> {
     }
 
     /// The sectors of material around a point whose surroundings are free up to `room`; none inside
-    /// the plate and at tips.
+    /// the body and at tips.
     pub(super) fn sectors(&self, p: Vec2, room: f64) -> Vec<Sector> {
         let mut rays = self.rays(p, room);
         rays.sort_by(|a, b| a.angle.total_cmp(&b.angle));
-        // of a border and a crack on it the crack counts
+        // of a boundary and a crack on it the crack counts
         rays.dedup_by(|b, a| {
             let is_same = b.angle - a.angle < SAME_RAY;
-            if is_same && matches!(b.on, On::Crack { .. }) {
+            if is_same && matches!(b.on, RayLine::Crack { .. }) {
                 a.on = b.on;
             }
             is_same
@@ -119,7 +119,7 @@ impl Surroundings<'_> {
         if let [first, .., last] = rays[..]
             && first.angle + TAU - last.angle < SAME_RAY
         {
-            let at = if matches!(first.on, On::Crack { .. }) { rays.len() - 1 } else { 0 };
+            let at = if matches!(first.on, RayLine::Crack { .. }) { rays.len() - 1 } else { 0 };
             rays.remove(at);
         }
         let n = rays.len();
@@ -167,7 +167,7 @@ impl Surroundings<'_> {
 
     fn rays(&self, p: Vec2, room: f64) -> Vec<Ray> {
         let mut rays = Vec::new();
-        for edge in Edge::ALL {
+        for edge in DomainEdge::ALL {
             rays.extend(self.along_edge(edge, p, LOOK * room));
         }
         for (index, hole) in self.problem.domain().holes.iter().enumerate() {
@@ -175,7 +175,7 @@ impl Surroundings<'_> {
         }
         for (crack, index) in self.problem.cracks().iter().zip(0..) {
             for segment in crack.points.windows(2) {
-                let on = |way: Vec2| On::Crack {
+                let on = |way: Vec2| RayLine::Crack {
                     crack: index,
                     ahead: way.dot(segment[1] - segment[0]) > 0.0,
                 };
@@ -187,7 +187,7 @@ impl Surroundings<'_> {
     }
 
     /// The rays along an edge.
-    fn along_edge(&self, edge: Edge, p: Vec2, step: f64) -> Vec<Ray> {
+    fn along_edge(&self, edge: DomainEdge, p: Vec2, step: f64) -> Vec<Ray> {
         let bounds = &self.problem.domain().bounds;
         if !self.is_on(edge.depth(bounds, p).abs()) {
             return Vec::new();
@@ -197,11 +197,11 @@ impl Surroundings<'_> {
         let own = start + ahead.unit().dot(p - edge.point(bounds, start));
         let ways = [(ahead, end - own, own + step), (-ahead, own - start, own - step)];
         let inside = ways.into_iter().filter(|(_, left, _)| !self.is_on(*left));
-        inside.map(|(way, _, s)| ray(way, On::Edge(edge, s))).collect()
+        inside.map(|(way, _, s)| ray(way, RayLine::Edge(edge, s))).collect()
     }
 
     fn along_rim(&self, (index, hole): (usize, &Hole), p: Vec2) -> Vec<Ray> {
-        let on = |side: usize| On::Rim { hole: index, side };
+        let on = |side: usize| RayLine::Rim { hole: index, side };
         match hole {
             Hole::Circle { center, .. } if self.is_on(hole.rim_distance(p)) => {
                 let tangent = (p - *center).left();
@@ -224,6 +224,6 @@ impl Surroundings<'_> {
     }
 }
 
-fn ray(way: Vec2, on: On) -> Ray {
+fn ray(way: Vec2, on: RayLine) -> Ray {
     Ray { angle: way.y.atan2(way.x), on }
 }

@@ -3,7 +3,7 @@ use ppum::dataset::{Material, StressState};
 use ppum::domain::Domain;
 use ppum::vec2::vec2;
 use ppum_problem::{
-    BoundaryCondition, Cells, Condition, Discretization, Edge, Expression, ProblemData,
+    BaseCells, BoundaryCondition, Condition, Discretization, DomainEdge, Expression, ProblemData,
 };
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
@@ -112,7 +112,7 @@ fn plate() -> ProblemData {
 fn plate_with(holes: Vec<Hole>) -> ProblemData {
     let material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
     let domain = Domain { bounds: BOUNDS, holes };
-    ProblemData::elasticity(domain, material, Discretization::new(Cells::Level(3)))
+    ProblemData::elasticity(domain, material, Discretization::new(BaseCells::Level(3)))
 }
 
 fn checked(problem: &ProblemData) -> Problem {
@@ -123,7 +123,7 @@ fn clamp() -> Vec<Condition> {
     vec![Condition::Dirichlet(0.0.into()), Condition::Dirichlet(0.0.into())]
 }
 
-fn found(problem: &ProblemData) -> Vec<(Vec2, f64, Nature)> {
+fn found(problem: &ProblemData) -> Vec<(Vec2, f64, CornerMedium)> {
     corners(&checked(problem))
         .iter()
         .map(|c| (c.at, (c.exponent * 1e3).round() / 1e3, c.nature))
@@ -139,22 +139,23 @@ fn a_plain_plate_has_none() {
     };
     let straight = plate().with_crack(&[[1.0, 0.2], [0.1, 0.3]]);
     assert_eq!(found(&straight), []);
-    let rollers =
-        straight.with_boundary(Edge::Bottom, roller(1)).with_boundary(Edge::Left, roller(0));
+    let rollers = straight
+        .with_boundary(DomainEdge::Bottom, roller(1))
+        .with_boundary(DomainEdge::Left, roller(0));
     assert_eq!(found(&rollers), []);
 }
 
 #[test]
 fn clamped_corners_ends_of_supports_and_mouths_at_supports_are_found() {
-    let clamped = plate().with_boundary(Edge::Bottom, clamp());
-    let at = |x: f64, y: f64| (vec2(x, y), 0.711, Nature::Support);
+    let clamped = plate().with_boundary(DomainEdge::Bottom, clamp());
+    let at = |x: f64, y: f64| (vec2(x, y), 0.711, CornerMedium::Support);
     assert_eq!(found(&clamped), [at(-1.0, -1.0), at(1.0, -1.0)]);
     let mouth = clamped.with_crack(&[[0.25, -1.0], [0.25, 0.0]]);
     assert_eq!(found(&mouth), [at(-1.0, -1.0), at(1.0, -1.0), at(0.25, -1.0)]);
     let mut piece = plate();
-    let on = BorderPart::Edge { edge: Edge::Top, from: -1.0, to: 0.5 };
+    let on = BoundaryPart::Edge { edge: DomainEdge::Top, from: -1.0, to: 0.5 };
     piece.boundary.push(BoundaryCondition::new(on, clamp()));
-    assert_eq!(found(&piece), [at(-1.0, 1.0), (vec2(0.5, 1.0), 0.5, Nature::Support)]);
+    assert_eq!(found(&piece), [at(-1.0, 1.0), (vec2(0.5, 1.0), 0.5, CornerMedium::Support)]);
 }
 
 #[test]
@@ -166,18 +167,20 @@ fn corners_of_holes_and_kinks_are_found_where_they_are_in_the_plate() {
     let holes = vec![square(1.0, 0.5, 0.25), square(0.0, 0.5, 0.125)];
     let crack = [[-0.75, -0.5], [-0.25, -0.5], [-0.25, -0.25]];
     let problem = plate_with(holes).with_crack(&crack);
-    let corner = |x: f64, y: f64| (vec2(x, y), 0.544, Nature::Corner);
+    let corner = |x: f64, y: f64| (vec2(x, y), 0.544, CornerMedium::Corner);
     let inner = [[-0.125, 0.375], [0.125, 0.375], [0.125, 0.625], [-0.125, 0.625]];
     let mut expected = vec![corner(0.75, 0.25), corner(0.75, 0.75)];
     expected.extend(inner.map(|[x, y]| corner(x, y)));
-    expected.push((vec2(-0.25, -0.5), 0.544, Nature::Kink(0)));
+    expected.push((vec2(-0.25, -0.5), 0.544, CornerMedium::Kink(0)));
     let mut all = found(&problem);
-    let key = |c: &(Vec2, f64, Nature)| (c.0.x * 8.0 + c.0.y * 100.0) as i64;
+    let key = |c: &(Vec2, f64, CornerMedium)| (c.0.x * 8.0 + c.0.y * 100.0) as i64;
     all.sort_by_key(key);
     expected.sort_by_key(key);
     assert_eq!(all, expected);
-    let kink =
-        corners(&checked(&problem)).into_iter().find(|c| c.nature == Nature::Kink(0)).expect("it");
+    let kink = corners(&checked(&problem))
+        .into_iter()
+        .find(|c| c.nature == CornerMedium::Kink(0))
+        .expect("it");
     assert!((kink.room - 0.25).abs() < 1e-12);
 }
 
@@ -195,7 +198,7 @@ fn sides_in_the_rooms_of_kinks() {
             let points: Vec<[f64; 2]> = points.iter().map(|p| p.map(&mut moved)).collect();
             let problem = plate().with_crack(&points);
             let crack = &problem.cracks()[0];
-            for Corner { at, wedge, .. } in corners(&checked(&problem)) {
+            for SingularCorner { at, wedge, .. } in corners(&checked(&problem)) {
                 let Some(Wedge { room, side: Some(_), .. }) = wedge else { continue };
                 let k = crack.points.iter().position(|p| *p == at).expect("a vertex");
                 let own = Crack { points: crack.points[k - 1..=k + 1].to_vec(), ..crack.clone() };
@@ -217,8 +220,8 @@ fn sides_in_the_rooms_of_kinks() {
 fn crossing_rims_make_corners() {
     let circle = |x: f64, y: f64| Hole::Circle { center: vec2(x, y), radius: 0.25 };
     let holes = vec![circle(0.0, -1.0), circle(-0.15, 0.5), circle(0.15, 0.5)];
-    let problem = plate_with(holes).with_boundary(Edge::Bottom, clamp());
-    let at = |x: f64| (vec2(x, -1.0), 0.711, Nature::Support);
+    let problem = plate_with(holes).with_boundary(DomainEdge::Bottom, clamp());
+    let at = |x: f64| (vec2(x, -1.0), 0.711, CornerMedium::Support);
     let mut all = found(&problem);
     all.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
     assert_eq!(all, [at(-1.0), at(-0.25), at(0.25), at(1.0)]);
@@ -232,23 +235,23 @@ fn loads_that_no_stress_has_make_corners() {
     let sheared = |top: f64| {
         plate()
             .with_crack(&[[0.25, 1.0], [0.3, 0.5]])
-            .with_boundary(Edge::Left, traction([-2.0, -0.5]))
-            .with_boundary(Edge::Right, traction([2.0, 0.5]))
-            .with_boundary(Edge::Bottom, traction([-0.5, -1.0]))
-            .with_boundary(Edge::Top, traction([top, 1.0]))
+            .with_boundary(DomainEdge::Left, traction([-2.0, -0.5]))
+            .with_boundary(DomainEdge::Right, traction([2.0, 0.5]))
+            .with_boundary(DomainEdge::Bottom, traction([-0.5, -1.0]))
+            .with_boundary(DomainEdge::Top, traction([top, 1.0]))
     };
-    let at = |x: f64, y: f64| (vec2(x, y), 1.0, Nature::Load);
+    let at = |x: f64, y: f64| (vec2(x, y), 1.0, CornerMedium::Load);
     // the free faces of the crack: 0.5 of shear and 1 of tension are missing there
     assert_eq!(found(&sheared(0.5)), [at(0.25, 1.0)]);
     assert_eq!(found(&sheared(0.0)), [at(1.0, 1.0), at(-1.0, 1.0), at(0.25, 1.0)]);
     let mut piece = plate();
-    let on = BorderPart::Edge { edge: Edge::Top, from: -0.25, to: 0.25 };
+    let on = BoundaryPart::Edge { edge: DomainEdge::Top, from: -0.25, to: 0.25 };
     piece.boundary.push(BoundaryCondition::pressure(on, 1.0.into()));
     assert_eq!(found(&piece), [at(-0.25, 1.0), at(0.25, 1.0)]);
     // a formula that is zero elsewhere, or only bent there, or varies fast
     let whole = |text: &str| {
         let load = Expression::parse(text).expect("a formula");
-        let on = BorderPart::edge(Edge::Top, &BOUNDS);
+        let on = BoundaryPart::edge(DomainEdge::Top, &BOUNDS);
         let mut problem = plate();
         problem.boundary.push(BoundaryCondition::pressure(on, load));
         found(&problem).into_iter().map(|(p, ..)| (p.x * 1e6).round() / 1e6).collect::<Vec<_>>()
@@ -263,7 +266,7 @@ fn loads_that_no_stress_has_make_corners() {
     near(&[], "abs(x - 0.3)*(1 - x^2)");
     near(&[], "sin(40*x)*(1 - x^2)");
     // the same load goes on beside it
-    let next = BorderPart::Edge { edge: Edge::Top, from: 0.25, to: 1.0 };
+    let next = BoundaryPart::Edge { edge: DomainEdge::Top, from: 0.25, to: 1.0 };
     piece.boundary.push(BoundaryCondition::new(next, traction([0.0, -1.0])));
     assert_eq!(found(&piece), [at(-0.25, 1.0)]);
 }
@@ -274,12 +277,12 @@ fn jumps_of_given_values_are_found() {
     let given =
         |text: &str| vec![Condition::Dirichlet(Expression::parse(text).expect("a formula"))];
     let potential = |bottom: &str, left: &str| {
-        let problem = ProblemData::poisson(BOUNDS, 1.0, Discretization::new(Cells::Level(3)));
-        let problem = problem.with_boundary(Edge::Bottom, given(bottom));
-        found(&problem.with_boundary(Edge::Left, given(left)))
+        let problem = ProblemData::poisson(BOUNDS, 1.0, Discretization::new(BaseCells::Level(3)));
+        let problem = problem.with_boundary(DomainEdge::Bottom, given(bottom));
+        found(&problem.with_boundary(DomainEdge::Left, given(left)))
     };
-    let places = |all: &[(Vec2, f64, Nature)]| -> Vec<Vec2> {
-        all.iter().filter(|corner| corner.2 == Nature::Jump).map(|corner| corner.0).collect()
+    let places = |all: &[(Vec2, f64, CornerMedium)]| -> Vec<Vec2> {
+        all.iter().filter(|corner| corner.2 == CornerMedium::Jump).map(|corner| corner.0).collect()
     };
     assert_eq!(places(&potential("x + 1", "0")), []);
     assert_eq!(places(&potential("exp(3*x)*cos(y)", "exp(-3)*cos(y)")), []);
@@ -291,12 +294,13 @@ fn jumps_of_given_values_are_found() {
 
 #[test]
 fn potentials_have_the_exponents_of_laplace() {
-    let mut problem = ProblemData::poisson(BOUNDS, 1.0, Discretization::new(Cells::Level(3)));
-    let on = BorderPart::Edge { edge: Edge::Top, from: -0.5, to: 0.5 };
+    let mut problem = ProblemData::poisson(BOUNDS, 1.0, Discretization::new(BaseCells::Level(3)));
+    let on = BoundaryPart::Edge { edge: DomainEdge::Top, from: -0.5, to: 0.5 };
     problem.boundary.push(BoundaryCondition::new(on, vec![Condition::Dirichlet(0.0.into())]));
     let problem = problem.with_crack(&[[-0.5, 0.0], [0.0, 0.0], [0.0, 0.5]]);
-    let places = [([-0.5, 1.0], 0.5, Nature::Support), ([0.5, 1.0], 0.5, Nature::Support)];
+    let places =
+        [([-0.5, 1.0], 0.5, CornerMedium::Support), ([0.5, 1.0], 0.5, CornerMedium::Support)];
     let mut expected: Vec<_> = places.map(|(p, l, n)| (Vec2::from(p), l, n)).to_vec();
-    expected.push((vec2(0.0, 0.0), 0.667, Nature::Kink(0)));
+    expected.push((vec2(0.0, 0.0), 0.667, CornerMedium::Kink(0)));
     assert_eq!(found(&problem), expected);
 }

@@ -7,7 +7,7 @@
 //! antisymmetric   sin λω = +λ sin ω      A = i   B = i (cos λω − λ cos ω)
 //! ```
 //!
-//! have tractions r^λ times zero on both sides (Williams 1952). Of Laplace's equation r^λ sin λθ
+//! have tractions r^λ times zero on both sides (Williams 1952). For Laplace's equation, r^λ sin λθ
 //! with λ = π/ω and r^λ cos λθ with λ = 2π/ω have no flux there.
 
 use super::exponent::Constants;

@@ -1,4 +1,4 @@
-//! Restraints and loads of a piece of the plate: the rigid-body modes that nothing holds, and
+//! Restraints and loads of a piece of the body: the rigid-body modes that nothing holds, and
 //! whether the loads are in equilibrium there.
 
 use super::pieces::BodyPieces;
@@ -12,10 +12,10 @@ use std::fmt;
 /// Part of the largest eigenvalue below which a mode counts as free.
 pub(super) const FREE: f64 = 1e-10;
 
-/// Loads that move a piece of the plate which nothing holds against them.
+/// Loads that move a piece of the body which nothing holds against them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UnbalancedError {
-    /// A point of the piece, if cracks and holes cut the plate into several.
+    /// A point of the piece, if cracks and holes cut the body into several.
     pub piece: Option<Vec2>,
     /// Force that remains, only components that nothing holds; of a potential the flow.
     pub force: Vec2,
@@ -91,12 +91,12 @@ impl fmt::Display for UnbalancedError {
 #[derive(Clone, Copy, Debug)]
 pub struct Balance {
     pub(crate) modes: RigidModes,
-    /// ∫ m_k·m_l of the rigid-body modes over the border where values are given, held
+    /// ∫ m_k·m_l of the rigid-body modes over the boundary where values are given, held
     /// components only.
     held: [PerMode; MODES],
     /// Work of body forces and tractions on the rigid-body modes.
     resultant: PerMode,
-    /// ∫ of the loads' magnitude on the border and inside.
+    /// ∫ of the loads' magnitude on the boundary and inside.
     pub(crate) magnitude: f64,
 }
 
@@ -140,7 +140,7 @@ impl Balance {
         self.magnitude.is_finite() && self.resultant.iter().all(|work| work.is_finite())
     }
 
-    /// Adds what another part of the plate has of the same piece.
+    /// Adds the restraints and loads that another part of the body contributes to the same piece.
     pub(crate) fn add(&mut self, part: &Self) {
         for (row, part) in self.held.iter_mut().zip(&part.held) {
             row.iter_mut().zip(part).for_each(|(sum, v)| *sum += v);
@@ -176,7 +176,7 @@ impl Balance {
         magnitude: f64,
         piece: Option<Vec2>,
     ) -> UnbalancedError {
-        // what is balanced but for rounding is zero
+        // what is balanced except for rounding is zero
         let [x, y, turn] = remaining.map(|part| beside(part, magnitude));
         let RigidModes { center, size, .. } = self.modes;
         let shown = |p: Vec2| vec2(beside(p.x, size), beside(p.y, size));

@@ -1,4 +1,4 @@
-//! Equilibrium of the pieces that cracks and holes cut a plate into: their rigid-body modes, what
+//! Equilibrium of the pieces that cracks and holes cut a body into: their rigid-body modes, what
 //! holds them and what loads them.
 
 mod balance;

@@ -1,4 +1,4 @@
-//! The pieces of a plate, what loads them and what holds them.
+//! The pieces of a body, what loads them and what holds them.
 
 use super::balance::{Balance, UnbalancedError};
 use super::pieces::BodyPieces;
@@ -8,13 +8,13 @@ use ppum::vec2::Vec2;
 use ppum_linear::EigenError;
 use ppum_problem::Problem;
 
-/// A plate in equilibrium, piece by piece, or as pieces that touch hold each other.
+/// A body in equilibrium: each piece for itself, or pieces that touch and hold each other.
 pub struct Plate {
     /// The parts into which cracks divide the body.
     pub pieces: BodyPieces,
     /// Restraints and loads of each piece.
     pub(crate) balances: Vec<Balance>,
-    /// The rigid-body modes of each piece that what is given on the border does not hold.
+    /// The rigid-body modes of each piece that no restraint holds.
     pub(crate) free: Vec<Vec<PerMode>>,
     /// The pieces that touch each other, group by group; most are alone.
     pub(crate) groups: Vec<Vec<usize>>,
@@ -24,7 +24,7 @@ pub struct Plate {
     imbalance: f64,
 }
 
-/// A plate without equilibrium.
+/// The reason why a body is not in equilibrium.
 #[derive(Debug, thiserror::Error)]
 pub enum PlateError {
     /// Loads on a piece that nothing holds against them.
@@ -36,7 +36,7 @@ pub enum PlateError {
 }
 
 impl Plate {
-    /// The plate of pieces with their balances.
+    /// The body of pieces with their balances.
     ///
     /// # Errors
     /// Loads that nothing holds, data that are not finite.

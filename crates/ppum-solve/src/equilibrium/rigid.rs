@@ -1,4 +1,5 @@
-//! Rigid-body modes: the kernel of the operator, which restraints or a gauge must remove.
+//! Rigid-body modes: the kernel of the operator, which restraints or a constraint of the null
+//! space must remove.
 
 use ppum::vec2::Vec2;
 

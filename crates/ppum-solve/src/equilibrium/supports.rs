@@ -1,8 +1,8 @@
 //! Points that are held against rigid motion, piece by piece.
 //!
-//! Of the rigid-body modes Σ_k a_k m_k that nothing else holds, a component i that is held at x₀
-//! leaves those with Σ_k a_k m_k,i(x₀) = 0. Each must leave fewer than those before it: a component
-//! that cannot move any more would take a force.
+//! A component i that is held at x₀ leaves of the rigid-body modes Σ_k a_k m_k that are still free
+//! those with Σ_k a_k m_k,i(x₀) = 0. Each must leave fewer than those before it: a component that
+//! cannot move any more would take a force.
 
 use super::plate::Plate;
 use super::touching::Motion;
@@ -107,7 +107,7 @@ fn independent(row: Vec<f64>, fixed: &[Vec<f64>]) -> Option<Vec<f64>> {
     (length(&rest) >= STILL).then(|| scaled(rest))
 }
 
-/// What a row has beside orthonormal ones.
+/// Returns the part of a row that is orthogonal to some orthonormal ones.
 fn rest(mut row: Vec<f64>, fixed: &[Vec<f64>]) -> Vec<f64> {
     for known in fixed {
         let part: f64 = row.iter().zip(known).map(|(a, b)| a * b).sum();

@@ -78,7 +78,7 @@ pub(crate) struct Motion {
     pub(crate) factors: Vec<f64>,
 }
 
-/// All pieces of a plate, with their restraints and loads, and the modes that are free.
+/// All pieces of a body, with their restraints and loads, and the modes that are free.
 #[derive(Clone, Copy)]
 pub(super) struct RigidPieces<'p> {
     pub(super) pieces: &'p BodyPieces,
@@ -123,7 +123,8 @@ impl<'p> TouchingPieces<'p> {
         Self { plate, pieces, modes, forces, friction }
     }
 
-    /// What remains of the loads beside forces between the pieces, as a part of their magnitude.
+    /// Returns the part of the loads that forces between the pieces do not balance, relative to
+    /// their magnitude.
     ///
     /// # Errors
     /// Loads on one of the pieces that nothing holds.

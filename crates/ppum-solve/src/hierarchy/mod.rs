@@ -1,21 +1,21 @@
 //! Coarser levels of a system, for its multilevel solver: coarser meshes, the same problem on them,
 //! and the way up.
 //!
-//! A level is discretised anew \[Griebel & Schweitzer 2002\]: its patches have the enrichments that
-//! the problem gives patches of their size, its matrix is integrated on its own cells. Pᵀ K P would
-//! keep what a prolongation between different enrichments gets
-//! wrong (`docs/decisions/0020-multilevel.md`).
+//! A level is discretised again \[Griebel & Schweitzer 2002\]: its patches have the enrichments
+//! that the problem gives patches of their size, its matrix is integrated on its own cells. Pᵀ K P
+//! would keep what a prolongation between different enrichments gets wrong
+//! (`docs/decisions/0020-multilevel.md`).
 
 mod transfer;
 
-use crate::assembly::{Assembly, Duals, FreeModes, Functionals, Given, System, slivers};
+use crate::assembly::{Assembly, Duals, FreeModes, Functionals, PrescribedData, System, slivers};
 use crate::basis::StableBasis;
 use crate::equilibrium::Plate;
 use crate::law::Law;
-use crate::space::{Mesh, Space, SpaceError, discretise_on};
-use crate::watched::{Halt, Stage};
+use crate::space::{CoverMesh, SpaceError, TrialSpace, discretise_on};
+use crate::watched::{Halt, WorkPhase};
 use ppum::progress::Cancelled;
-use ppum_linear::Coarse;
+use ppum_linear::CoarseLevel;
 use ppum_problem::Problem;
 use transfer::{SpaceWithBasis, transfer};
 
@@ -28,41 +28,41 @@ const FEWER: f64 = 0.7;
 
 /// A system to find coarser levels of.
 #[derive(Clone, Copy)]
-pub struct Finest<'a> {
+pub struct FinestLevel<'a> {
     /// The problem that it belongs to.
     pub problem: &'a Problem,
     /// The pieces of the body.
     pub plate: &'a Plate,
     /// The cells.
-    pub mesh: &'a Mesh,
+    pub mesh: &'a CoverMesh,
     /// The patches of the cells.
-    pub space: &'a Space<'a>,
+    pub space: &'a TrialSpace<'a>,
     /// The unknowns of each patch.
     pub basis: &'a StableBasis,
 }
 
 /// A level while the next coarser one is made.
 struct FinerLevel<'p> {
-    space: Space<'p>,
+    space: TrialSpace<'p>,
     basis: StableBasis,
 }
 
 /// Why a level cannot be made.
-enum Trouble {
+enum LevelError {
     Cancelled(Cancelled),
     /// A cover so coarse that the problem makes no sense on it: the level before it is
     /// the coarsest.
     TooCoarse,
 }
 
-impl Finest<'_> {
-    /// The coarser levels, the finest of them first, without the penalties of a gauge.
+impl FinestLevel<'_> {
+    /// The coarser levels, the finest of them first, without the penalties of a constraint.
     ///
     /// # Errors
     /// Cancelled.
-    pub fn coarser(&self, stage: &Stage<'_>) -> Result<Vec<Coarse>, Cancelled> {
+    pub fn coarser(&self, stage: &WorkPhase<'_>) -> Result<Vec<CoarseLevel>, Cancelled> {
         let components = self.problem.components();
-        let mut levels: Vec<Coarse> = Vec::new();
+        let mut levels: Vec<CoarseLevel> = Vec::new();
         let mut last: Option<FinerLevel<'_>> = None;
         let mut mesh = self.mesh.clone();
         loop {
@@ -79,8 +79,8 @@ impl Finest<'_> {
                     levels.push(coarse);
                     last = Some(level);
                 }
-                Err(Trouble::Cancelled(cancelled)) => return Err(cancelled),
-                Err(Trouble::TooCoarse) => return Ok(levels),
+                Err(LevelError::Cancelled(cancelled)) => return Err(cancelled),
+                Err(LevelError::TooCoarse) => return Ok(levels),
             }
         }
     }
@@ -88,33 +88,34 @@ impl Finest<'_> {
     /// The problem on a mesh, and its system with the transfer to the next finer level.
     fn level(
         &self,
-        mesh: &Mesh,
+        mesh: &CoverMesh,
         finer: SpaceWithBasis<'_>,
-        stage: &Stage<'_>,
-    ) -> Result<(FinerLevel<'_>, Coarse), Trouble> {
+        stage: &WorkPhase<'_>,
+    ) -> Result<(FinerLevel<'_>, CoarseLevel), LevelError> {
         let problem = self.problem;
         let step = discretise_on(problem, mesh, stage)?;
-        let space = Space::of_problem(problem, step, None).map_err(|_| Trouble::TooCoarse)?;
+        let space =
+            TrialSpace::of_problem(problem, step, None).map_err(|_| LevelError::TooCoarse)?;
         let mut basis = StableBasis::new(&space, stage)?;
         let law = &Law::new(&problem.equation);
         let found = slivers(Assembly { problem, space: &space, basis: &basis, law }, stage)?;
         basis.damp(&space, &found)?;
         let assembly = Assembly { problem, space: &space, basis: &basis, law };
         let (free, duals) = (&FreeModes::none(self.plate), &Duals::new(Vec::new(), &space));
-        let given = Given::restraints(problem);
+        let given = PrescribedData::restraints(problem);
         let system = System::new(assembly, &given, Functionals { free, duals }, stage)?;
         let transfer = transfer(finer, (&space, &basis), stage)?;
-        Ok((FinerLevel { space, basis }, Coarse { matrix: system.matrix, transfer }))
+        Ok((FinerLevel { space, basis }, CoarseLevel { matrix: system.matrix, transfer }))
     }
 }
 
 /// The next coarser mesh with clearly fewer cells.
-fn fewer(mesh: &Mesh) -> Option<Mesh> {
-    let few = |coarse: &Mesh| coarse.n_cells() as f64 <= FEWER * mesh.n_cells() as f64;
-    std::iter::successors(mesh.coarser(), Mesh::coarser).find(few)
+fn fewer(mesh: &CoverMesh) -> Option<CoverMesh> {
+    let few = |coarse: &CoverMesh| coarse.n_cells() as f64 <= FEWER * mesh.n_cells() as f64;
+    std::iter::successors(mesh.coarser(), CoverMesh::coarser).find(few)
 }
 
-impl From<Halt> for Trouble {
+impl From<Halt> for LevelError {
     fn from(halt: Halt) -> Self {
         match halt {
             Halt::Cancelled(cancelled) => Self::Cancelled(cancelled),
@@ -123,7 +124,7 @@ impl From<Halt> for Trouble {
     }
 }
 
-impl From<SpaceError> for Trouble {
+impl From<SpaceError> for LevelError {
     fn from(error: SpaceError) -> Self {
         match error {
             SpaceError::Cancelled(cancelled) => Self::Cancelled(cancelled),

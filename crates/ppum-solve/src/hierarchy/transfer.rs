@@ -17,12 +17,12 @@
 //! B = G⁻¹ R        G = ⟨φ_i N_i, φ_i N_i⟩,  R = ⟨φ_i N_i, φ_i N_k⟩
 //! ```
 //!
-//! Of each component alike, but for patches whose components share unknowns: C_i (I ⊗ B) C_kᵀ.
+//! B is the same for each component; patches whose components share unknowns have C_i (I ⊗ B) C_kᵀ.
 
 use crate::basis::{ShapeEvaluator, Shapes, StableBasis};
-use crate::quadrature::Rule;
-use crate::space::Space;
-use crate::watched::{Halt, Stage, in_batches};
+use crate::quadrature::CellRule;
+use crate::space::TrialSpace;
+use crate::watched::{Halt, WorkPhase, in_batches};
 use faer::linalg::matmul::matmul;
 use faer::linalg::solvers::Solve;
 use faer::{Accum, Mat, MatRef, Par, Side};
@@ -34,7 +34,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// The space and the stable basis of a level.
-pub(super) type SpaceWithBasis<'a> = (&'a Space<'a>, &'a StableBasis);
+pub(super) type SpaceWithBasis<'a> = (&'a TrialSpace<'a>, &'a StableBasis);
 
 /// The transfer between two levels.
 ///
@@ -43,9 +43,9 @@ pub(super) type SpaceWithBasis<'a> = (&'a Space<'a>, &'a StableBasis);
 pub(super) fn transfer(
     fine: SpaceWithBasis<'_>,
     coarse: SpaceWithBasis<'_>,
-    stage: &Stage<'_>,
+    stage: &WorkPhase<'_>,
 ) -> Result<Transfer, Halt> {
-    let between = Between { fine, coarse, parents: parents(fine.0, coarse.0) };
+    let between = LevelTransfer { fine, coarse, parents: parents(fine.0, coarse.0) };
     let integrated = between.integrated(stage)?;
     let components = fine.0.equation().components();
     let mut transfer = Transfer::from_blocks(coarse.0.sizes.len());
@@ -66,8 +66,8 @@ pub(super) fn transfer(
     Ok(transfer)
 }
 
-/// Of each fine patch, the coarse one whose cell holds the middle of its own.
-fn parents(fine: &Space<'_>, coarse: &Space<'_>) -> Vec<Option<u32>> {
+/// Returns for each fine patch the coarse one whose cell holds the middle of its own.
+fn parents(fine: &TrialSpace<'_>, coarse: &TrialSpace<'_>) -> Vec<Option<u32>> {
     let tree = BoxTree::new(&coarse.partition().cell);
     let mut found = Vec::new();
     let parent = |middle: Vec2| {
@@ -79,7 +79,7 @@ fn parents(fine: &Space<'_>, coarse: &Space<'_>) -> Vec<Option<u32>> {
 }
 
 /// Two levels.
-struct Between<'a> {
+struct LevelTransfer<'a> {
     fine: SpaceWithBasis<'a>,
     coarse: SpaceWithBasis<'a>,
     parents: Vec<Option<u32>>,
@@ -87,18 +87,18 @@ struct Between<'a> {
 
 /// Integrals over a fine patch.
 #[derive(Clone, Debug)]
-struct Sums {
+struct PatchIntegrals {
     gram: Mat<f64>,
     mixed: Mat<f64>,
 }
 
-impl Sums {
+impl PatchIntegrals {
     fn add(&mut self, part: &Self) {
         self.gram += &part.gram;
         self.mixed += &part.mixed;
     }
 
-    /// G⁻¹ R. G is the unit matrix but where the border has damped functions.
+    /// G⁻¹ R. G is the unit matrix but where the boundary has damped functions.
     fn solved(&self) -> Mat<f64> {
         match self.gram.llt(Side::Lower) {
             Ok(factor) => factor.solve(&self.mixed),
@@ -107,13 +107,13 @@ impl Sums {
     }
 }
 
-impl Between<'_> {
+impl LevelTransfer<'_> {
     /// True if polynomials are all that there is on both sides, and the fine ones hold the
     /// coarse ones.
     fn is_polynomial(&self, i: usize, k: usize) -> bool {
         let (fine, basis) = self.fine;
         let plain =
-            |space: &Space<'_>, patch: usize| space.sizes[patch] == space.n_polynomials(patch);
+            |space: &TrialSpace<'_>, patch: usize| space.sizes[patch] == space.n_polynomials(patch);
         plain(fine, i)
             && plain(self.coarse.0, k)
             && basis.sizes[i] == fine.sizes[i]
@@ -161,20 +161,20 @@ impl Between<'_> {
     }
 
     /// The integrals of all fine patches that need them.
-    fn integrated(&self, stage: &Stage<'_>) -> Result<BTreeMap<u32, Sums>, Halt> {
+    fn integrated(&self, stage: &WorkPhase<'_>) -> Result<BTreeMap<u32, PatchIntegrals>, Halt> {
         let (space, basis) = self.fine;
         let needs = |i: usize| self.parents[i].is_some_and(|k| !self.is_polynomial(i, k as usize));
         let needs: Vec<bool> = (0..self.parents.len()).map(needs).collect();
-        let has = |cell: &usize| space.coverers[*cell].iter().any(|&i| needs[i as usize]);
-        let cells: Vec<usize> = (0..space.coverers.len()).filter(has).collect();
+        let has = |cell: &usize| space.covering_patches[*cell].iter().any(|&i| needs[i as usize]);
+        let cells: Vec<usize> = (0..space.covering_patches.len()).filter(has).collect();
         let quadrature = space.quadrature(0);
-        let mut sums: BTreeMap<u32, Sums> = BTreeMap::new();
+        let mut sums: BTreeMap<u32, PatchIntegrals> = BTreeMap::new();
         in_batches(
             stage,
             cells.len(),
             || Integrator::new(self, &needs),
             |integrator, k| {
-                let mut parts: BTreeMap<u32, Sums> = BTreeMap::new();
+                let mut parts: BTreeMap<u32, PatchIntegrals> = BTreeMap::new();
                 for rule in space.rules(&quadrature, cells[k]).iter() {
                     integrator.add(rule, &mut parts);
                 }
@@ -194,11 +194,11 @@ impl Between<'_> {
         Ok(sums)
     }
 
-    fn no_sums(&self, i: u32, basis: &StableBasis) -> Sums {
+    fn no_sums(&self, i: u32, basis: &StableBasis) -> PatchIntegrals {
         let n = basis.sizes[i as usize];
         let parent = self.parents[i as usize].expect("only patches with parents are integrated");
         let m = self.coarse.1.sizes[parent as usize];
-        Sums { gram: Mat::zeros(n, n), mixed: Mat::zeros(n, m) }
+        PatchIntegrals { gram: Mat::zeros(n, n), mixed: Mat::zeros(n, m) }
     }
 }
 
@@ -217,8 +217,8 @@ fn powers(a: f64, b: f64, degree: usize) -> Vec<Vec<f64>> {
 
 /// Integrates over rules.
 struct Integrator<'a> {
-    between: &'a Between<'a>,
-    /// Of each fine patch, whether it is to be integrated.
+    between: &'a LevelTransfer<'a>,
+    /// Whether each fine patch is to be integrated.
     needs: &'a [bool],
     fine: ShapeEvaluator<'a>,
     coarse: ShapeEvaluator<'a>,
@@ -231,7 +231,7 @@ struct Integrator<'a> {
 }
 
 impl<'a> Integrator<'a> {
-    fn new(between: &'a Between<'a>, needs: &'a [bool]) -> Self {
+    fn new(between: &'a LevelTransfer<'a>, needs: &'a [bool]) -> Self {
         Self {
             between,
             needs,
@@ -244,8 +244,8 @@ impl<'a> Integrator<'a> {
         }
     }
 
-    fn add(&mut self, rule: &Rule, parts: &mut BTreeMap<u32, Sums>) {
-        let Between { fine: (space, basis), ref parents, .. } = *self.between;
+    fn add(&mut self, rule: &CellRule, parts: &mut BTreeMap<u32, PatchIntegrals>) {
+        let LevelTransfer { fine: (space, basis), ref parents, .. } = *self.between;
         if !rule.patches.iter().any(|&i| self.needs[i as usize]) {
             return;
         }
@@ -279,7 +279,7 @@ impl<'a> Integrator<'a> {
     }
 
     /// Evaluates the functions of a coarse patch, without its φ.
-    fn see(&mut self, k: u32, rule: &Rule) {
+    fn see(&mut self, k: u32, rule: &CellRule) {
         // the φ of a patch that is alone is 1
         self.coarse.evaluate(rule.anchor, &rule.offsets, &[k], &mut self.local);
         self.between.coarse.1.apply(&[k], &self.local, &mut self.parent);
@@ -295,7 +295,7 @@ fn add_products(
     phi: usize,
     parent: &Shapes,
     half: Vec2,
-    sums: &mut Sums,
+    sums: &mut PatchIntegrals,
 ) {
     let weighted = times_row(plain, phi, parent);
     let h2 = 1.0 / (half.x * half.y);

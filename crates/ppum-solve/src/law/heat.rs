@@ -5,7 +5,7 @@
 //! strains ε⁰ = α T I + … it gives. Their local spaces have the same patches but functions of their
 //! own; in the joint field a block is of zeros in the components that do not have it.
 
-use crate::report::{SolverReport, Unresolved};
+use crate::report::{SolverReport, UnresolvedIntegrand};
 use ppum::crack::{SegmentId, Side};
 use ppum::dataset::{Dataset, Equation, FieldData, NamedQuantity, Reaction, Step, TEMPERATURE};
 use ppum::equation::Moduli;
@@ -20,7 +20,7 @@ use ppum::vec2::{Vec2, vec2};
 const DISPLACEMENT: usize = 2;
 
 /// The face of a crack that a point lies on.
-pub type FacePoint = Option<(SegmentId, Side)>;
+pub type FaceLocation = Option<(SegmentId, Side)>;
 
 /// A temperature that is known, and the body that it strains.
 #[derive(Debug)]
@@ -29,10 +29,10 @@ pub struct Temperature {
     heat: Dataset,
     /// The equation of the body, with the coefficient α of expansion.
     equation: Equation,
-    /// What its solution tells beside the field; nothing of a temperature that is stored.
+    /// The solver's report; empty for a temperature that is stored.
     pub report: SolverReport,
     /// Integrands of its system that were not resolved.
-    pub unresolved: Vec<Unresolved>,
+    pub unresolved: Vec<UnresolvedIntegrand>,
 }
 
 impl Temperature {
@@ -45,7 +45,7 @@ impl Temperature {
         heat: Dataset,
         equation: Equation,
         report: SolverReport,
-        unresolved: Vec<Unresolved>,
+        unresolved: Vec<UnresolvedIntegrand>,
     ) -> Result<Self, FieldError> {
         Field::new(&heat, 0)?;
         Ok(Self { heat, equation, report, unresolved })
@@ -182,7 +182,7 @@ impl TemperatureField<'_> {
     }
 
     /// T with `D` derivatives at a point, on a face if it lies on one. NaN where no patch lies.
-    fn jet<const D: usize>(&self, x: Vec2, face: FacePoint) -> Jet<f64> {
+    fn jet<const D: usize>(&self, x: Vec2, face: FaceLocation) -> Jet<f64> {
         let (mut patches, mut jets) = (Vec::new(), [Jet::constant(f64::NAN)]);
         // also where rounding has put a point of a rim outside the domain
         self.field.tree.query_point(x, &mut patches);
@@ -197,7 +197,7 @@ impl TemperatureField<'_> {
     }
 
     /// The moduli of the body at a point, with the strains of the temperature.
-    pub(super) fn moduli(&self, x: Vec2, face: FacePoint) -> Moduli<f64> {
+    pub(super) fn moduli(&self, x: Vec2, face: FaceLocation) -> Moduli<f64> {
         self.equation.moduli(x, [0.0; 2]).heated(self.jet::<0>(x, face).v)
     }
 

@@ -1,6 +1,6 @@
 //! The stress of a gradient, as tensors: elasticity and Poisson share every line of the assembly.
 
-use super::heat::{FacePoint, Temperature, TemperatureField};
+use super::heat::{FaceLocation, Temperature, TemperatureField};
 use ppum::dataset::Equation;
 use ppum::equation::Moduli;
 use ppum::expression::Expression;
@@ -67,7 +67,7 @@ impl<'e> Law<'e> {
 
     /// The law at a point, on the face of a crack if it lies on one.
     #[must_use]
-    pub fn on(&self, x: Vec2, face: FacePoint) -> LawAt {
+    pub fn on(&self, x: Vec2, face: FaceLocation) -> LawAt {
         let law = self.linear_at(x);
         if !self.has_initial_stress() {
             return law;
@@ -109,7 +109,7 @@ impl<'e> Law<'e> {
         all
     }
 
-    fn moduli(&self, x: Vec2, face: FacePoint) -> Moduli<f64> {
+    fn moduli(&self, x: Vec2, face: FaceLocation) -> Moduli<f64> {
         match &self.temperature {
             Some(heat) => heat.moduli(x, face),
             None => self.equation.moduli(x, [0.0, 0.0]),

@@ -7,23 +7,23 @@
 //! polygons are divided across the direction in which the gradient changes.
 //!
 //! A layer along a side of a piece may be so thin that no Gauss point sees it. Therefore Gauss
-//! rules are also compared with rules that have points as good as on the border. What vanishes at
-//! all points of these rules is not seen.
+//! rules are also compared with rules that have points as good as on the boundary. An integrand
+//! that vanishes at all points of these rules is missed.
 //!
-//! Of loads only the integral of f itself is held, and to a part of all the load: they may be
-//! singular, and vanish almost everywhere. Where division ends before, the error that is left is
-//! a [`Doubt`].
+//! For loads, only the integral of f itself is controlled, relative to the whole load: they may be
+//! singular, and vanish almost everywhere. Where division ends before the tolerance is reached, the
+//! remaining error is recorded as a [`QuadratureError`].
 
-use super::doubt::Doubt;
+use super::error_estimate::QuadratureError;
 use super::gauss::{Rules1d, closed, gauss};
-use super::geometry::{Face, Probes};
+use super::geometry::{CrackFace, Probes};
 use ppum::vec2::Vec2;
 use std::cell::Cell;
 
 /// Differences that are left, relative to the integral over all parts.
 const ACCURACY: f64 = 1e-10;
 
-/// The same for the area of pieces with curved sides.
+/// The accuracy of the area of pieces with curved sides.
 const AREA_ACCURACY: f64 = 1e-8;
 
 /// Most parts that one piece is divided into.
@@ -37,7 +37,7 @@ pub(super) const MOST_DIVISIONS: usize = 10_000;
 const FIRST_CHECK: usize = 32;
 
 /// The share they must come down to. Noise does not get less by division, while the value on a
-/// border of a layer that is still too thin to be seen otherwise counts half at each.
+/// boundary of a layer that is still too thin to be seen otherwise counts half at each.
 const SHARE: f64 = 0.8;
 
 /// Most divisions one inside the other. Halves of halves are rounding before.
@@ -69,7 +69,7 @@ pub(super) trait Subregion: Clone {
 
 /// The integrands that a division has to resolve.
 #[derive(Clone, Copy)]
-pub(super) struct Demand<'a> {
+pub(super) struct IntegrandDemand<'a> {
     /// The functions.
     pub(super) probes: &'a dyn Probes,
     /// Those that are active.
@@ -77,8 +77,8 @@ pub(super) struct Demand<'a> {
     /// Origin of the offsets.
     pub(super) anchor: Vec2,
     /// The face of a crack that the parts lie on, if they are on one.
-    pub(super) face: Option<Face>,
-    /// True if parts have curved borders: then the integral of 1 is held, too.
+    pub(super) face: Option<CrackFace>,
+    /// True if parts have curved boundaries: then the integral of 1 is controlled, too.
     pub(super) curved: bool,
     /// Size of the cell.
     pub(super) size: f64,
@@ -91,14 +91,14 @@ pub(super) struct Demand<'a> {
 }
 
 /// Parts that were divided, and what they do not resolve.
-pub(super) struct Refined<P> {
+pub(super) struct RefinedParts<P> {
     pub(super) regions: Vec<P>,
-    pub(super) doubt: Doubt,
+    pub(super) doubt: QuadratureError,
 }
 
 /// An integral, and the integral of the absolute value.
 #[derive(Clone, Copy, Default)]
-struct Integral {
+struct IntegralPair {
     value: f64,
     size: f64,
 }
@@ -111,7 +111,7 @@ struct SubregionEntry<P> {
     measure: f64,
     /// A point of it.
     at: Vec2,
-    integrals: Vec<Integral>,
+    integrals: Vec<IntegralPair>,
     errors: Vec<f64>,
     divisions: Vec<Division<P>>,
 }
@@ -124,9 +124,12 @@ struct Division<P> {
 
 /// The parts divided until their rules resolve the functions that are demanded; as they are if
 /// division does not help.
-pub(super) fn refined<P: Subregion>(regions: Vec<P>, demand: &Demand<'_>) -> Refined<P> {
+pub(super) fn refined<P: Subregion>(
+    regions: Vec<P>,
+    demand: &IntegrandDemand<'_>,
+) -> RefinedParts<P> {
     if demand.active.is_empty() && !demand.curved {
-        return Refined { regions, doubt: Doubt::default() };
+        return RefinedParts { regions, doubt: QuadratureError::default() };
     }
     let mut entries: Vec<SubregionEntry<P>> =
         regions.iter().map(|region| demand.entry(region.clone(), 0)).collect();
@@ -134,15 +137,18 @@ pub(super) fn refined<P: Subregion>(regions: Vec<P>, demand: &Demand<'_>) -> Ref
     let doubt = demand.doubt(&entries);
     // what is known of a load is kept
     let keep = helped || doubt.load > 0.0;
-    Refined {
+    RefinedParts {
         regions: if keep { entries.into_iter().map(|e| e.region).collect() } else { regions },
         doubt,
     }
 }
 
 /// Divides the worst part again and again; false if errors do not come down.
-fn divide<P: Subregion>(entries: &mut Vec<SubregionEntry<P>>, demand: &Demand<'_>) -> bool {
-    let mut progress = Progress { check: FIRST_CHECK, before: f64::INFINITY };
+fn divide<P: Subregion>(
+    entries: &mut Vec<SubregionEntry<P>>,
+    demand: &IntegrandDemand<'_>,
+) -> bool {
+    let mut progress = ErrorDecay { check: FIRST_CHECK, before: f64::INFINITY };
     while entries.len() < BUDGET && demand.left.get() > 0 {
         let allowed = demand.allowed(entries);
         let Some(at) = worst(entries, &allowed) else { break };
@@ -160,14 +166,14 @@ fn divide<P: Subregion>(entries: &mut Vec<SubregionEntry<P>>, demand: &Demand<'_
 }
 
 /// Watches whether errors come down.
-struct Progress {
+struct ErrorDecay {
     /// Number of parts to look at next.
     check: usize,
     /// Error at the last look.
     before: f64,
 }
 
-impl Progress {
+impl ErrorDecay {
     fn has_stopped(&mut self, regions: usize, error: impl FnOnce() -> f64) -> bool {
         if regions < self.check {
             return false;
@@ -215,21 +221,21 @@ impl<P> SubregionEntry<P> {
 }
 
 /// Integrals by two rules.
-struct Sums {
-    gauss: Vec<Integral>,
-    closed: Vec<Integral>,
+struct RuleSums {
+    gauss: Vec<IntegralPair>,
+    closed: Vec<IntegralPair>,
 }
 
-impl Sums {
-    /// Of each integral the larger one.
-    fn larger(self) -> Vec<Integral> {
-        let larger = |(a, b): (Integral, Integral)| if a.size >= b.size { a } else { b };
+impl RuleSums {
+    /// Returns the larger one for each integral.
+    fn larger(self) -> Vec<IntegralPair> {
+        let larger = |(a, b): (IntegralPair, IntegralPair)| if a.size >= b.size { a } else { b };
         self.gauss.into_iter().zip(self.closed).map(larger).collect()
     }
 }
 
 /// Differences of values.
-fn differences(a: &[Integral], b: &[Integral]) -> Vec<f64> {
+fn differences(a: &[IntegralPair], b: &[IntegralPair]) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| (a.value - b.value).abs()).collect()
 }
 
@@ -240,14 +246,14 @@ fn larger(a: Vec<f64>, b: &[f64]) -> Vec<f64> {
 
 /// Samples of functions at points with weights.
 #[derive(Default)]
-struct Samples {
+struct IntegrandSamples {
     offsets: Vec<Vec2>,
     weights: Vec<f64>,
     /// Function after function.
     values: Vec<[f64; 3]>,
 }
 
-impl Samples {
+impl IntegrandSamples {
     fn of(&self, function: usize) -> impl Iterator<Item = (f64, [f64; 3])> + '_ {
         let n = self.offsets.len();
         let values = &self.values[function * n..(function + 1) * n];
@@ -255,10 +261,10 @@ impl Samples {
     }
 }
 
-impl Demand<'_> {
+impl IntegrandDemand<'_> {
     fn entry<P: Subregion>(&self, region: P, depth: usize) -> SubregionEntry<P> {
         let (inside, border) = (self.samples(&region, gauss), self.samples(&region, closed));
-        let whole = Sums { gauss: self.integrals(&inside), closed: self.integrals(&border) };
+        let whole = RuleSums { gauss: self.integrals(&inside), closed: self.integrals(&border) };
         let mut errors = differences(&whole.gauss, &whole.closed);
         let hidden = errors.iter().zip(&whole.gauss).any(|(e, i)| *e > ACCURACY * i.size);
         let ways = if depth < DEPTH {
@@ -304,19 +310,19 @@ impl Demand<'_> {
     }
 
     /// Errors that parts leave.
-    fn doubt<P>(&self, entries: &[SubregionEntry<P>]) -> Doubt {
+    fn doubt<P>(&self, entries: &[SubregionEntry<P>]) -> QuadratureError {
         let allowed = self.allowed(entries);
         let cut = entries.len() >= BUDGET || self.left.get() == 0;
-        let mut doubt = Doubt::default();
+        let mut doubt = QuadratureError::default();
         for (k, allowed) in allowed.iter().enumerate() {
             let error: f64 = entries.iter().map(|e| e.errors[k]).sum();
             let worst = entries.iter().max_by(|a, b| a.errors[k].total_cmp(&b.errors[k]));
             let Some(worst) = worst.filter(|_| error > *allowed) else { continue };
             let is_load = self.active.get(k / 3).is_some_and(|&f| self.probes.load(f).is_some());
             if is_load {
-                doubt.add(&Doubt::of_load(error, worst.at));
+                doubt.add(&QuadratureError::of_load(error, worst.at));
             } else if cut {
-                doubt.add(&Doubt::of_functions(ACCURACY * error / allowed, worst.at));
+                doubt.add(&QuadratureError::of_functions(ACCURACY * error / allowed, worst.at));
             }
         }
         doubt
@@ -327,8 +333,8 @@ impl Demand<'_> {
     }
 
     /// The functions at the points of a rule of a part.
-    fn samples<P: Subregion>(&self, region: &P, rules: Rules1d) -> Samples {
-        let mut samples = Samples::default();
+    fn samples<P: Subregion>(&self, region: &P, rules: Rules1d) -> IntegrandSamples {
+        let mut samples = IntegrandSamples::default();
         region.nodes(rules, self.points, &mut |x, w| {
             samples.offsets.push(x);
             samples.weights.push(w);
@@ -339,26 +345,26 @@ impl Demand<'_> {
         samples
     }
 
-    /// The integrals of f, f² and |∇f|² of each function, and of 1 if borders are curved.
-    fn integrals(&self, samples: &Samples) -> Vec<Integral> {
+    /// The integrals of f, f² and |∇f|² of each function, and of 1 if boundaries are curved.
+    fn integrals(&self, samples: &IntegrandSamples) -> Vec<IntegralPair> {
         let mut all = Vec::with_capacity(3 * self.active.len() + 1);
         for k in 0..self.active.len() {
-            let mut three = [Integral::default(); 3];
+            let mut three = [IntegralPair::default(); 3];
             samples.of(k).for_each(|(w, q)| add(&mut three, w, q));
             if self.probes.load(self.active[k]).is_some() {
-                three[1..].fill(Integral::default());
+                three[1..].fill(IntegralPair::default());
             }
             all.extend(three);
         }
         if self.curved {
             let area = samples.weights.iter().sum();
-            all.push(Integral { value: area, size: area });
+            all.push(IntegralPair { value: area, size: area });
         }
         all
     }
 
     /// The integrals over two parts together.
-    fn sums<P: Subregion>(&self, regions: &[P; 2], rules: Rules1d) -> Vec<Integral> {
+    fn sums<P: Subregion>(&self, regions: &[P; 2], rules: Rules1d) -> Vec<IntegralPair> {
         let [mut sums, other] =
             regions.each_ref().map(|region| self.integrals(&self.samples(region, rules)));
         for (sum, other) in sums.iter_mut().zip(other) {
@@ -386,7 +392,7 @@ impl Demand<'_> {
 
     /// For each function the direction in which its gradient changes most, if there is one; and the
     /// direction across the first, unless it changes in that one alone.
-    fn directions(&self, samples: [&Samples; 2]) -> Vec<Vec2> {
+    fn directions(&self, samples: [&IntegrandSamples; 2]) -> Vec<Vec2> {
         let (mut directions, mut ridges): (Vec<Vec2>, bool) = (Vec::new(), true);
         for k in 0..self.active.len() {
             let jets = samples.iter().flat_map(|s| s.of(k));
@@ -409,7 +415,7 @@ impl Demand<'_> {
 }
 
 /// Adds weight times f, f² and |∇f|², as far as they are numbers.
-fn add(sums: &mut [Integral; 3], weight: f64, [f, x, y]: [f64; 3]) {
+fn add(sums: &mut [IntegralPair; 3], weight: f64, [f, x, y]: [f64; 3]) {
     let something = |v: f64| if v.abs() > NOTHING { v } else { 0.0 };
     let (f, g) = (something(f), something(x.hypot(y)));
     for (sum, value) in sums.iter_mut().zip([f, f * f, g * g]) {

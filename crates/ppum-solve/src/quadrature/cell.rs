@@ -1,14 +1,15 @@
 //! Rules on cells.
 
-use super::geometry::{Geometry, Kink, LevelFunction, Singular};
-use super::orders::{Active, Orders};
-use super::polygon::{Polygon, SegmentCut, line_side};
-use super::rule::{Rule, Rules};
+use super::geometry::{KinkLine, LevelFunction, Singularity, SmoothnessGeometry};
+use super::orders::{ActiveFunctions, Orders};
+use super::polygon::{ConvexPolygon, SegmentCut, line_side};
+use super::rule::{CellRule, Rules};
 use super::singular::PieceQuadrature;
 use super::split::TOLERANCE;
 use super::{adapt, curve, holes, split};
 use ppum::crack::Crack;
-use ppum::domain::Hole;
+use ppum::dataset::BoxPartition;
+use ppum::domain::{Domain, Hole};
 use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::is_on_rim;
@@ -24,11 +25,11 @@ pub(super) const SAME_POINT: f64 = 1e-9;
 /// The rules of a step's cells.
 #[derive(Clone)]
 pub struct Quadrature<'a> {
-    pub(super) geometry: Geometry<'a>,
+    pub(super) geometry: SmoothnessGeometry<'a>,
     pub(super) orders: Orders,
     /// Segments of cracks and sides of holes.
     segments: Vec<SegmentCut>,
-    /// Segments of cracks on sides of holes, which cut nothing.
+    /// Segments of cracks on the boundary, which is no other part where it is a face of a crack.
     pub(super) faces: Vec<Segment>,
     /// Round rims: at least as many as there are round holes.
     pub(super) circles: Vec<Arc<LevelFunction>>,
@@ -56,7 +57,7 @@ pub struct Disc {
 }
 
 impl Disc {
-    /// The same number of points on all pieces.
+    /// Makes a rule with the same number of points on all pieces.
     #[cfg(test)]
     pub(super) fn even(center: Vec2, radius: f64, order: usize) -> Self {
         Self { center, radius, scale: radius, order, least: order }
@@ -69,14 +70,25 @@ impl Disc {
     }
 }
 
+/// The box around all cells.
+fn box_around(partition: &BoxPartition) -> Option<Domain> {
+    partition.cell.iter().copied().reduce(|all, cell| all.union(&cell)).map(Domain::from)
+}
+
 impl<'a> Quadrature<'a> {
     /// The quadrature for a geometry.
     #[must_use]
-    pub(crate) fn new(geometry: Geometry<'a>, orders: Orders) -> Self {
+    pub(crate) fn new(geometry: SmoothnessGeometry<'a>, orders: Orders) -> Self {
         let sides = geometry.holes.iter().flat_map(Hole::sides).map(SegmentCut::segment);
         let (on_rims, inside): (Vec<&Crack>, Vec<&Crack>) =
             geometry.cracks.iter().partition(|crack| is_on_rim(crack, geometry.holes));
-        let faces = on_rims.into_iter().flat_map(cuts).map(|cut| cut.ends).collect();
+        let edges = box_around(geometry.partition);
+        let is_on_edge = |crack: &&Crack| {
+            edges.as_ref().is_some_and(|all| all.line_along(&crack.points).is_some())
+        };
+        let on_edges = inside.iter().copied().filter(is_on_edge);
+        let faces = on_rims.into_iter().chain(on_edges).flat_map(cuts);
+        let faces = faces.map(|cut| cut.ends).collect();
         let segments = inside.into_iter().flat_map(cuts).chain(sides).collect();
         let circles = geometry.holes.iter().filter_map(holes::level).collect();
         let round = geometry.holes.iter().filter(|hole| matches!(hole, Hole::Circle { .. }));
@@ -86,27 +98,27 @@ impl<'a> Quadrature<'a> {
         Self { geometry, orders, segments, faces, circles, boxes, circle_boxes, divisions }
     }
 
-    /// The same with fewer divisions of a cell where formulas are probed.
+    /// Returns the quadrature with fewer divisions of a cell where formulas are probed.
     #[must_use]
     pub fn with_divisions(self, most: usize) -> Self {
         Self { divisions: most.min(self.divisions), ..self }
     }
 
-    /// The rules on a cell. `coverers` are the patches whose open supports meet the cell; more of
-    /// them do no harm.
+    /// The rules on a cell. `covering_patches` are the patches whose open supports meet the cell;
+    /// more of them do no harm.
     #[must_use]
-    pub(crate) fn cell(&self, cell: &Rect, coverers: &[u32]) -> Vec<Rule> {
-        self.rules(cell, coverers, self.orders, None)
+    pub(crate) fn cell(&self, cell: &Rect, covering_patches: &[u32]) -> Vec<CellRule> {
+        self.rules(cell, covering_patches, self.orders, None)
     }
 
-    /// True if nothing cuts a cell but borders of patches, and all that multiplies their weights is
+    /// True if nothing but boundaries of patches cuts a cell, and all factors of their weights are
     /// smooth there.
     #[must_use]
-    pub(crate) fn is_whole(&self, cell: &Rect, coverers: &[u32]) -> bool {
-        let Geometry { common_kinks, common_probes, .. } = self.geometry;
+    pub(crate) fn is_whole(&self, cell: &Rect, covering_patches: &[u32]) -> bool {
+        let SmoothnessGeometry { common_kinks, common_probes, .. } = self.geometry;
         common_kinks.is_empty()
             && common_probes.is_empty()
-            && self.geometry.is_smooth(coverers)
+            && self.geometry.is_smooth(covering_patches)
             && self.cuts_near(cell).next().is_none()
             && !self.boxes.iter().any(|hole| hole.overlaps(cell))
     }
@@ -118,7 +130,7 @@ impl<'a> Quadrature<'a> {
     /// and must vanish outside the disc: of the cell the part inside the disc's bounding square is
     /// integrated. The anchor is the centre wherever no other singular point is near.
     #[must_use]
-    pub fn disc(&self, cell: &Rect, coverers: &[u32], disc: Disc) -> Vec<Rule> {
+    pub fn disc(&self, cell: &Rect, covering_patches: &[u32], disc: Disc) -> Vec<CellRule> {
         let part = cell.intersection(&Rect::around(disc.center, vec2(disc.radius, disc.radius)));
         let size = part.size();
         if size.x <= 0.0 || size.y <= 0.0 {
@@ -126,16 +138,16 @@ impl<'a> Quadrature<'a> {
         }
         let overlap = disc.order.max(self.orders.overlap);
         let orders = Orders { overlap, parts: self.orders.parts, ..Orders::uniform(disc.order) };
-        self.rules(&part, coverers, orders, Some(disc))
+        self.rules(&part, covering_patches, orders, Some(disc))
     }
 
     fn rules(
         &self,
         cell: &Rect,
-        coverers: &[u32],
+        covering_patches: &[u32],
         orders: Orders,
         disc: Option<Disc>,
-    ) -> Vec<Rule> {
+    ) -> Vec<CellRule> {
         let segments = self.cuts_near(cell).collect();
         let boxes = self.boxes.iter().zip(self.geometry.holes);
         let holes = boxes.filter(|(b, _)| b.overlaps(cell)).map(|(_, hole)| hole).collect();
@@ -145,7 +157,7 @@ impl<'a> Quadrature<'a> {
         let quadrature = self;
         let mut run =
             CellIntegration { quadrature, cell, orders, disc, segments, holes, least, rules, left };
-        let mut sorted = coverers.to_vec();
+        let mut sorted = covering_patches.to_vec();
         sorted.sort_unstable();
         let partition = self.geometry.partition;
         split::rectangles(partition, orders.parts, cell, &sorted, &mut |rect, patches| {
@@ -220,7 +232,7 @@ impl CellIntegration<'_> {
         let circles = self.quadrature.circles.iter().zip(&self.quadrature.circle_boxes);
         let near = circles.filter(|(_, b)| b.overlaps(rect)).map(|(level, _)| level.as_ref());
         curves.extend(near.filter(|&level| curve::may_meet(level, rect)));
-        let order = self.orders.choose(&Active {
+        let order = self.orders.choose(&ActiveFunctions {
             patches: patches.len(),
             distance: nearest / diameter,
             kinks: geometry.has_kinks(patches) || !curves.is_empty(),
@@ -252,26 +264,26 @@ impl CellIntegration<'_> {
 
     /// The rectangle cut by the segments that meet it and by straight kinks, relative to
     /// the anchor.
-    fn cut(&self, rect: &Rect, anchor: Vec2, kinks: &[&Kink]) -> Vec<Polygon> {
+    fn cut(&self, rect: &Rect, anchor: Vec2, kinks: &[&KinkLine]) -> Vec<ConvexPolygon> {
         let meets = |cut: &&SegmentCut| meets(rect, cut.ends[0], cut.ends[1]);
         let meeting = self.segments.iter().filter(meets).copied();
         let straight = kinks.iter().filter_map(|kink| straight_cut(kink, rect));
         let cuts: Vec<_> = meeting.chain(straight).map(|cut| cut.seen_from(anchor)).collect();
-        Polygon(rect.corners().map(|p| p - anchor).to_vec()).pieces(&cuts, self.least)
+        ConvexPolygon(rect.corners().map(|p| p - anchor).to_vec()).pieces(&cuts, self.least)
     }
 
     /// The distinct singular points, the nearest first.
-    fn singular_points(&self, rect: &Rect, patches: &[u32]) -> Vec<Singular> {
+    fn singular_points(&self, rect: &Rect, patches: &[u32]) -> Vec<Singularity> {
         let mut points = self.quadrature.geometry.singular_points(patches);
-        points.extend(self.disc.map(|d| Singular::tip(d.center)));
+        points.extend(self.disc.map(|d| Singularity::tip(d.center)));
         points.sort_by(|a, b| rect.distance(a.point).total_cmp(&rect.distance(b.point)));
         distinct(points, SAME_POINT * rect.size().length())
     }
 }
 
 /// Points without those that are not apart from one before them, which takes their growth.
-pub(super) fn distinct(points: Vec<Singular>, apart: f64) -> Vec<Singular> {
-    let mut distinct: Vec<Singular> = Vec::new();
+pub(super) fn distinct(points: Vec<Singularity>, apart: f64) -> Vec<Singularity> {
+    let mut distinct: Vec<Singularity> = Vec::new();
     for p in points {
         match distinct.iter_mut().find(|q| (p.point - q.point).length() <= apart) {
             Some(known) => known.growth = known.growth.and(p.growth),
@@ -282,15 +294,15 @@ pub(super) fn distinct(points: Vec<Singular>, apart: f64) -> Vec<Singular> {
 }
 
 /// The cut of a straight kink through a rectangle, if it meets that.
-pub(super) fn straight_cut(kink: &Kink, rect: &Rect) -> Option<SegmentCut> {
+pub(super) fn straight_cut(kink: &KinkLine, rect: &Rect) -> Option<SegmentCut> {
     match *kink {
-        Kink::Line(line) => Some(SegmentCut::line(line)),
-        Kink::Segment([a, b]) => meets(rect, a, b).then_some(SegmentCut::segment([a, b])),
-        Kink::Curve(_) => None,
+        KinkLine::Line(line) => Some(SegmentCut::line(line)),
+        KinkLine::Segment([a, b]) => meets(rect, a, b).then_some(SegmentCut::segment([a, b])),
+        KinkLine::Curve(_) => None,
     }
 }
 
-impl Kink {
+impl KinkLine {
     /// False if it certainly stays away from a rectangle.
     pub(crate) fn may_meet(&self, rect: &Rect) -> bool {
         match self {
@@ -305,9 +317,9 @@ impl Kink {
 }
 
 /// The level functions of the curved kinks that may meet a rectangle.
-fn curves_near<'k>(kinks: &[&'k Kink], rect: &Rect) -> Vec<&'k LevelFunction> {
+fn curves_near<'k>(kinks: &[&'k KinkLine], rect: &Rect) -> Vec<&'k LevelFunction> {
     let levels = kinks.iter().filter_map(|kink| match *kink {
-        Kink::Curve(level) => Some(level.as_ref()),
+        KinkLine::Curve(level) => Some(level.as_ref()),
         _ => None,
     });
     levels.filter(|&level| curve::may_meet(level, rect)).collect()

@@ -1,9 +1,9 @@
 //! Smooth maps of rectangles onto pieces: what tensor Gauss rules and curves are laid out in.
 
 use super::gauss::{MAX_POINTS, Rules1d};
-use super::geometry::{Grading, LevelFunction};
-use super::polygon::Polygon;
-use super::roots::{tame, zero};
+use super::geometry::{LevelFunction, RayGrading};
+use super::polygon::ConvexPolygon;
+use super::roots::{clamp_non_finite, zero};
 use super::split::component;
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::rc::Rc;
@@ -17,13 +17,13 @@ pub(super) const UNIT: Rect = Rect::new(Vec2::ZERO, vec2(1.0, 1.0));
 
 /// A map from coordinates (s, t) to offsets from an anchor, with a positive Jacobian.
 #[derive(Clone)]
-pub(super) enum Chart<'c> {
+pub(super) enum CellChart<'c> {
     /// The bilinear map of the unit square; a triangle is the case of two equal corners.
     Quadrilateral([Vec2; 4]),
     /// A triangle seen from a singular point.
     Apex(Apex),
     /// A part of another chart on one side of a curve.
-    Strip(Strip<'c>),
+    Strip(CurveStrip<'c>),
 }
 
 /// The triangle between the anchor and an edge, with s = u along the edge, x = foot + d sinh u at
@@ -33,14 +33,14 @@ pub(super) struct Apex {
     pub(super) foot: Vec2,
     pub(super) tangent: Vec2,
     pub(super) height: f64,
-    pub(super) grading: Grading,
+    pub(super) grading: RayGrading,
 }
 
 /// The part of a chart's window below or above a curve. In one axis, the height, the unit interval
-/// is the way from the window's border to the curve or on to the opposite border; the other axis,
-/// the base, keeps its direction.
+/// is the way from the window's boundary to the curve or on to the opposite boundary; the other
+/// axis, the base, keeps its direction.
 #[derive(Clone)]
-pub(super) struct Strip<'c> {
+pub(super) struct CurveStrip<'c> {
     pub(super) level: LevelOn<'c>,
     pub(super) window: Rect,
     pub(super) height: usize,
@@ -50,7 +50,7 @@ pub(super) struct Strip<'c> {
 /// A level function seen through a chart.
 #[derive(Clone)]
 pub(super) struct LevelOn<'c> {
-    pub(super) chart: Rc<Chart<'c>>,
+    pub(super) chart: Rc<CellChart<'c>>,
     pub(super) anchor: Vec2,
     pub(super) level: &'c LevelFunction,
 }
@@ -64,11 +64,11 @@ impl LevelOn<'_> {
     /// The place that coordinates of the chart stand for, and the function's value there.
     pub(super) fn sample(&self, p: [f64; 2]) -> (Vec2, f64) {
         let place = self.anchor + self.chart.at(p).0;
-        (place, tame((self.level)(place)))
+        (place, clamp_non_finite((self.level)(place)))
     }
 }
 
-impl Chart<'_> {
+impl CellChart<'_> {
     /// The offset of a point, and the Jacobian there.
     pub(super) fn at(&self, p: [f64; 2]) -> (Vec2, f64) {
         match self {
@@ -124,7 +124,7 @@ impl Chart<'_> {
     /// in space.
     pub(super) fn between(&self, axis: usize, (lo, hi): (f64, f64), part: f64) -> f64 {
         match self {
-            Self::Apex(Apex { grading: Grading { power, .. }, .. }) if axis == 1 => {
+            Self::Apex(Apex { grading: RayGrading { power, .. }, .. }) if axis == 1 => {
                 let (from, to) = (lo.powf(*power), hi.powf(*power));
                 (from + (to - from) * part).powf(1.0 / power).clamp(lo, hi)
             }
@@ -167,7 +167,7 @@ impl Apex {
     }
 }
 
-impl Strip<'_> {
+impl CurveStrip<'_> {
     /// The interval of the height at a place of the base.
     fn span(&self, base: f64) -> [f64; 2] {
         let (lo, hi) = range(&self.window, self.height);
@@ -202,9 +202,11 @@ impl Strip<'_> {
 }
 
 /// Charts of a convex polygon on the unit square.
-pub(super) fn quadrilaterals<'c>(polygon: &Polygon) -> impl Iterator<Item = Chart<'c>> + '_ {
+pub(super) fn quadrilaterals<'c>(
+    polygon: &ConvexPolygon,
+) -> impl Iterator<Item = CellChart<'c>> + '_ {
     let v = &polygon.0;
     (1..v.len() - 1)
         .step_by(2)
-        .map(|k| Chart::Quadrilateral([v[0], v[k], v[k + 1], v[(k + 2).min(v.len() - 1)]]))
+        .map(|k| CellChart::Quadrilateral([v[0], v[k], v[k + 1], v[(k + 2).min(v.len() - 1)]]))
 }

@@ -1,16 +1,16 @@
 //! Cutting windows of charts along curves.
 //!
 //! A curve ψ = 0 that runs across a window as a graph over one of its axes divides it into strips
-//! whose borders are the curve itself, found by a root on each line of Gauss points: no chord, no
-//! order of the geometry, the rule is as good as the functions are smooth along the curve (after
+//! whose boundaries are the curve itself, found by a root on each line of Gauss points: no chord,
+//! no order of the geometry, the rule is as good as the functions are smooth along the curve (after
 //! Saye, "High-order quadrature methods for implicitly defined surfaces and volumes in
 //! hyperrectangles", SIAM J. Sci. Comput. 37 (2015)). Windows in which no axis will do are divided
 //! into four.
 //!
-//! The curve is known by samples only. What is smaller than a sixteenth of a piece and nowhere
-//! shows in the level function's course, its differences and extrema, is not seen.
+//! The curve is known by samples only. A feature smaller than a sixteenth of a piece is missed if
+//! it shows neither in the values of the level function nor in their differences and extrema.
 
-use super::chart::{Chart, LevelOn, Strip, UNIT, range};
+use super::chart::{CellChart, CurveStrip, LevelOn, UNIT, range};
 use super::geometry::LevelFunction;
 use super::roots::{ZERO, sign_changes};
 use super::split::{TOLERANCE, breaks};
@@ -53,12 +53,12 @@ const LOOKS: usize = 1000;
 /// A rectangle in the coordinates of a chart.
 #[derive(Clone)]
 pub(super) struct ChartWindow<'c> {
-    pub(super) chart: Rc<Chart<'c>>,
+    pub(super) chart: Rc<CellChart<'c>>,
     pub(super) range: Rect,
 }
 
 impl<'c> ChartWindow<'c> {
-    pub(super) fn whole(chart: Chart<'c>) -> Self {
+    pub(super) fn whole(chart: CellChart<'c>) -> Self {
         Self { chart: Rc::new(chart), range: UNIT }
     }
 
@@ -129,7 +129,7 @@ struct AnchoredLevel<'c> {
 /// False if samples say that the curve stays well away from a rectangle.
 pub(crate) fn may_meet(level: &LevelFunction, rect: &Rect) -> bool {
     let corners = [rect.min, vec2(rect.max.x, rect.min.y), rect.max, vec2(rect.min.x, rect.max.y)];
-    let chart = Rc::new(Chart::Quadrilateral(corners.map(|p| p - rect.min)));
+    let chart = Rc::new(CellChart::Quadrilateral(corners.map(|p| p - rect.min)));
     let level = LevelOn { chart, anchor: rect.min, level };
     let window = ChartWindow { chart: Rc::clone(&level.chart), range: UNIT };
     !LevelGrid::new(&level, &window, COARSE, 0.0).is_clear()
@@ -196,7 +196,7 @@ fn strips<'c>(
             any = true;
             parts.extend([false, true].map(|above| {
                 let (level, window) = (level.clone(), part.range);
-                ChartWindow::whole(Chart::Strip(Strip { level, window, height, above }))
+                ChartWindow::whole(CellChart::Strip(CurveStrip { level, window, height, above }))
             }));
         } else {
             parts.push(part);

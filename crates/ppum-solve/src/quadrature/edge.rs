@@ -1,17 +1,17 @@
 //! Rules along segments: parts of the boundary, faces of cracks.
 
-use super::adapt::{Demand, Refined, Subregion as _, refined};
+use super::adapt::{IntegrandDemand, RefinedParts, Subregion as _, refined};
 use super::cell::{Quadrature, SAME_POINT, distinct, straight_cut};
-use super::doubt::Doubt;
+use super::error_estimate::QuadratureError;
 use super::gauss::gauss;
-use super::geometry::{Face, Kink, LevelFunction, Singular};
-use super::orders::Active;
+use super::geometry::{CrackFace, KinkLine, LevelFunction, Singularity};
+use super::orders::ActiveFunctions;
 use super::polygon::SegmentCut;
 use super::polygon::line_side;
-use super::roots::{ZERO, sign_changes, tame};
+use super::roots::{ZERO, clamp_non_finite, sign_changes};
 use super::singular::panels;
 use super::split::{TOLERANCE, breaks, component, divided, kinks, varies};
-use super::stretch::{Path, Stretch};
+use super::stretch::{LineParameter, Stretch};
 use ppum::border::{TOUCH, touch};
 use ppum::crack::Side;
 use ppum::segment::Segment;
@@ -25,7 +25,7 @@ const ON_LINE: f64 = 1e-14;
 /// Rounding of coordinates, as a part of them.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Distance behind a border, in units of a cell, at which it is asked whether there is a hole.
+/// Distance behind a boundary, in units of a cell, at which it is asked whether there is a hole.
 const INWARD: f64 = 1e-9;
 
 /// A rule on the part of a segment in one cell on which one set of patches is active.
@@ -44,15 +44,15 @@ pub struct EdgeRule {
     pub normals: Vec<Vec2>,
     /// The face that the points lie on, if they are on one. Rounding may put them on either side of
     /// the crack: what has sides there takes that of the face.
-    pub face: Option<Face>,
+    pub face: Option<CrackFace>,
     /// Errors that the points leave.
-    pub doubt: Doubt,
+    pub doubt: QuadratureError,
 }
 
 impl EdgeRule {
     pub(super) fn empty(anchor: Vec2, patches: &[u32]) -> Self {
         let (offsets, weights, normals) = (Vec::new(), Vec::new(), Vec::new());
-        let doubt = Doubt::default();
+        let doubt = QuadratureError::default();
         Self { anchor, offsets, weights, patches: patches.to_vec(), normals, face: None, doubt }
     }
 
@@ -64,7 +64,7 @@ impl EdgeRule {
 }
 
 impl Quadrature<'_> {
-    /// False if behind a point of a border, where the normal comes from, there is a hole.
+    /// False if behind a point of a boundary, where the normal comes from, there is a hole.
     pub(super) fn is_solid(&self, cell: &Rect, p: Vec2, normal: Vec2) -> bool {
         let behind = p - normal * (INWARD * cell.size().length());
         !self.geometry.holes.iter().any(|hole| hole.contains(behind))
@@ -75,48 +75,53 @@ impl Quadrature<'_> {
     /// # Panics
     /// If there is no such segment.
     #[must_use]
-    pub(crate) fn face(&self, cell: &Rect, coverers: &[u32], face: Face) -> Vec<EdgeRule> {
-        self.part_of_face(cell, coverers, face.ends(self.geometry.cracks), face)
+    pub(crate) fn face(
+        &self,
+        cell: &Rect,
+        covering_patches: &[u32],
+        face: CrackFace,
+    ) -> Vec<EdgeRule> {
+        self.part_of_face(cell, covering_patches, face.ends(self.geometry.cracks), face)
     }
 
-    /// The same along the part of a face between two points of its segment.
+    /// Returns the rule along the part of a face between two points of its segment.
     #[must_use]
     pub fn part_of_face(
         &self,
         cell: &Rect,
-        coverers: &[u32],
+        covering_patches: &[u32],
         part: [Vec2; 2],
-        face: Face,
+        face: CrackFace,
     ) -> Vec<EdgeRule> {
         let ends = face.ends(self.geometry.cracks);
         let left = (ends[1] - ends[0]).unit().left();
         let normal = if face.side == Side::Above { -left } else { left };
-        self.along(cell, coverers, EdgeLine::new(cell.center(), part, normal), Some(face))
+        self.along(cell, covering_patches, EdgeLine::new(cell.center(), part, normal), Some(face))
     }
 
     /// Rules on the part of a straight segment that belongs to a cell; empty if none does.
     ///
     /// `normal` is the segment's unit normal out of the material. Parts without material behind
     /// them count for nothing, and neither do faces of cracks on it. A segment along a cell's
-    /// border belongs to the cell that `normal` points out of. `coverers` are the patches whose
-    /// open supports meet the cell; more of them do no harm.
+    /// boundary belongs to the cell that `normal` points out of. `covering_patches` are the patches
+    /// whose open supports meet the cell; more of them do no harm.
     #[must_use]
     pub(crate) fn edge(
         &self,
         cell: &Rect,
-        coverers: &[u32],
+        covering_patches: &[u32],
         ends: [Vec2; 2],
         normal: Vec2,
     ) -> Vec<EdgeRule> {
-        self.along(cell, coverers, EdgeLine::new(cell.center(), ends, normal), None)
+        self.along(cell, covering_patches, EdgeLine::new(cell.center(), ends, normal), None)
     }
 
     fn along(
         &self,
         cell: &Rect,
-        coverers: &[u32],
+        covering_patches: &[u32],
         line: EdgeLine,
-        face: Option<Face>,
+        face: Option<CrackFace>,
     ) -> Vec<EdgeRule> {
         let tolerance = TOLERANCE * cell.size().length();
         let counts = |(lo, hi): &(f64, f64)| hi - lo > tolerance && line.belongs_to(cell);
@@ -136,7 +141,9 @@ impl Quadrature<'_> {
             None => self.faces.iter().filter_map(|face| run.line.range_of(*face)).collect(),
             Some(_) => Vec::new(),
         };
-        without([lo, hi], &faces).into_iter().for_each(|[lo, hi]| run.add(lo, hi, coverers));
+        without([lo, hi], &faces)
+            .into_iter()
+            .for_each(|[lo, hi]| run.add(lo, hi, covering_patches));
         run.rules
     }
 }
@@ -159,7 +166,7 @@ impl EdgeLine {
     fn new(anchor: Vec2, segment: [Vec2; 2], normal: Vec2) -> Self {
         let [from, to] = segment.map(|p| p - anchor);
         let tangent = (segment[1] - segment[0]).unit();
-        // the nearer end: the line passes through it but for the rounding of a short way
+        // the nearer end: the line passes through it except for the rounding of a short way
         let near = if from.length() < to.length() { from } else { to };
         let foot = tangent.left() * tangent.left().dot(near);
         let ends = [tangent.dot(from), tangent.dot(to)];
@@ -169,7 +176,7 @@ impl EdgeLine {
     }
 
     /// The part of \[ends\] inside a box, if it has a length, however short: boxes of different
-    /// sizes must agree. A line along a border is inside for a positive `slack`, a distance.
+    /// sizes must agree. A line along a boundary is inside for a positive `slack`, a distance.
     fn inside(&self, rect: &Rect, ends: [f64; 2], slack: f64) -> Option<(f64, f64)> {
         let [mut lo, mut hi] = ends;
         let main = usize::from(self.tangent.y.abs() > self.tangent.x.abs());
@@ -187,7 +194,7 @@ impl EdgeLine {
         (hi > lo).then_some((lo, hi))
     }
 
-    /// The borders of a box across an axis, relative to the anchor.
+    /// The lower and the upper end of a box along an axis, relative to the anchor.
     fn borders(&self, rect: &Rect, axis: usize) -> (f64, f64) {
         (component(rect.min - self.anchor, axis), component(rect.max - self.anchor, axis))
     }
@@ -200,7 +207,7 @@ impl EdgeLine {
         ((to - from).abs() <= self.slack).then_some(middle)
     }
 
-    /// False if the line runs along a border of the box and the normal points into it.
+    /// False if the line runs along a boundary of the box and the normal points into it.
     fn belongs_to(&self, rect: &Rect) -> bool {
         let points_in = |axis: usize| {
             let Some(at) = self.level(axis) else { return false };
@@ -215,8 +222,9 @@ impl EdgeLine {
         (component(self.tangent, axis) != 0.0).then(|| self.crossing(axis, at))
     }
 
-    /// The same on a line that is not across the axis. Counted from the nearer end of the segment,
-    /// so that all cells find the same point, however small the angle to their border.
+    /// Returns the arc length at which a segment that is not across the axis crosses a line. It is
+    /// counted from the nearer end of the segment, so that all cells find the same point, however
+    /// small the angle to their boundary.
     fn crossing(&self, axis: usize, at: f64) -> f64 {
         let ways = self.segment.map(|end| at - component(end, axis));
         let k = usize::from(ways[1].abs() < ways[0].abs());
@@ -242,7 +250,7 @@ struct LineIntegration<'a> {
     quadrature: &'a Quadrature<'a>,
     line: EdgeLine,
     /// The face that the line lies on, if it is on one.
-    face: Option<Face>,
+    face: Option<CrackFace>,
     tolerance: f64,
     cell: &'a Rect,
     rules: Vec<EdgeRule>,
@@ -251,10 +259,10 @@ struct LineIntegration<'a> {
 }
 
 impl LineIntegration<'_> {
-    /// Splits at the borders of supports.
-    fn add(&mut self, lo: f64, hi: f64, coverers: &[u32]) {
+    /// Splits at the boundaries of supports.
+    fn add(&mut self, lo: f64, hi: f64, covering_patches: &[u32]) {
         let partition = self.quadrature.geometry.partition;
-        let covered: Vec<(u32, (f64, f64))> = coverers
+        let covered: Vec<(u32, (f64, f64))> = covering_patches
             .iter()
             .filter_map(|&i| {
                 let support = partition.support(i as usize);
@@ -297,7 +305,7 @@ impl LineIntegration<'_> {
     }
 
     /// Crossings of the line with crack segments that meet the cell, and with kinks.
-    fn crossings(&self, lo: f64, hi: f64, kinks: &[&Kink]) -> Vec<f64> {
+    fn crossings(&self, lo: f64, hi: f64, kinks: &[&KinkLine]) -> Vec<f64> {
         let point = |s: f64| self.line.foot + self.line.tangent * s;
         let crossing = |cut: SegmentCut| {
             let cut = cut.seen_from(self.line.anchor);
@@ -310,7 +318,7 @@ impl LineIntegration<'_> {
         let others = others.filter(|cut| cut.ends != self.line.segment);
         let lines = others.chain(straight);
         let levels = kinks.iter().filter_map(|kink| match kink {
-            Kink::Curve(level) => Some(level),
+            KinkLine::Curve(level) => Some(level),
             _ => None,
         });
         let curved = levels
@@ -321,7 +329,7 @@ impl LineIntegration<'_> {
 
     fn curve_crossings(&self, lo: f64, hi: f64, level: &LevelFunction) -> Vec<f64> {
         let start = self.line.anchor + self.line.foot;
-        let at = |s: f64| tame(level(start + self.line.tangent * s));
+        let at = |s: f64| clamp_non_finite(level(start + self.line.tangent * s));
         let size =
             [lo, 0.5 * (lo + hi), hi].map(at).into_iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let snapped = |s: f64| {
@@ -331,16 +339,16 @@ impl LineIntegration<'_> {
         sign_changes(&snapped, lo, hi)
     }
 
-    fn add_smooth(&mut self, lo: f64, hi: f64, patches: &[u32], singular: &[Singular]) {
-        let distance = |at: &Singular| {
+    fn add_smooth(&mut self, lo: f64, hi: f64, patches: &[u32], singular: &[Singularity]) {
+        let distance = |at: &Singularity| {
             let (s, d) = self.line.seen_from(at.point);
             (s - s.clamp(lo, hi)).hypot(d)
         };
-        let near: Vec<Singular> =
+        let near: Vec<Singularity> =
             singular.iter().copied().filter(|at| distance(at) < hi - lo).collect();
         let nearest = singular.iter().map(distance).fold(f64::INFINITY, f64::min);
         let geometry = &self.quadrature.geometry;
-        let order = self.quadrature.orders.choose(&Active {
+        let order = self.quadrature.orders.choose(&ActiveFunctions {
             patches: patches.len(),
             distance: nearest / (hi - lo),
             kinks: geometry.has_kinks(patches),
@@ -349,7 +357,8 @@ impl LineIntegration<'_> {
         match near[..] {
             [] => {
                 let (foot, tangent) = (self.line.foot, self.line.tangent);
-                let stretch = Stretch { path: Path::Straight, foot, tangent, interval: (lo, hi) };
+                let stretch =
+                    Stretch { path: LineParameter::Straight, foot, tangent, interval: (lo, hi) };
                 self.push(self.line.anchor, patches, order, vec![stretch]);
             }
             [at] => self.push(at.point, patches, order, self.graded(lo, hi, &at, order)),
@@ -363,7 +372,7 @@ impl LineIntegration<'_> {
 
     /// Graded toward a singular point, and relative to it: x = d sinh u at distance d, a power on
     /// the line itself.
-    fn graded(&self, lo: f64, hi: f64, at: &Singular, order: usize) -> Vec<Stretch> {
+    fn graded(&self, lo: f64, hi: f64, at: &Singularity, order: usize) -> Vec<Stretch> {
         let (s, d) = self.line.seen_from(at.point);
         // an end at the point itself is there exactly: what rounding would leave between
         // them counts
@@ -373,7 +382,8 @@ impl LineIntegration<'_> {
         if d > ON_LINE * (hi - lo) {
             let normal = tangent.left();
             let foot = normal * normal.dot(self.line.foot - (at.point - self.line.anchor));
-            let beside = |interval| Stretch { path: Path::Beside(d), foot, tangent, interval };
+            let beside =
+                |interval| Stretch { path: LineParameter::Beside(d), foot, tangent, interval };
             return panels(lo, hi, d).map(beside).collect();
         }
         let grading = at.growth.along_lines(order);
@@ -382,7 +392,7 @@ impl LineIntegration<'_> {
             .into_iter()
             .filter(|(from, to, _)| to > from)
             .map(|(from, to, sign)| Stretch {
-                path: Path::Through { sign, grading },
+                path: LineParameter::Through { sign, grading },
                 foot: Vec2::ZERO,
                 tangent,
                 interval: (root(from), root(to)),
@@ -392,7 +402,7 @@ impl LineIntegration<'_> {
 
     fn push(&mut self, anchor: Vec2, patches: &[u32], order: usize, stretches: Vec<Stretch>) {
         let Quadrature { geometry, orders, .. } = self.quadrature;
-        let demand = Demand {
+        let demand = IntegrandDemand {
             probes: geometry.probes,
             active: &geometry.active_probes(patches),
             anchor,
@@ -409,7 +419,7 @@ impl LineIntegration<'_> {
             self.rules.len() - 1
         });
         let rule = &mut self.rules[at];
-        let Refined { regions: parts, doubt } = refined(stretches, &demand);
+        let RefinedParts { regions: parts, doubt } = refined(stretches, &demand);
         rule.doubt.add(&doubt);
         for stretch in parts {
             stretch.nodes(gauss, order, &mut |x, w| {

@@ -61,7 +61,7 @@ fn legendre(n: usize, x: f64) -> (f64, f64) {
     (value, n as f64 * (before - x * value) / (1.0 - x * x))
 }
 
-/// The n-point rule, 1 ≤ n ≤ [`MAX_POINTS`]; all rules are computed once.
+/// The n-point rule, 1 ≤ n ≤ `MAX_POINTS`; all rules are computed once.
 ///
 /// # Panics
 /// If n is outside that range.
@@ -76,7 +76,7 @@ pub fn gauss(n: usize) -> &'static GaussRule {
 /// the right side of a jump at the end, whatever rounding does to coordinates.
 const INSET: f64 = 1e-6;
 
-/// A rule with n + 1 points, 1 ≤ n ≤ [`MAX_POINTS`], two of them as good as at the ends, and exact
+/// A rule with n + 1 points, 1 ≤ n ≤ `MAX_POINTS`, two of them as good as at the ends, and exact
 /// to 1e-12 where the Gauss rule with n points is exact. It sees what happens there, which Gauss
 /// rules do not.
 ///

@@ -8,8 +8,8 @@ use ppum::vec2::Vec2;
 use std::fmt;
 use std::sync::Arc;
 
-/// Smallest exponent the rule of [`Growth::Powers`] is graded for; points come no nearer to the
-/// singular point than 1e-120 of a piece, so that squares of distances are still numbers.
+/// Smallest exponent the rule of [`SingularGrowth::Powers`] is graded for; points come no nearer to
+/// the singular point than 1e-120 of a piece, so that squares of distances are still numbers.
 const LEAST_EXPONENT: f64 = 0.04;
 
 /// More points along a ray for the exponent λ: this over √λ.
@@ -17,20 +17,20 @@ const EXTRA_POINTS: f64 = 8.0;
 
 /// A face of a crack: one side of one of its segments.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Face {
+pub struct CrackFace {
     /// The segment.
     pub segment: SegmentId,
     /// The side that the material lies on.
     pub side: Side,
 }
 
-impl From<(SegmentId, Side)> for Face {
+impl From<(SegmentId, Side)> for CrackFace {
     fn from((segment, side): (SegmentId, Side)) -> Self {
         Self { segment, side }
     }
 }
 
-impl Face {
+impl CrackFace {
     /// The faces of a crack on one side, one per segment.
     pub(crate) fn of(crack: &Crack, index: usize, side: Side) -> impl Iterator<Item = Self> {
         let segment = move |segment| SegmentId { crack: index as u32, segment };
@@ -48,7 +48,7 @@ impl Face {
 /// The geometry that decides where integrands are smooth. Lists of a patch are indices into the
 /// slices before them, in any order; an empty `patch_…` slice means that no patch has any.
 #[derive(Clone, Copy)]
-pub(crate) struct Geometry<'a> {
+pub(crate) struct SmoothnessGeometry<'a> {
     /// The partition of unity.
     pub partition: &'a BoxPartition,
     /// The cracks: across their segments functions may jump.
@@ -56,25 +56,25 @@ pub(crate) struct Geometry<'a> {
     /// Parts of the cells that are not integrated over.
     pub holes: &'a [Hole],
     /// Points at which functions are singular: tips, corners.
-    pub singular: &'a [Singular],
-    /// Of each patch, the points at which one of its functions is singular, be the point inside the
-    /// patch or not.
+    pub singular: &'a [Singularity],
+    /// For each patch, the points at which one of its functions is singular, be the point inside
+    /// the patch or not.
     pub patch_singular: &'a [Vec<u32>],
     /// Lines across which a function or one of its derivatives jumps.
-    pub kinks: &'a [Kink],
-    /// Of each patch, the kinks of its functions.
+    pub kinks: &'a [KinkLine],
+    /// For each patch, the kinks of its functions.
     pub patch_kinks: &'a [Vec<u32>],
     /// The kinks that all integrands have: interfaces of materials.
     pub common_kinks: &'a [u32],
     /// Functions that may vary too fast for one Gauss rule a piece.
     pub probes: &'a dyn Probes,
-    /// Of each patch, those among its functions.
+    /// The probes among the functions of each patch.
     pub patch_probes: &'a [Vec<u32>],
     /// Those in all integrands: coefficients of the equation.
     pub common_probes: &'a [u32],
 }
 
-impl<'a> Geometry<'a> {
+impl<'a> SmoothnessGeometry<'a> {
     /// A geometry in which functions jump across cracks and are smooth everywhere else.
     #[must_use]
     pub(crate) fn new(partition: &'a BoxPartition, cracks: &'a [Crack]) -> Self {
@@ -94,13 +94,13 @@ impl<'a> Geometry<'a> {
     }
 
     /// The points at which a function of one of these patches is singular.
-    pub(super) fn singular_points(&self, patches: &[u32]) -> Vec<Singular> {
+    pub(super) fn singular_points(&self, patches: &[u32]) -> Vec<Singularity> {
         let indices = union(self.patch_singular, &[], patches);
         indices.into_iter().map(|i| self.singular[i as usize]).collect()
     }
 
     /// The kinks of a function of one of these patches, and the common ones.
-    pub(super) fn active_kinks(&self, patches: &[u32]) -> Vec<&'a Kink> {
+    pub(super) fn active_kinks(&self, patches: &[u32]) -> Vec<&'a KinkLine> {
         let indices = union(self.patch_kinks, self.common_kinks, patches);
         indices.into_iter().map(|i| &self.kinks[i as usize]).collect()
     }
@@ -116,7 +116,7 @@ impl<'a> Geometry<'a> {
     }
 }
 
-impl Geometry<'_> {
+impl SmoothnessGeometry<'_> {
     /// True if no function of these patches is singular, has a kink or is probed.
     pub(super) fn is_smooth(&self, patches: &[u32]) -> bool {
         let lists = [self.patch_singular, self.patch_kinks, self.patch_probes];
@@ -136,17 +136,17 @@ fn union(lists: &[Vec<u32>], common: &[u32], patches: &[u32]) -> Vec<u32> {
 
 /// A point at which functions are singular.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Singular {
+pub(crate) struct Singularity {
     /// The point.
     pub point: Vec2,
     /// The growth of functions there.
-    pub growth: Growth,
+    pub growth: SingularGrowth,
 }
 
 /// Growth of functions with the distance r of a singular point, times smooth functions of the angle
 /// and of the position.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Growth {
+pub(crate) enum SingularGrowth {
     /// r^{k/2}, k ≥ 1, as at the tip of a crack.
     HalfPowers,
     /// r^λ and r^λ log r with any exponents λ, of which `least` > 0 is the smallest.
@@ -161,20 +161,20 @@ pub(crate) enum Growth {
 
 /// Nodes along a ray from a singular point: r = t^power, with `extra` more Gauss points in t.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Grading {
+pub(super) struct RayGrading {
     pub(super) power: f64,
     pub(super) extra: usize,
 }
 
-impl Singular {
+impl Singularity {
     /// The tip of a crack.
     #[must_use]
     pub(crate) const fn tip(point: Vec2) -> Self {
-        Self { point, growth: Growth::HalfPowers }
+        Self { point, growth: SingularGrowth::HalfPowers }
     }
 }
 
-impl Growth {
+impl SingularGrowth {
     /// The growth of products of functions of two kinds.
     pub(super) fn and(self, other: Self) -> Self {
         match (self, other) {
@@ -195,18 +195,18 @@ impl Growth {
     /// With r = t² half powers become polynomials. For r^{2λ−1}, N Gauss points err like
     /// N^{−4λm} with r = t^m, and need N² ≫ m to resolve the polynomials t^m; m = √(N/λ) balances
     /// the two.
-    pub(super) fn over_areas(self, n: usize) -> Grading {
+    pub(super) fn over_areas(self, n: usize) -> RayGrading {
         match self {
-            Self::HalfPowers => Grading { power: 2.0, extra: 0 },
+            Self::HalfPowers => RayGrading { power: 2.0, extra: 0 },
             Self::Powers { least } => powers(least, n),
         }
     }
 
     /// The grading of a rule along a line through the point. Gradients are integrated there if they
     /// can be, r^{2λ−2} for λ > 1/2, and r^{λ−1} in any case.
-    pub(super) fn along_lines(self, n: usize) -> Grading {
+    pub(super) fn along_lines(self, n: usize) -> RayGrading {
         match self {
-            Self::HalfPowers => Grading { power: 2.0, extra: 0 },
+            Self::HalfPowers => RayGrading { power: 2.0, extra: 0 },
             Self::Powers { least } if least > 0.5 => powers((least - 0.5).min(0.5 * least), n),
             Self::Powers { least } => powers(0.5 * least, n),
         }
@@ -214,23 +214,23 @@ impl Growth {
 }
 
 /// The grading for r^{2λ−1} and smaller exponents than that.
-fn powers(lambda: f64, n: usize) -> Grading {
+fn powers(lambda: f64, n: usize) -> RayGrading {
     let lambda = lambda.max(LEAST_EXPONENT);
     let extra = (EXTRA_POINTS / lambda.sqrt()).ceil() as usize;
     let all = (n + extra).min(MAX_POINTS);
-    Grading { power: (all as f64 / lambda).sqrt().max(1.0), extra: all.saturating_sub(n) }
+    RayGrading { power: (all as f64 / lambda).sqrt().max(1.0), extra: all.saturating_sub(n) }
 }
 
 /// A level function: negative on one side of its zero set, positive on the other.
 ///
-/// It should be smooth but for single points and for kinks that are declared before it, and its
+/// It should be smooth except for single points and for kinks that are declared before it, and its
 /// size tell of the distance to the zero set, as a polynomial or a distance does. Cuts are made
 /// where samples show that it changes its sign; values that are no numbers count as positive.
 pub(crate) type LevelFunction = dyn Fn(Vec2) -> f64 + Send + Sync;
 
 /// A line or curve across which a function or one of its derivatives jumps.
 #[derive(Clone)]
-pub(crate) enum Kink {
+pub(crate) enum KinkLine {
     /// The straight line through two points.
     Line([Vec2; 2]),
     /// A segment.
@@ -239,7 +239,7 @@ pub(crate) enum Kink {
     Curve(Arc<LevelFunction>),
 }
 
-impl fmt::Debug for Kink {
+impl fmt::Debug for KinkLine {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line(ends) => f.debug_tuple("Line").field(ends).finish(),
@@ -257,13 +257,13 @@ pub(crate) trait Probes: Sync {
         &self,
         function: u32,
         points: (Vec2, &[Vec2]),
-        face: Option<Face>,
+        face: Option<CrackFace>,
         out: &mut Vec<[f64; 3]>,
     );
 
-    /// Of a load the mean of |f| over all that it acts on: integrals of f alone count, and errors
-    /// that are small against the load as a whole do not. None for functions of a space
-    /// and coefficients.
+    /// Returns the mean of |f| of a load over its support: only integrals of f count then, and
+    /// errors that are small against the load as a whole are accepted. `None` for functions of a
+    /// space and coefficients.
     fn load(&self, function: u32) -> Option<f64> {
         let _ = function;
         None
@@ -276,7 +276,7 @@ impl Probes for () {
         &self,
         _: u32,
         (_, offsets): (Vec2, &[Vec2]),
-        _: Option<Face>,
+        _: Option<CrackFace>,
         out: &mut Vec<[f64; 3]>,
     ) {
         out.extend(offsets.iter().map(|_| [0.0; 3]));
@@ -289,7 +289,7 @@ impl<F: Fn(Vec2, Vec2) -> [f64; 3] + Sync> Probes for Vec<F> {
         &self,
         function: u32,
         (anchor, offsets): (Vec2, &[Vec2]),
-        _: Option<Face>,
+        _: Option<CrackFace>,
         out: &mut Vec<[f64; 3]>,
     ) {
         let f = &self[function as usize];

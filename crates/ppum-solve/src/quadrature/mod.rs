@@ -1,6 +1,6 @@
 //! Quadrature: where the solver looks at the fields.
 //!
-//! The leaf cells of a cover tile the domain's box. [`Quadrature::cell`] divides a cell into pieces
+//! The leaf cells of a cover tile the domain's box. `Quadrature::cell` divides a cell into pieces
 //! on which all integrands of the method are smooth and gives each a Gauss rule:
 //!
 //! 1. rectangles with a constant set of covering patches;
@@ -10,26 +10,26 @@
 //!    across which sides jump, cut too, and straight kinks of the active functions and of
 //!    the material;
 //! 4. near a point at which an active function is singular, triangles with their apex there and a
-//!    rule for the powers of r that occur ([`Growth`]), and bisection of pieces that are closer to
-//!    it than their diameter;
+//!    rule for the powers of r that occur (`SingularGrowth`), and bisection of pieces that are
+//!    closer to it than their diameter;
 //! 5. cut along curved kinks, the pieces getting sides that follow the curve;
 //! 6. the same along the rims of holes, and what lies in a hole dropped;
-//! 7. divided until rules resolve functions that may vary fast ([`Probes`]).
+//! 7. divided until rules resolve functions that may vary fast (`Probes`).
 //!
 //! Points are an anchor plus offsets. Near a singular point the anchor is that point itself, so
-//! that the distance to it carries no rounding of the coordinates. [`Quadrature::edge`] does the
-//! same along segments and faces of cracks, [`Quadrature::rim`] along the rims of holes,
+//! that the distance to it carries no rounding of the coordinates. `Quadrature::edge` does the
+//! same along segments and faces of cracks, `Quadrature::rim` along the rims of holes,
 //! [`Quadrature::disc`] for the domain integrals of stress intensity.
 //!
-//! Nothing here knows fields, formulas or basis functions: [`Geometry`] says where something
-//! happens.
+//! Nothing here knows fields, formulas or basis functions: `SmoothnessGeometry` says where
+//! integrands are not smooth.
 
 mod adapt;
 mod cell;
 mod chart;
 mod curve;
-mod doubt;
 mod edge;
+mod error_estimate;
 mod gauss;
 mod geometry;
 mod holes;
@@ -47,12 +47,14 @@ mod tests;
 
 pub use cell::{Disc, Quadrature};
 pub(crate) use curve::may_meet;
-pub use doubt::Doubt;
 pub use edge::EdgeRule;
+pub use error_estimate::QuadratureError;
 pub use gauss::gauss;
 pub use gauss::{GaussRule, closed};
-pub use geometry::Face;
-pub(crate) use geometry::{Geometry, Growth, Kink, LevelFunction, Probes, Singular};
+pub use geometry::CrackFace;
+pub(crate) use geometry::{
+    KinkLine, LevelFunction, Probes, SingularGrowth, Singularity, SmoothnessGeometry,
+};
 pub(crate) use orders::Orders;
-pub(crate) use roots::{sign_changes, tame};
-pub use rule::Rule;
+pub(crate) use roots::{clamp_non_finite, sign_changes};
+pub use rule::CellRule;

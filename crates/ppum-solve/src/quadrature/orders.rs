@@ -38,7 +38,7 @@ pub(crate) struct Orders {
 
 /// The patches and functions that are active on a piece.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Active {
+pub(super) struct ActiveFunctions {
     /// Number of patches.
     pub(super) patches: usize,
     /// Distance to the nearest singular point, in sizes of the piece; infinite if no function is
@@ -63,7 +63,8 @@ impl Orders {
         Self { overlap: p + 4, flat: p + 1, singular, kinked: p + 4, probed, reserve: p, parts: 1 }
     }
 
-    /// The same number everywhere, half of it for polynomials that multiply a probe.
+    /// Returns `n` points for every kind of piece, half of it for polynomials that multiply a
+    /// probe.
     #[must_use]
     pub(crate) const fn uniform(n: usize) -> Self {
         let reserve = n / 2;
@@ -108,7 +109,7 @@ impl Orders {
     }
 
     /// The number for a piece.
-    pub(super) fn choose(self, active: &Active) -> usize {
+    pub(super) fn choose(self, active: &ActiveFunctions) -> usize {
         if active.probes {
             self.probed.max(self.overlap)
         } else if active.distance < FAR {

@@ -4,7 +4,7 @@ use super::adapt::Subregion;
 use super::chart::{UNIT, quadrilaterals};
 use super::curve::ChartWindow;
 use super::gauss::Rules1d;
-use super::polygon::Polygon;
+use super::polygon::ConvexPolygon;
 use ppum::vec2::{Vec2, vec2};
 
 /// Most ways in which a polygon is divided to see which matters.
@@ -14,7 +14,7 @@ const WAYS: usize = 4;
 #[derive(Clone)]
 pub(super) enum SmoothPiece<'c> {
     /// With straight sides, away from singular points.
-    Polygon(Polygon),
+    Polygon(ConvexPolygon),
     /// In the coordinates of a chart.
     Window(ChartWindow<'c>),
 }
@@ -38,7 +38,7 @@ impl Subregion for SmoothPiece<'_> {
 }
 
 /// The halves of a polygon along each of some directions; along the axes if there are none.
-fn divisions<'c>(polygon: &Polygon, directions: &[Vec2]) -> Vec<[SmoothPiece<'c>; 2]> {
+fn divisions<'c>(polygon: &ConvexPolygon, directions: &[Vec2]) -> Vec<[SmoothPiece<'c>; 2]> {
     let axes = [vec2(1.0, 0.0), vec2(0.0, 1.0)];
     let ways = if directions.is_empty() { &axes } else { directions };
     let halves = ways.iter().take(WAYS).filter_map(|&e| halves(polygon, e));
@@ -46,7 +46,7 @@ fn divisions<'c>(polygon: &Polygon, directions: &[Vec2]) -> Vec<[SmoothPiece<'c>
 }
 
 /// The two parts of a polygon that reach equally far in a direction.
-fn halves(polygon: &Polygon, e: Vec2) -> Option<[Polygon; 2]> {
+fn halves(polygon: &ConvexPolygon, e: Vec2) -> Option<[ConvexPolygon; 2]> {
     let reach = polygon.0.iter().map(|v| v.dot(e));
     let (lo, hi) = reach.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), s| (a.min(s), b.max(s)));
     let on = e * (0.5 * (lo + hi));

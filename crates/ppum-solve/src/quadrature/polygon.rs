@@ -26,7 +26,7 @@ const DEEPEST: usize = 40;
 
 /// A convex polygon.
 #[derive(Clone, Debug)]
-pub(super) struct Polygon(pub(super) Vec<Vec2>);
+pub(super) struct ConvexPolygon(pub(super) Vec<Vec2>);
 
 /// A segment that cuts polygons along its line.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,7 +70,7 @@ pub(super) fn line_side(a: Vec2, b: Vec2, p: Vec2) -> f64 {
     if cross.abs() <= ROUNDING * size { 0.0 } else { cross }
 }
 
-impl Polygon {
+impl ConvexPolygon {
     pub(super) fn edges(&self) -> impl Iterator<Item = (Vec2, Vec2)> + '_ {
         let next = self.0.iter().cycle().skip(1);
         self.0.iter().zip(next).map(|(&a, &b)| (a, b))
@@ -158,7 +158,7 @@ impl Polygon {
     /// smaller than `least`.
     ///
     /// A cut divides the parts that it meets, each along the whole of its line. Where there are
-    /// many, the polygon is halved before: of a chain of n segments that lie on one line but for
+    /// many, the polygon is halved before: of a chain of n segments that lie on one line except for
     /// noise, some n parts are left, none of them much longer than the segments.
     pub(super) fn pieces(self, cuts: &[SegmentCut], least: f64) -> Vec<Self> {
         let mut pieces = Vec::new();
@@ -236,8 +236,8 @@ mod tests {
     use super::*;
     use ppum_testkit::random::Random;
 
-    fn square() -> Polygon {
-        Polygon(vec![vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0)])
+    fn square() -> ConvexPolygon {
+        ConvexPolygon(vec![vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1.0), vec2(0.0, 1.0)])
     }
 
     #[test]
@@ -245,7 +245,7 @@ mod tests {
         let segments = [[vec2(-1.0, 0.3), vec2(2.0, 0.4)], [vec2(0.2, -5.0), vec2(0.7, 3.0)]];
         let pieces = square().pieces(&segments.map(SegmentCut::segment), 0.0);
         assert_eq!(pieces.len(), 4);
-        let total: f64 = pieces.iter().map(Polygon::area).sum();
+        let total: f64 = pieces.iter().map(ConvexPolygon::area).sum();
         assert!((total - 1.0).abs() < 1e-15);
     }
 
@@ -287,7 +287,7 @@ mod tests {
             let cuts: Vec<SegmentCut> =
                 points.windows(2).map(|s| SegmentCut::segment([s[0], s[1]])).collect();
             let pieces = square().pieces(&cuts, 0.0);
-            let area: f64 = pieces.iter().map(Polygon::area).sum();
+            let area: f64 = pieces.iter().map(ConvexPolygon::area).sum();
             assert!(
                 (area - 1.0).abs() < 1e-14 && pieces.len() < 6 * n,
                 "{noise}: {}",
@@ -313,7 +313,7 @@ mod tests {
     /// Beyond the sharp end of a sliver all sides are as near as rounding.
     #[test]
     fn a_sliver_does_not_touch_what_lies_beyond_its_end() {
-        let sliver = Polygon(vec![vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1e-13)]);
+        let sliver = ConvexPolygon(vec![vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1e-13)]);
         assert!(sliver.touches(vec2(0.0, 0.0)) && sliver.touches(vec2(0.5, 1e-15)));
         assert!(!sliver.touches(vec2(-0.01, 0.0)));
     }

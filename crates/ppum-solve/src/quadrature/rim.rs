@@ -1,12 +1,12 @@
 //! Rules along the rims of holes.
 
-use super::adapt::{Demand, Refined, Subregion, refined};
+use super::adapt::{IntegrandDemand, RefinedParts, Subregion, refined};
 use super::cell::{Quadrature, SAME_POINT, distinct, straight_cut};
 use super::edge::EdgeRule;
 use super::gauss::{MAX_POINTS, Rules1d, gauss};
-use super::geometry::{Kink, Singular};
-use super::orders::Active;
-use super::roots::{sign_changes, tame};
+use super::geometry::{KinkLine, Singularity};
+use super::orders::ActiveFunctions;
+use super::roots::{clamp_non_finite, sign_changes};
 use super::split::{TOLERANCE, breaks, component, divided, kinks};
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -31,7 +31,7 @@ impl Quadrature<'_> {
     pub(crate) fn rim(
         &self,
         cell: &Rect,
-        coverers: &[u32],
+        covering_patches: &[u32],
         hole: &Hole,
         is_wanted: impl Fn(usize) -> bool,
     ) -> Vec<EdgeRule> {
@@ -42,12 +42,12 @@ impl Quadrature<'_> {
         }
         match *hole {
             Hole::Circle { center, radius } => {
-                self.arcs(cell, coverers, &Circle { center, radius })
+                self.arcs(cell, covering_patches, &RoundRim { center, radius })
             }
             Hole::Polygon { .. } => {
                 let turn = hole.orientation();
                 let side = |(_, [a, b]): (usize, [Vec2; 2])| {
-                    self.edge(cell, coverers, [a, b], (b - a).unit().left() * turn)
+                    self.edge(cell, covering_patches, [a, b], (b - a).unit().left() * turn)
                 };
                 let here = |(k, [a, b]): &(usize, [Vec2; 2])| {
                     is_wanted(*k) && closed_meet(&near, &Rect::new(a.min(*b), a.max(*b)))
@@ -57,9 +57,9 @@ impl Quadrature<'_> {
         }
     }
 
-    fn arcs(&self, cell: &Rect, coverers: &[u32], circle: &Circle) -> Vec<EdgeRule> {
+    fn arcs(&self, cell: &Rect, covering_patches: &[u32], circle: &RoundRim) -> Vec<EdgeRule> {
         let mut rules = Vec::new();
-        let all = self.turns(cell, coverers, circle);
+        let all = self.turns(cell, covering_patches, circle);
         for ends in all.windows(2).filter(|ends| ends[1] - ends[0] > TOLERANCE) {
             let normal = circle.normal(0.5 * (ends[0] + ends[1]));
             let middle = circle.center - normal * circle.radius;
@@ -68,7 +68,7 @@ impl Quadrature<'_> {
             }
             let support = |i: &u32| self.geometry.partition.support(*i as usize);
             let covers = |i: &u32| support(i).contains(middle);
-            let mut patches: Vec<u32> = coverers.iter().copied().filter(covers).collect();
+            let mut patches: Vec<u32> = covering_patches.iter().copied().filter(covers).collect();
             patches.sort_unstable();
             let mut rule = EdgeRule::empty(cell.center(), &patches);
             let parts = ((ends[1] - ends[0]) / LONGEST).ceil() as usize;
@@ -84,34 +84,34 @@ impl Quadrature<'_> {
     }
 
     /// Angles at which something happens in a cell, from 0 to 2π.
-    fn turns(&self, cell: &Rect, coverers: &[u32], circle: &Circle) -> Vec<f64> {
+    fn turns(&self, cell: &Rect, covering_patches: &[u32], circle: &RoundRim) -> Vec<f64> {
         let geometry = &self.geometry;
-        let supports = coverers.iter().map(|&i| geometry.partition.support(i as usize));
+        let supports = covering_patches.iter().map(|&i| geometry.partition.support(i as usize));
         let boxes: Vec<Rect> = supports.chain([*cell]).collect();
         let mut turns = Vec::new();
         for axis in 0..2 {
             let borders = boxes.iter().flat_map(|b| [b.min, b.max].map(|p| component(p, axis)));
-            let kinks = kinks(geometry.partition, coverers, axis);
+            let kinks = kinks(geometry.partition, covering_patches, axis);
             for at in borders.chain(kinks) {
                 turns.extend(circle.turns_at(axis, at));
             }
         }
-        let active = geometry.active_kinks(coverers);
+        let active = geometry.active_kinks(covering_patches);
         let straight = active.iter().filter_map(|kink| straight_cut(kink, cell));
         for cut in self.cuts_near(cell).chain(straight) {
             turns.extend(circle.turns_on(cut.ends[0], cut.ends[1]));
         }
         let curved = active.iter().filter_map(|kink| match kink {
-            Kink::Curve(level) => Some(level),
+            KinkLine::Curve(level) => Some(level),
             _ => None,
         });
         turns.sort_by(f64::total_cmp);
         let known = breaks(0.0, TAU, turns.clone(), TOLERANCE);
         for level in curved.chain(&self.circles) {
-            // Its own rim is zero but for rounding.
+            // Its own rim is zero except for rounding.
             let size = circle.radius * circle.radius;
             let at = |turn: f64| {
-                let value = tame(level(circle.at(turn)));
+                let value = clamp_non_finite(level(circle.at(turn)));
                 if value.abs() <= TOLERANCE * size { 0.0 } else { value }
             };
             turns.extend(known.windows(2).flat_map(|ends| sign_changes(&at, ends[0], ends[1])));
@@ -121,15 +121,15 @@ impl Quadrature<'_> {
 
     fn add_arc(
         &self,
-        circle: &Circle,
+        circle: &RoundRim,
         [from, to]: [f64; 2],
-        singular: &[Singular],
+        singular: &[Singularity],
         (depth, cell): (usize, &Rect),
         rule: &mut EdgeRule,
     ) {
         let middle = 0.5 * (from + to);
         let length = circle.radius * (to - from);
-        let distance = |at: &Singular| (circle.at(middle) - at.point).length() - 0.5 * length;
+        let distance = |at: &Singularity| (circle.at(middle) - at.point).length() - 0.5 * length;
         let nearest = singular.iter().map(distance).fold(f64::INFINITY, f64::min);
         if nearest < length && depth > 0 {
             for half in [[from, middle], [middle, to]] {
@@ -138,14 +138,14 @@ impl Quadrature<'_> {
             return;
         }
         let active = self.geometry.active_probes(&rule.patches);
-        let order = self.orders.choose(&Active {
+        let order = self.orders.choose(&ActiveFunctions {
             patches: rule.patches.len(),
             distance: nearest / length,
             kinks: self.geometry.has_kinks(&rule.patches),
             probes: !active.is_empty(),
         });
         let left = Cell::new(self.divisions);
-        let demand = Demand {
+        let demand = IntegrandDemand {
             probes: self.geometry.probes,
             active: &active,
             anchor: rule.anchor,
@@ -156,10 +156,10 @@ impl Quadrature<'_> {
             order,
             left: &left,
         };
-        let arc = Arc { circle, anchor: rule.anchor, turns: [from, to] };
-        let Refined { regions: parts, doubt } = refined(vec![arc], &demand);
+        let arc = RoundArc { circle, anchor: rule.anchor, turns: [from, to] };
+        let RefinedParts { regions: parts, doubt } = refined(vec![arc], &demand);
         rule.doubt.add(&doubt);
-        for Arc { turns: [from, to], .. } in parts {
+        for RoundArc { turns: [from, to], .. } in parts {
             for (turn, weight) in gauss((order + EXTRA_POINTS).min(MAX_POINTS)).on(from, to) {
                 let normal = circle.normal(turn);
                 let offset = (circle.center - rule.anchor) - normal * circle.radius;
@@ -171,13 +171,13 @@ impl Quadrature<'_> {
 
 /// A part of a round rim.
 #[derive(Clone)]
-struct Arc<'c> {
-    circle: &'c Circle,
+struct RoundArc<'c> {
+    circle: &'c RoundRim,
     anchor: Vec2,
     turns: [f64; 2],
 }
 
-impl Subregion for Arc<'_> {
+impl Subregion for RoundArc<'_> {
     fn nodes(&self, rules: Rules1d, n: usize, push: &mut dyn FnMut(Vec2, f64)) {
         let [from, to] = self.turns;
         for (turn, weight) in rules((n + EXTRA_POINTS).min(MAX_POINTS)).on(from, to) {
@@ -199,12 +199,12 @@ fn closed_meet(a: &Rect, b: &Rect) -> bool {
 }
 
 /// A round rim.
-struct Circle {
+struct RoundRim {
     center: Vec2,
     radius: f64,
 }
 
-impl Circle {
+impl RoundRim {
     /// Out of the material: to the centre.
     fn normal(&self, turn: f64) -> Vec2 {
         -vec2(turn.cos(), turn.sin())
@@ -234,7 +234,7 @@ impl Circle {
     }
 }
 
-/// The same direction between 0 and 2π.
+/// Reduces an angle to 0 ≤ θ < 2π.
 fn positive(turn: f64) -> f64 {
     turn.rem_euclid(TAU)
 }

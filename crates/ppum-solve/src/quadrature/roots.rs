@@ -14,7 +14,7 @@ const EVALUATIONS: usize = 120;
 pub(super) const ZERO: f64 = 1e-14;
 
 /// A function value that is a number: what is not, or is infinite, still has a side.
-pub(crate) fn tame(value: f64) -> f64 {
+pub(crate) fn clamp_non_finite(value: f64) -> f64 {
     if value.is_nan() { 1.0 } else { value.clamp(-1e100, 1e100) }
 }
 
@@ -125,7 +125,7 @@ mod tests {
         assert_zeros(&|x| (x - 0.4).powi(3), &[0.4]);
         assert_zeros(&|x| (x - 0.5).signum(), &[0.5]);
         assert_zeros(&|x| x.exp() - 2.0, &[2.0_f64.ln()]);
-        assert_zeros(&|x| tame(1.0 / (0.7 - x)), &[0.7]);
+        assert_zeros(&|x| clamp_non_finite(1.0 / (0.7 - x)), &[0.7]);
     }
 
     #[test]
@@ -140,7 +140,7 @@ mod tests {
         assert_zeros(&|x| (x - 0.5).powi(2), &[]);
         assert_zeros(&|x| x * (1.0 - x), &[]);
         assert_zeros(&|_| 0.0, &[]);
-        assert_zeros(&|_| tame(f64::NAN), &[]);
+        assert_zeros(&|_| clamp_non_finite(f64::NAN), &[]);
     }
 
     #[test]

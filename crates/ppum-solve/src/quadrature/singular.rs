@@ -4,21 +4,21 @@
 //! than its diameter gets plain Gauss rules; one that touches the point is cut into triangles with
 //! their apex there, and with s = t² along the rays and x = foot + d sinh u along the far edge (at
 //! distance d) the integrand is a polynomial in t and smooth in u; any other piece is bisected.
-//! With other exponents the rays get another power of t and more points ([`Growth`]). After Duffy,
-//! "Quadrature over a pyramid or cube of integrands with a singularity at a vertex", SIAM J. Numer.
-//! Anal. 19 (1982), and Johnston & Elliott, "A sinh transformation for evaluating nearly singular
-//! boundary element integrals", Int. J. Numer. Meth. Engng 62 (2005).
+//! With other exponents the rays get another power of t and more points ([`SingularGrowth`]). After
+//! Duffy, "Quadrature over a pyramid or cube of integrands with a singularity at a vertex", SIAM J.
+//! Numer. Anal. 19 (1982), and Johnston & Elliott, "A sinh transformation for evaluating nearly
+//! singular boundary element integrals", Int. J. Numer. Meth. Engng 62 (2005).
 //!
-//! [`Growth`]: super::Growth
+//! [`SingularGrowth`]: super::SingularGrowth
 
-use super::adapt::{Demand, Refined, Subregion as _, refined};
-use super::chart::{Apex, Chart, quadrilaterals};
+use super::adapt::{IntegrandDemand, RefinedParts, Subregion as _, refined};
+use super::chart::{Apex, CellChart, quadrilaterals};
 use super::curve::{ChartWindow, cut_all};
 use super::gauss::gauss;
-use super::geometry::{LevelFunction, Probes, Singular};
+use super::geometry::{LevelFunction, Probes, Singularity};
 use super::holes;
 use super::piece::SmoothPiece;
-use super::polygon::Polygon;
+use super::polygon::ConvexPolygon;
 use super::rule::Rules;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -59,7 +59,7 @@ pub(super) struct PieceQuadrature<'r, 'c> {
 impl PieceQuadrature<'_, '_> {
     /// Adds the rule of a polygon given relative to `anchor`, with the `singular` points that may
     /// be near it.
-    pub(super) fn add(&mut self, anchor: Vec2, polygon: &Polygon, singular: &[Singular]) {
+    pub(super) fn add(&mut self, anchor: Vec2, polygon: &ConvexPolygon, singular: &[Singularity]) {
         if polygon.area() <= self.least {
             return;
         }
@@ -76,7 +76,7 @@ impl PieceQuadrature<'_, '_> {
         }
     }
 
-    fn add_regular(&mut self, anchor: Vec2, polygon: &Polygon) {
+    fn add_regular(&mut self, anchor: Vec2, polygon: &ConvexPolygon) {
         if !self.curves.is_empty() {
             let windows = quadrilaterals(polygon).map(ChartWindow::whole).collect();
             let (windows, cut) = cut_all(windows, self.curves, anchor);
@@ -88,7 +88,7 @@ impl PieceQuadrature<'_, '_> {
     }
 
     /// Adds triangles with their apex at the singular point, one for each edge of the polygon.
-    fn add_fan(&mut self, at: &Singular, polygon: &Polygon) {
+    fn add_fan(&mut self, at: &Singularity, polygon: &ConvexPolygon) {
         let has_area = |(a, b): &(Vec2, Vec2)| 0.5 * a.cross(*b) > self.least;
         let edges = polygon.edges().filter(has_area);
         let triangles = edges.map(|(a, b)| apex_triangle(at, a, b, self.order));
@@ -105,7 +105,7 @@ impl PieceQuadrature<'_, '_> {
         holes::remove(self.holes, anchor, &mut parts);
         let (probes, active) = self.probes;
         let points = self.order.saturating_sub(self.reserve).max(1);
-        let demand = Demand {
+        let demand = IntegrandDemand {
             probes,
             active,
             anchor,
@@ -117,7 +117,7 @@ impl PieceQuadrature<'_, '_> {
             left: self.left,
         };
         let rule = self.rules.rule(self.patches, anchor);
-        let Refined { regions: parts, doubt } = refined(parts, &demand);
+        let RefinedParts { regions: parts, doubt } = refined(parts, &demand);
         rule.doubt.add(&doubt);
         for part in parts {
             part.nodes(gauss, self.order, &mut |x, w| rule.push(x, w));
@@ -126,17 +126,17 @@ impl PieceQuadrature<'_, '_> {
 }
 
 /// The singular points closer to the polygon than its diameter.
-fn near(anchor: Vec2, polygon: &Polygon, singular: &[Singular]) -> Vec<Singular> {
+fn near(anchor: Vec2, polygon: &ConvexPolygon, singular: &[Singularity]) -> Vec<Singularity> {
     if singular.is_empty() {
         return Vec::new();
     }
     let diameter = polygon.diameter();
-    let is_near = |s: &&Singular| polygon.distance(s.point - anchor) < diameter;
+    let is_near = |s: &&Singularity| polygon.distance(s.point - anchor) < diameter;
     singular.iter().filter(is_near).copied().collect()
 }
 
 /// The triangle (0, a, b) in panels along its far edge, for integrands singular at 0.
-fn apex_triangle<'c>(at: &Singular, a: Vec2, b: Vec2, n: usize) -> Vec<ChartWindow<'c>> {
+fn apex_triangle<'c>(at: &Singularity, a: Vec2, b: Vec2, n: usize) -> Vec<ChartWindow<'c>> {
     let edge = b - a;
     if a.cross(edge) <= FLAT * edge.dot(edge) {
         return Vec::new();
@@ -145,7 +145,7 @@ fn apex_triangle<'c>(at: &Singular, a: Vec2, b: Vec2, n: usize) -> Vec<ChartWind
     let height = a.cross(tangent);
     let foot = -tangent.left() * height;
     let apex = Apex { foot, tangent, height, grading: at.growth.over_areas(n) };
-    let chart = Rc::new(Chart::Apex(apex));
+    let chart = Rc::new(CellChart::Apex(apex));
     let window = |(from, to)| ChartWindow {
         chart: Rc::clone(&chart),
         range: Rect::new(vec2(from, 0.0), vec2(to, 1.0)),

@@ -13,12 +13,12 @@ pub(super) fn rectangles(
     partition: &BoxPartition,
     parts: usize,
     cell: &Rect,
-    coverers: &[u32],
+    covering_patches: &[u32],
     visit: &mut dyn FnMut(&Rect, &[u32]),
 ) {
     let size = cell.size();
     let splitter = Splitter { partition, parts, tolerance: TOLERANCE * size.x.min(size.y) };
-    splitter.constant_sets(cell, coverers, visit);
+    splitter.constant_sets(cell, covering_patches, visit);
 }
 
 struct Splitter<'a> {
@@ -31,7 +31,7 @@ struct Splitter<'a> {
 struct SplitLine {
     axis: usize,
     at: f64,
-    /// Part of the rectangle's extent over which it is a border of a patch.
+    /// Part of the rectangle's extent over which it is a boundary of a patch.
     share: f64,
 }
 
@@ -51,8 +51,8 @@ impl Splitter<'_> {
         }
     }
 
-    /// The patch border that runs through the largest part of the rectangle: cutting along it first
-    /// leaves the fewest rectangles.
+    /// The patch boundary that runs through the largest part of the rectangle: cutting along it
+    /// first leaves the fewest rectangles.
     fn main_border(&self, rect: &Rect, patches: &[u32]) -> Option<SplitLine> {
         let mut lines = self.borders(rect, patches);
         lines.sort_by(|a, b| a.axis.cmp(&b.axis).then(a.at.total_cmp(&b.at)));

@@ -2,36 +2,36 @@
 
 use super::adapt::Subregion;
 use super::gauss::{MAX_POINTS, Rules1d};
-use super::geometry::Grading;
+use super::geometry::RayGrading;
 use ppum::vec2::Vec2;
 
 /// Coordinate s along a line as a function of the parameter that Gauss rules are laid out in.
 #[derive(Clone, Copy)]
-pub(super) enum Path {
+pub(super) enum LineParameter {
     /// The coordinate itself.
     Straight,
     /// s = d sinh u, for a singular point at the distance d.
     Beside(f64),
     /// s = sign t^power, for a singular point on the line.
-    Through { sign: f64, grading: Grading },
+    Through { sign: f64, grading: RayGrading },
 }
 
 /// The points foot + s · tangent, relative to an anchor, for an interval of the parameter.
 #[derive(Clone)]
 pub(super) struct Stretch {
-    pub(super) path: Path,
+    pub(super) path: LineParameter,
     pub(super) foot: Vec2,
     pub(super) tangent: Vec2,
     pub(super) interval: (f64, f64),
 }
 
-impl Path {
+impl LineParameter {
     /// s and |ds/du|.
     fn at(&self, u: f64) -> (f64, f64) {
         match *self {
             Self::Straight => (u, 1.0),
             Self::Beside(d) => (d * u.sinh(), d * u.cosh()),
-            Self::Through { sign, grading: Grading { power, .. } } => {
+            Self::Through { sign, grading: RayGrading { power, .. } } => {
                 (sign * u.powf(power), power * u.powf(power - 1.0))
             }
         }

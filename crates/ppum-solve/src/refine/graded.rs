@@ -1,13 +1,13 @@
-//! Cells that shrink towards what polynomials see badly: singular points of the border, and round
+//! Cells that shrink towards what polynomials see badly: singular points of the boundary, and round
 //! rims. Corners with functions ask for a few small cells that leave these the room they need.
 //!
 //! A cell at a distance d is at most slope · d large, down to a finest size. At a singular point u
 //! ~ r^λ the energy that cells of size h miss is C (1 − λ) (h/R)^{2λ} of that of the surroundings,
-//! R away from what is next: it vanishes with the singularity. What remains beside that is missed
-//! ring by ring, the same part in each, and does not depend on the finest size.
+//! R away from the nearest other feature: it vanishes with the singularity. The remaining error
+//! comes from the rings of cells, the same part from each, and does not depend on the finest size.
 
-use super::rim::{Bend, FOR_ENERGY, bends, finest};
-use crate::corner::{Corner, Nature};
+use super::rim::{FOR_ENERGY, RimCorner, bends, finest};
+use crate::corner::{CornerMedium, SingularCorner};
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::Problem;
@@ -20,11 +20,11 @@ const MISSED: f64 = 1e-4;
 /// Largest cells at a distance, in parts of it.
 const SLOPE: f64 = 1.0;
 
-/// The same where a restraint ends within an edge, on [`STRONG`] exponents: reactions concentrate
-/// there, and the energy with them.
+/// That ratio where a restraint ends within an edge and the exponent is below [`STRONG`]: reactions
+/// concentrate there, and the energy with them.
 const STEEP: f64 = 0.35;
 
-/// Exponents of a restraint that are near 1/2.
+/// Exponents of a restraint below this one are near 1/2.
 const STRONG: f64 = 0.6;
 
 /// Radius around a corner with functions within which cells are small, and their size, in parts of
@@ -48,7 +48,7 @@ const ON_RIM: f64 = 8.0;
 const STEP: f64 = 1.25;
 
 /// The demand of one point or rim on the cells.
-pub(super) struct Graded {
+pub(super) struct GradedDemand {
     from: GradedShape,
     /// Size below which cells stay as they are.
     finest: f64,
@@ -59,33 +59,37 @@ pub(super) struct Graded {
 enum GradedShape {
     Point(Vec2),
     Circle(Vec2, f64),
-    Bend(Bend),
+    Bend(RimCorner),
 }
 
 /// The demands of the singular points and the round rims of a problem on a base cover with cells of
 /// the given size.
-pub(super) fn graded(problem: &Problem, corners: &[Corner], size: f64) -> Vec<Graded> {
+pub(super) fn graded(
+    problem: &Problem,
+    corners: &[SingularCorner],
+    size: f64,
+) -> Vec<GradedDemand> {
     let plate = problem.domain().bounds.size();
     let bits = |p: Vec2| [p.x.to_bits(), p.y.to_bits()];
     let on_curves: BTreeSet<_> =
         problem.domain().holes.iter().flat_map(bends).map(|bend| bits(bend.at)).collect();
     // what follows a curve has its radius, and is no corner; what is given may end there
-    let sharp = corners
-        .iter()
-        .filter(|corner| corner.nature != Nature::Corner || !on_curves.contains(&bits(corner.at)));
-    let at_corners = sharp.filter_map(|c| Graded::corner(c, plate.x.min(plate.y)));
-    let rims = problem.domain().holes.iter().flat_map(|hole| Graded::rim(hole, problem));
+    let sharp = corners.iter().filter(|corner| {
+        corner.nature != CornerMedium::Corner || !on_curves.contains(&bits(corner.at))
+    });
+    let at_corners = sharp.filter_map(|c| GradedDemand::corner(c, plate.x.min(plate.y)));
+    let rims = problem.domain().holes.iter().flat_map(|hole| GradedDemand::rim(hole, problem));
     let mut all: Vec<_> = at_corners.chain(rims).collect();
     all.iter_mut().for_each(|graded| graded.finest = graded.finest.max(SMALLEST * size));
     all
 }
 
-impl Graded {
-    /// The demand of a singular point on a plate of the given size; none where it is gentle.
-    fn corner(corner: &Corner, plate: f64) -> Option<Self> {
-        let Corner { at, exponent, room, nature, .. } = *corner;
+impl GradedDemand {
+    /// The demand of a singular point on a body of the given size; none where it is gentle.
+    fn corner(corner: &SingularCorner, plate: f64) -> Option<Self> {
+        let SingularCorner { at, exponent, room, nature, .. } = *corner;
         // cells of any size see the same of a field of infinite energy
-        if corner.is_gentle() || nature == Nature::Jump {
+        if corner.is_gentle() || nature == CornerMedium::Jump {
             return None;
         }
         if corner.wedge.is_some() {
@@ -95,7 +99,7 @@ impl Graded {
         // a small room holds a small part of the energy
         let missed = MISSED * plate / (room * corner.weakness());
         let finest = room * missed.powf(0.5 / exponent).min(1.0);
-        let is_steep = nature == Nature::Support && exponent < STRONG;
+        let is_steep = nature == CornerMedium::Support && exponent < STRONG;
         let slope = if is_steep { STEEP } else { SLOPE };
         Some(Self { from: GradedShape::Point(at), finest, slope })
     }
@@ -121,7 +125,7 @@ impl Graded {
     /// The box of what cells are graded towards.
     pub(super) fn place(&self) -> Rect {
         match self.from {
-            GradedShape::Point(p) | GradedShape::Bend(Bend { at: p, .. }) => around(&[p]),
+            GradedShape::Point(p) | GradedShape::Bend(RimCorner { at: p, .. }) => around(&[p]),
             GradedShape::Circle(center, radius) => wider(&around(&[center]), radius),
         }
     }
@@ -142,7 +146,7 @@ impl Graded {
     pub(super) fn coarsen_rim(&mut self) -> bool {
         let radius = match self.from {
             GradedShape::Point(_) => return false,
-            GradedShape::Circle(_, radius) | GradedShape::Bend(Bend { radius, .. }) => radius,
+            GradedShape::Circle(_, radius) | GradedShape::Bend(RimCorner { radius, .. }) => radius,
         };
         let is_finer = self.finest * STEP <= FOR_ENERGY * radius;
         self.finest *= if is_finer { STEP } else { 1.0 };
@@ -165,7 +169,7 @@ impl Graded {
 impl GradedShape {
     fn distance(&self, cell: &Rect) -> f64 {
         match *self {
-            Self::Point(p) | Self::Bend(Bend { at: p, .. }) => cell.distance(p),
+            Self::Point(p) | Self::Bend(RimCorner { at: p, .. }) => cell.distance(p),
             Self::Circle(center, radius) => {
                 let away = cell.center() - center;
                 let farthest = vec2(away.x.abs(), away.y.abs()) + cell.size() * 0.5;

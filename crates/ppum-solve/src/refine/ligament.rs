@@ -1,24 +1,24 @@
 //! Cells in ligaments: where little material is left between a hole and an edge, another hole or a
-//! crack, the plate bends like a beam, and a few cells must lie across.
+//! crack, the body bends like a beam, and a few cells must lie across.
 
 use super::graded::SMALLEST;
 use ppum::domain::Hole;
 use ppum::segment::polyline_distance;
 use ppum::vec2::{Rect, Vec2};
 use ppum_problem::geometry::exceeds;
-use ppum_problem::{Edge, Problem};
+use ppum_problem::{DomainEdge, Problem};
 
 /// Largest cells in a ligament, in parts of its width: the energy is right to 4e-4 then, with half
 /// as many cells across to 4e-3.
 const ACROSS: f64 = 1.0 / 3.0;
 
-/// Ligaments below this part of the plate's size are as good as broken through.
+/// Ligaments below this part of the body's size are as good as broken through.
 const THINNEST: f64 = 1e-4;
 
 /// A hole and what is near it.
 pub(super) struct Ligament<'p> {
     hole: &'p Hole,
-    other: Other<'p>,
+    other: LigamentEnd<'p>,
     finest: f64,
 }
 
@@ -27,8 +27,8 @@ const MOST: usize = 16;
 
 /// The end of a ligament.
 #[derive(Clone, Copy)]
-enum Other<'p> {
-    Edge(Edge, &'p Rect),
+enum LigamentEnd<'p> {
+    Edge(DomainEdge, &'p Rect),
     Hole(&'p Hole),
     Crack(&'p [Vec2]),
 }
@@ -40,11 +40,11 @@ pub(super) fn ligaments(problem: &Problem, size: f64) -> Vec<Ligament<'_>> {
     let thinnest = THINNEST * plate.x.min(plate.y);
     let mut found = Vec::new();
     for (k, hole) in holes.iter().enumerate() {
-        // edges of the box are no borders where they are outside of an outline
-        let edges = Edge::ALL.into_iter().filter(|_| !hole.is_outside());
-        let edges = edges.map(|edge| Other::Edge(edge, bounds));
-        let others = holes[..k].iter().map(Other::Hole);
-        let cracks = problem.cracks().iter().map(|crack| Other::Crack(&crack.points));
+        // edges of the box are no boundaries where they are outside of an outline
+        let edges = DomainEdge::ALL.into_iter().filter(|_| !hole.is_outside());
+        let edges = edges.map(|edge| LigamentEnd::Edge(edge, bounds));
+        let others = holes[..k].iter().map(LigamentEnd::Hole);
+        let cracks = problem.cracks().iter().map(|crack| LigamentEnd::Crack(&crack.points));
         let all = edges.chain(others).chain(cracks);
         let mut own: Vec<_> = all
             .filter_map(|other| {
@@ -93,7 +93,7 @@ impl Ligament<'_> {
     }
 }
 
-impl Other<'_> {
+impl LigamentEnd<'_> {
     fn distance(&self, p: Vec2) -> f64 {
         match *self {
             Self::Edge(edge, bounds) => edge.depth(bounds, p).abs(),
@@ -114,19 +114,20 @@ impl Other<'_> {
 }
 
 /// Width of the material between a hole and something else; zero or less where they touch.
-fn width(hole: &Hole, other: Other<'_>) -> f64 {
+fn width(hole: &Hole, other: LigamentEnd<'_>) -> f64 {
     match (hole, other) {
-        (Hole::Circle { center, radius }, Other::Edge(edge, bounds)) => {
+        (Hole::Circle { center, radius }, LigamentEnd::Edge(edge, bounds)) => {
             edge.depth(bounds, *center) - radius
         }
-        (Hole::Circle { center, radius }, Other::Hole(Hole::Circle { center: c, radius: r })) => {
-            (*c - *center).length() - radius - r
-        }
+        (
+            Hole::Circle { center, radius },
+            LigamentEnd::Hole(Hole::Circle { center: c, radius: r }),
+        ) => (*c - *center).length() - radius - r,
         (Hole::Circle { center, radius }, _) => other.distance(*center) - radius,
-        (Hole::Polygon { .. }, Other::Hole(Hole::Circle { center, radius })) => {
+        (Hole::Polygon { .. }, LigamentEnd::Hole(Hole::Circle { center, radius })) => {
             hole.rim_distance(*center) - radius
         }
-        (Hole::Polygon { points, .. }, Other::Edge(edge, bounds)) => {
+        (Hole::Polygon { points, .. }, LigamentEnd::Edge(edge, bounds)) => {
             points.iter().map(|p| edge.depth(bounds, *p)).fold(f64::INFINITY, f64::min)
         }
         (Hole::Polygon { points, .. }, _) => {

@@ -1,33 +1,33 @@
-//! The cover of a problem, divided where it says so ([`by_hand`]), and by itself where cracks and
+//! The cover of a problem, divided where it says so (`manual`), and by itself where cracks and
 //! rims need it.
 //!
 //! - No patch holds two tips, or a tip and a kink of its crack.
 //! - The cells around a tip are at most a quarter of the crack length belonging to it, and those at
 //!   the tip half its clearance, and half the distance to the next interface of two materials.
-//! - Cells at corners of interfaces, and where these meet the border or a crack, have an eighth of
-//!   the size, unless the problem has functions of its own: the field is singular there.
+//! - Cells at corners of interfaces, and where these meet the boundary or a crack, have an eighth
+//!   of the size, unless the problem has functions of its own: the field is singular there.
 //! - In no patch with a tip, or near it, does anything mislead the angle at the
 //!   tip ([`Jumps::mislead`]).
 //! - No patch is crossed twice by the rim of a polygon, down to a part of its size: it has no
 //!   functions of their own for the two sides. Cracks may cross it and each other as they like, up
 //!   to what [`Jumps`] can look at.
-//! - Patches at singular points of known fields reach no farther than these ([`KnownField`]).
+//! - Patches at singular points of known fields reach no farther than these (`KnownField`).
 //! - Three cells lie across what is left between a hole and its neighbours.
 //!
 //! Enrichment does the rest at tips, and at corners that turn inwards between free sides: grading
 //! toward them gains nothing once the singular functions are there. Other singular points, and
 //! round rims, have no such functions: cells are graded towards them.
 
-mod by_hand;
 mod graded;
 mod ligament;
+mod manual;
 mod rim;
 
 use crate::corner::corners;
 use crate::smoothness::Interfaces;
 use crate::terms::{KnownField, known_fields};
-use crate::watched::Stage;
-use graded::{Graded, graded};
+use crate::watched::WorkPhase;
+use graded::{GradedDemand, graded};
 use ligament::{Ligament, ligaments};
 use ppum::border::touch;
 use ppum::cover::{Cover, CoverError};
@@ -38,10 +38,10 @@ use ppum::progress::Cancelled;
 use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2};
 use ppum_problem::geometry::{
-    AMPLE_CLEARANCE, Jumps, Placed, TipClearance, around, bent_part, exceeds, interface_distance,
+    AMPLE_CLEARANCE, BoxList, Jumps, TipClearance, around, bent_part, exceeds, interface_distance,
     rim_crossings, runs_of_rim, wider,
 };
-use ppum_problem::{Cells, DEEPEST, Enrichment, Problem};
+use ppum_problem::{BaseCells, DEEPEST, Enrichment, Problem};
 pub use rim::{coarsest, rim_error};
 
 /// Part of a hole's size below which cells are not divided to part the sides of its rim; of an
@@ -61,10 +61,10 @@ const LARGEST: f64 = 0.25;
 const NEAR: f64 = 0.75;
 
 /// Cells at a tip that are not refined further for little clearance, in the same measure: tips
-/// nearly at the border or an interface would ask for cells without end.
+/// nearly at the boundary or an interface would ask for cells without end.
 const SMALLEST: f64 = 1.0 / 256.0;
 
-/// Levels by which cells are refined at singular points of interfaces. Of r^λ with λ ≈ 0.8 each
+/// Levels by which cells are refined at singular points of interfaces. For r^λ with λ ≈ 0.8, each
 /// takes two thirds of the error of the energy away.
 const AT_INTERFACES: u8 = 3;
 
@@ -140,18 +140,18 @@ pub enum RefineError {
 pub(crate) fn cover(
     problem: &Problem,
     most: usize,
-    stage: &Stage<'_>,
+    stage: &WorkPhase<'_>,
 ) -> Result<Cover, RefineError> {
     let mut cover = base(problem)?;
     let cells = cover.cells();
     at_most(most, &cover)?;
-    by_hand::divide(&mut cover, problem, most, stage)?;
+    manual::divide(&mut cover, problem, most, stage)?;
     if !problem.discretization.refine {
         return Ok(cover);
     }
     let needs = Needs::new(problem);
     // what is divided by hand takes nothing from what the program may add
-    let mut wishes = Wishes::new(problem, &cells);
+    let mut wishes = RefinementRequests::new(problem, &cells);
     wishes.most_cells += cover.n_cells() - cells.len();
     let rims = Rims::new(problem);
     let bounds = &problem.domain().bounds;
@@ -196,9 +196,9 @@ fn at_most(most: usize, cover: &Cover) -> Result<(), RefineError> {
 
 /// The needs of tips and of the mouths of cracks, and all tips.
 struct Needs {
-    needs: Placed<Need>,
+    needs: BoxList<Need>,
     /// With the distance up to which nothing may mislead the angle.
-    tips: Placed<(TipId, Vec2, f64)>,
+    tips: BoxList<(TipId, Vec2, f64)>,
 }
 
 impl Needs {
@@ -210,13 +210,13 @@ impl Needs {
         };
         let points: Vec<_> = tips(problem.cracks()).map(|id| (id, tip(id), reach(id))).collect();
         let numbered = problem.cracks().iter().enumerate();
-        let cracks = Placed::new(numbered.map(|crack| (around(&crack.1.points), crack)));
+        let cracks = BoxList::new(numbered.map(|crack| (around(&crack.1.points), crack)));
         let at_tips = tips(problem.cracks()).map(|tip| Need::new(problem, &cracks, tip));
         let all = at_tips.chain(problem.cracks().iter().flat_map(|crack| mouths(crack, problem)));
         let place = |need: Need| (wider(&around(&[need.tip]), need.near), need);
         Self {
-            needs: Placed::new(all.map(place)),
-            tips: Placed::new(points.into_iter().map(|t| (wider(&around(&[t.1]), t.2), t))),
+            needs: BoxList::new(all.map(place)),
+            tips: BoxList::new(points.into_iter().map(|t| (wider(&around(&[t.1]), t.2), t))),
         }
     }
 
@@ -241,10 +241,10 @@ fn patch_of(cell: &Rect, problem: &Problem) -> Rect {
 
 /// Refinement that makes solutions better, as far as it does not cost too much: cells at singular
 /// points, rims, in ligaments, and at singular points of interfaces.
-struct Wishes<'p> {
+struct RefinementRequests<'p> {
     problem: &'p Problem,
-    graded: Placed<Graded>,
-    ligaments: Placed<Ligament<'p>>,
+    graded: BoxList<GradedDemand>,
+    ligaments: BoxList<Ligament<'p>>,
     interfaces: Option<Interfaces<'p>>,
     /// The level of cells at singular points of interfaces.
     at_interfaces: u8,
@@ -252,28 +252,28 @@ struct Wishes<'p> {
     most_cells: usize,
 }
 
-impl<'p> Wishes<'p> {
+impl<'p> RefinementRequests<'p> {
     fn new(problem: &'p Problem, cells: &[(Rect, u8)]) -> Self {
         let size = cells.iter().fold(0.0f64, |m, (c, _)| m.max(c.size().x).max(c.size().y));
         let mut graded = graded(problem, &corners(problem), size);
         let mut ligaments = ligaments(problem, size);
         let budget = FREE_CELLS.max(4 * cells.len());
-        let cost = |graded: &[Graded], ligaments: &[Ligament<'_>]| {
+        let cost = |graded: &[GradedDemand], ligaments: &[Ligament<'_>]| {
             let at_points: f64 = graded.iter().map(|graded| graded.cells(size)).sum();
             at_points + ligaments.iter().map(|ligament| ligament.cells(size)).sum::<f64>()
         };
         while cost(&graded, &ligaments) > budget as f64 {
-            let coarser = graded.iter_mut().map(Graded::coarsen_rim).filter(|is| *is).count();
+            let coarser = graded.iter_mut().map(GradedDemand::coarsen_rim).filter(|is| *is).count();
             if coarser == 0 {
-                graded.iter_mut().for_each(Graded::coarsen);
+                graded.iter_mut().for_each(GradedDemand::coarsen);
                 ligaments.iter_mut().for_each(Ligament::coarsen);
             }
         }
         let lowest = cells.iter().map(|(_, level)| *level).min().unwrap_or(0);
         Self {
             problem,
-            graded: Placed::new(graded.into_iter().map(|graded| (graded.place(), graded))),
-            ligaments: Placed::new(ligaments.into_iter().map(|lig| (lig.place(), lig))),
+            graded: BoxList::new(graded.into_iter().map(|graded| (graded.place(), graded))),
+            ligaments: BoxList::new(ligaments.into_iter().map(|lig| (lig.place(), lig))),
             interfaces: resolves_interfaces(problem)
                 .then(|| Interfaces::new(problem.constants(), problem.domain(), problem.cracks())),
             at_interfaces: lowest + AT_INTERFACES,
@@ -283,7 +283,7 @@ impl<'p> Wishes<'p> {
 
     fn asks(&self, cell: &Rect, level: u8) -> bool {
         let around = |reach: f64| wider(cell, reach * cell.size().x.max(cell.size().y));
-        self.graded.near(&around(Graded::REACH)).any(|graded| graded.asks(cell))
+        self.graded.near(&around(GradedDemand::REACH)).any(|graded| graded.asks(cell))
             || self.ligaments.near(&around(Ligament::REACH)).any(|ligament| ligament.asks(cell))
             || level < self.at_interfaces && self.at_interface(cell)
     }
@@ -303,7 +303,9 @@ pub(crate) fn resolves_interfaces(problem: &Problem) -> bool {
 
 fn base(problem: &Problem) -> Result<Cover, CoverError> {
     match &problem.discretization.cells {
-        Cells::Points(points) => Cover::scattered(problem.domain().bounds, [1, 1], points.clone()),
+        BaseCells::Points(points) => {
+            Cover::scattered(problem.domain().bounds, [1, 1], points.clone())
+        }
         cells => {
             let bounds = problem.domain().bounds;
             let (roots, halvings) = cells.roots(&bounds).unwrap_or(([1, 1], 0));
@@ -326,7 +328,7 @@ pub struct Rims<'p> {
     domain: Rect,
     overlap: f64,
     /// Their corners, and sizes of cells that are not divided.
-    rims: Placed<(&'p [Vec2], f64)>,
+    rims: BoxList<(&'p [Vec2], f64)>,
 }
 
 impl<'p> Rims<'p> {
@@ -340,7 +342,7 @@ impl<'p> Rims<'p> {
             }
         });
         let overlap = problem.discretization.overlap;
-        Self { domain: problem.domain().bounds, overlap, rims: Placed::new(rims) }
+        Self { domain: problem.domain().bounds, overlap, rims: BoxList::new(rims) }
     }
 
     /// True if a patch, as far as the domain reaches, holds several runs of a rim and is larger
@@ -367,7 +369,7 @@ struct Need {
 }
 
 impl Need {
-    fn new(problem: &Problem, cracks: &Placed<(usize, &Crack)>, id: TipId) -> Self {
+    fn new(problem: &Problem, cracks: &BoxList<(usize, &Crack)>, id: TipId) -> Self {
         let crack = &problem.cracks()[id.crack as usize];
         let share = crack.length() / crack.tips().count() as f64;
         let tip = crack.end_point(id.end);
@@ -418,8 +420,8 @@ fn mouths(crack: &Crack, problem: &Problem) -> Vec<Need> {
     at_hole.collect()
 }
 
-/// The point at which the way from the end of a crack at a hole comes out of it into the
-/// plate again.
+/// The point at which the way from the end of a crack at a hole comes out of it into the body
+/// again.
 fn behind_holes(from: Vec2, way: Vec2, domain: &Domain) -> Option<Vec2> {
     let crossings = domain.holes.iter().flat_map(|hole| rim_crossings(from, from + way, hole));
     let mut all: Vec<f64> = crossings.filter(|t| *t > BEYOND).collect();

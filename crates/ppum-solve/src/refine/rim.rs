@@ -2,14 +2,14 @@
 
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2};
-use ppum_problem::{Order, nine};
+use ppum_problem::{PolynomialOrder, nine};
 
 /// Error of the stress at a rim, relative to the largest one, that its cells aim at.
 const AIM: f64 = 0.0075;
 
-/// The same in cells as large as the radius of curvature: polynomials of order p in cells of size h
-/// leave ROUGH (h/R)^p at most, at the worst of all points of a rim. Plates with round holes under
-/// tension (Kirsch 1898) had 2.4, 2.6, 1.8 and 1.0 for the orders 1 to 4.
+/// The error of cells as large as the radius of curvature: polynomials of order p in cells of size
+/// h leave ROUGH (h/R)^p at most, at the worst of all points of a rim. Plates with round holes
+/// under tension (Kirsch 1898) had 2.4, 2.6, 1.8 and 1.0 for the orders 1 to 4.
 const ROUGH: f64 = 2.6;
 
 /// Largest cells at a rim, in its radii: energies are right to 2e-4 then. Cells of 0.23 radii had
@@ -26,7 +26,7 @@ const TURN: f64 = 0.3;
 
 /// A corner of a polygon where it follows a curve.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Bend {
+pub(super) struct RimCorner {
     pub(super) at: Vec2,
     /// Radius of curvature.
     pub(super) radius: f64,
@@ -41,13 +41,13 @@ pub fn rim_error(size: f64, order: usize) -> f64 {
 }
 
 /// Largest cells at the rim of a hole, in its radii.
-pub(super) fn finest(order: &Order, hole: &Rect) -> f64 {
+pub(super) fn finest(order: &PolynomialOrder, hole: &Rect) -> f64 {
     let order = nine(hole).filter_map(|p| order.at(p).ok()).min().unwrap_or(1).max(1);
     (AIM / ROUGH).powf(1.0 / order as f64).clamp(LEAST, FOR_ENERGY)
 }
 
 /// The corners of a polygon at which it follows a curve.
-pub(super) fn bends(hole: &Hole) -> Vec<Bend> {
+pub(super) fn bends(hole: &Hole) -> Vec<RimCorner> {
     let sides: Vec<_> = hole.sides().collect();
     let n = sides.len();
     let bend = |k: usize| {
@@ -55,7 +55,7 @@ pub(super) fn bends(hole: &Hole) -> Vec<Bend> {
         let (before, after) = (at - from, sides[(k + 1) % n][1] - at);
         let turn = before.cross(after).atan2(before.dot(after)).abs();
         let length = 0.5 * (before.length() + after.length());
-        (turn > 0.0 && turn < TURN).then(|| Bend { at, radius: length / turn, length })
+        (turn > 0.0 && turn < TURN).then(|| RimCorner { at, radius: length / turn, length })
     };
     (0..n).filter_map(bend).collect()
 }
@@ -64,7 +64,7 @@ pub(super) fn bends(hole: &Hole) -> Vec<Bend> {
 /// cell's number; none if no cell is there, or the rim is not curved.
 pub fn coarsest(hole: &Hole, cells: &[(u32, Rect)]) -> Option<(f64, u32)> {
     let size = |cell: &Rect| cell.size().x.max(cell.size().y);
-    let on = |bends: &[Bend], cell: &Rect| match *hole {
+    let on = |bends: &[RimCorner], cell: &Rect| match *hole {
         Hole::Circle { center, radius } => {
             let farthest = cell.corners().into_iter().map(|p| (p - center).length());
             let is_on = cell.distance(center) <= radius && farthest.fold(0.0, f64::max) >= radius;

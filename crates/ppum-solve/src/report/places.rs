@@ -1,10 +1,9 @@
 //! Names of records of which there are many: of iterations and of levels.
 
-/// What names of records of the course of iterations begin with: `iteration 7`,
-/// `iteration 7 level 2`.
+/// The prefix of records of the iterations' residuals: `iteration 7`, `iteration 7 level 2`.
 pub(super) const ITERATION: &str = "iteration ";
 
-/// What names of records of levels begin with: `level 2`.
+/// The prefix of records of levels: `level 2`.
 pub(super) const LEVEL: &str = "level ";
 
 /// The iteration that a name tells, and the level if it tells one.

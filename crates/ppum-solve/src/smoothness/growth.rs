@@ -1,6 +1,6 @@
 //! Growth of a function near a point at which it is singular.
 
-use crate::quadrature::Growth;
+use crate::quadrature::SingularGrowth;
 use ppum::vec2::{Vec2, vec2};
 use std::f64::consts::{PI, TAU};
 
@@ -31,7 +31,7 @@ pub(crate) enum Behaviour {
     /// The function is constant on both sides of jumps.
     Constant,
     /// Its gradient may be infinite, its energy is not.
-    Grows(Growth),
+    Grows(SingularGrowth),
     /// Its energy is infinite.
     Diverges,
 }
@@ -53,9 +53,9 @@ pub(crate) fn growth(jet: &dyn Fn(Vec2) -> [f64; 3], scale: f64) -> Behaviour {
         None => Behaviour::Constant,
         Some(least) if least <= LEAST => Behaviour::Diverges,
         Some(_) if rays().all(|ray| has_half_powers(jet, ray, PART * scale)) => {
-            Behaviour::Grows(Growth::HalfPowers)
+            Behaviour::Grows(SingularGrowth::HalfPowers)
         }
-        Some(least) => Behaviour::Grows(Growth::Powers { least }),
+        Some(least) => Behaviour::Grows(SingularGrowth::Powers { least }),
     }
 }
 
@@ -97,10 +97,11 @@ mod tests {
     fn half_powers_and_others() {
         for (lambda, m) in [(0.5, 0.5), (1.5, 2.5), (1.0, 3.0), (2.5, 0.0), (2.0, 2.0)] {
             let found = of_power(lambda, m, 1.0);
-            assert_eq!(found, Behaviour::Grows(Growth::HalfPowers), "{lambda} {m}");
+            assert_eq!(found, Behaviour::Grows(SingularGrowth::HalfPowers), "{lambda} {m}");
         }
         for (lambda, m) in [(0.6, 0.6), (0.25, 0.25), (0.51, 1.5), (1.2, 0.0), (0.05, 1.0)] {
-            let Behaviour::Grows(Growth::Powers { least }) = of_power(lambda, m, 2.0) else {
+            let Behaviour::Grows(SingularGrowth::Powers { least }) = of_power(lambda, m, 2.0)
+            else {
                 panic!("{lambda} {m}: {:?}", of_power(lambda, m, 2.0));
             };
             assert!((least - lambda).abs() < 1e-6, "{least} instead of {lambda}");
@@ -114,7 +115,7 @@ mod tests {
             let slope = 0.3 * r.powf(-0.7) + 0.5 / r.sqrt();
             [r.powf(0.3) + r.sqrt(), slope * p.x / r, slope * p.y / r]
         };
-        let Behaviour::Grows(Growth::Powers { least }) = growth(&jet, 1.0) else {
+        let Behaviour::Grows(SingularGrowth::Powers { least }) = growth(&jet, 1.0) else {
             panic!("powers")
         };
         assert!((0.3..0.33).contains(&least), "{least}");

@@ -5,7 +5,7 @@
 //! frame, if it uses polar coordinates, and those it declares. How fast it grows there is measured.
 //! The Westergaard functions of a tip are known: half powers of r times smooth functions of θ.
 //!
-//! Body forces and data on the border have places of their own, [`Smoothness::with_data`]; they
+//! Body forces and data on the boundary have places of their own, `Smoothness::with_data`; they
 //! matter in the integrals of these data alone.
 
 mod growth;
@@ -16,10 +16,10 @@ mod probe;
 mod tests;
 mod traits;
 
-use crate::quadrature::{Geometry, Kink, Singular};
+use crate::quadrature::{KinkLine, Singularity, SmoothnessGeometry};
 use interfaces::proportional;
 pub(crate) use interfaces::{BESIDE, Interface, InterfacePoint};
-pub use interfaces::{Cause, Interfaces, Trouble};
+pub use interfaces::{Cause, Interfaces, UnresolvedKink};
 use ppum::crack::Crack;
 use ppum::dataset::{BoxPartition, Equation, FieldData, Step};
 use ppum::domain::Hole;
@@ -31,20 +31,20 @@ pub(crate) use probe::Probe;
 use probe::ProbeList;
 use std::collections::BTreeMap;
 use std::sync::Arc;
-use traits::{Surroundings, Traits, traits_of_coefficient, traits_of_data};
+use traits::{TraitContext, Traits, traits_of_coefficient, traits_of_data};
 pub(crate) use traits::{box_of, levels_of_data};
 
 /// Part of the domain's size that two lines may be apart by rounding.
 const ROUNDING: f64 = 1e-14;
 
-/// The places at which a step is not smooth; owns what a [`Geometry`] borrows.
+/// The places at which a step is not smooth; owns what a [`SmoothnessGeometry`] borrows.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Smoothness {
-    singular: Vec<Singular>,
+    singular: Vec<Singularity>,
     /// Those at each point, by the bits of its coordinates.
     at_point: BTreeMap<[u64; 2], Vec<u32>>,
     patch_singular: Vec<Vec<u32>>,
-    kinks: Vec<Kink>,
+    kinks: Vec<KinkLine>,
     patch_kinks: Vec<Vec<u32>>,
     common_kinks: Vec<u32>,
     probes: ProbeList,
@@ -74,7 +74,7 @@ impl Smoothness {
         equation: &Equation,
         tables: &[Arc<Table>],
     ) -> Result<Self, FunctionError> {
-        let surroundings = Surroundings::new(step, tables);
+        let surroundings = TraitContext::new(step, tables);
         let mut all = Self::default();
         let mut of_functions = Vec::with_capacity(step.functions.len());
         let mut degrees = Vec::with_capacity(step.functions.len());
@@ -103,13 +103,13 @@ impl Smoothness {
         Ok(all)
     }
 
-    /// The same for integrals with data, each with the mean of its absolute value, and where the
-    /// data are not smooth; none if they are polynomials.
+    /// Returns the smoothness for integrals with data, each with the mean of its absolute value,
+    /// and the lines where the data are not smooth; `None` if the data are polynomials.
     pub(crate) fn with_data(
         &self,
         domain: &Rect,
         data: &[(&Expression, f64)],
-    ) -> Option<(Self, Vec<Kink>)> {
+    ) -> Option<(Self, Vec<KinkLine>)> {
         let all: Vec<Traits> =
             data.iter().filter_map(|(data, mean)| traits_of_data(data, *mean)).collect();
         if all.is_empty() {
@@ -131,8 +131,8 @@ impl Smoothness {
         partition: &'a BoxPartition,
         cracks: &'a [Crack],
         holes: &'a [Hole],
-    ) -> Geometry<'a> {
-        Geometry {
+    ) -> SmoothnessGeometry<'a> {
+        SmoothnessGeometry {
             holes,
             singular: &self.singular,
             patch_singular: &self.patch_singular,
@@ -142,7 +142,7 @@ impl Smoothness {
             probes: &self.probes,
             patch_probes: &self.patch_probes,
             common_probes: &self.common_probes,
-            ..Geometry::new(partition, cracks)
+            ..SmoothnessGeometry::new(partition, cracks)
         }
     }
 
@@ -158,7 +158,7 @@ impl Smoothness {
 
     /// The index of a kink, of an equal one if there is one: a curve that several functions have in
     /// common is cut along once.
-    fn add_kink(&mut self, new: Kink, domain: &Rect) -> u32 {
+    fn add_kink(&mut self, new: KinkLine, domain: &Rect) -> u32 {
         let known = self.kinks.iter().position(|known| same(known, &new, domain));
         known.unwrap_or_else(|| {
             self.kinks.push(new);
@@ -200,9 +200,9 @@ impl Smoothness {
 }
 
 /// True if two kinks are the same line, segment or curve.
-fn same(known: &Kink, new: &Kink, domain: &Rect) -> bool {
+fn same(known: &KinkLine, new: &KinkLine, domain: &Rect) -> bool {
     match (known, new) {
-        (Kink::Line([a, b]), Kink::Line(line)) => {
+        (KinkLine::Line([a, b]), KinkLine::Line(line)) => {
             let reach = ROUNDING * domain.size().length();
             let c = domain.center();
             let foot = *a + (*b - *a) * ((c - *a).dot(*b - *a) / (*b - *a).dot(*b - *a));
@@ -211,8 +211,8 @@ fn same(known: &Kink, new: &Kink, domain: &Rect) -> bool {
             let off = |x: Vec2| (x - *p).cross((*q - *p).unit()).abs();
             off(foot) <= reach && off(foot + way) <= reach
         }
-        (Kink::Segment(a), Kink::Segment(b)) => a == b,
-        (Kink::Curve(f), Kink::Curve(g)) => proportional(f.as_ref(), g.as_ref(), domain),
+        (KinkLine::Segment(a), KinkLine::Segment(b)) => a == b,
+        (KinkLine::Curve(f), KinkLine::Curve(g)) => proportional(f.as_ref(), g.as_ref(), domain),
         _ => false,
     }
 }
@@ -223,5 +223,5 @@ pub(crate) fn divergence(
     step: &Step,
     tables: &[Arc<Table>],
 ) -> Result<Option<Vec2>, FunctionError> {
-    Surroundings::new(step, tables).traits(function).map(|traits| traits.divergent)
+    TraitContext::new(step, tables).traits(function).map(|traits| traits.divergent)
 }

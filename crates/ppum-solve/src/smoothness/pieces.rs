@@ -29,8 +29,10 @@ impl SmoothPieces {
         // The origin of a polar frame is no curve.
         let singular = formula.singularities().into_iter().filter(|set| set.value.text() != "r");
         let mut sets: Vec<_> = formula.kinks().into_iter().chain(singular).collect();
-        let Some(polynomial) = Polynomial::new(formula) else { return Self { sets, degree: None } };
-        // Of a spline the value is smooth at the knots, but no polynomial across them.
+        let Some(polynomial) = PiecewisePolynomial::new(formula) else {
+            return Self { sets, degree: None };
+        };
+        // The value of a spline is smooth at the knots, but no polynomial across them.
         for derivative in &polynomial.derivatives {
             for set in derivative.kinks() {
                 if sets.iter().all(|known| known.value.text() != set.value.text()) {
@@ -47,13 +49,13 @@ impl SmoothPieces {
 }
 
 /// A formula that is a polynomial of x and y on every piece between some lines and curves.
-struct Polynomial {
+struct PiecewisePolynomial {
     degree: usize,
     /// All its derivatives of this order, which are constants on every piece.
     derivatives: Vec<Formula>,
 }
 
-impl Polynomial {
+impl PiecewisePolynomial {
     fn new(formula: &Formula) -> Option<Self> {
         let mut derivatives = vec![formula.clone()];
         for degree in 0..=POLYNOMIAL {

@@ -1,6 +1,6 @@
 //! Functions and coefficients as quadrature looks at them.
 
-use crate::quadrature::{Face, Probes};
+use crate::quadrature::{CrackFace, Probes};
 use ppum::crack::{Crack, Side};
 use ppum::formula::{DerivativeError, Formula, Table};
 use ppum::function::{Function, FunctionError, FunctionKind, FunctionTable, GROUP, Slot};
@@ -70,12 +70,18 @@ impl Probe {
     }
 
     /// Appends values and gradients at several points, which may lie on a face of a crack.
-    fn jets(&self, anchor: Vec2, offsets: &[Vec2], face: Option<Face>, out: &mut Vec<[f64; 3]>) {
+    fn jets(
+        &self,
+        anchor: Vec2,
+        offsets: &[Vec2],
+        face: Option<CrackFace>,
+        out: &mut Vec<[f64; 3]>,
+    ) {
         match self {
             Self::Function { table, cracks } => {
                 let Slot::Jet { group, entry } = table.of(0) else { return };
                 let seen = match face {
-                    Some(Face { segment, .. }) => table.on(cracks, segment, anchor),
+                    Some(CrackFace { segment, .. }) => table.on(cracks, segment, anchor),
                     None => table.at(cracks, anchor),
                 };
                 let side = face.map_or(Side::Above, |face| face.side);
@@ -111,7 +117,7 @@ impl Probes for ProbeList {
         &self,
         function: u32,
         (anchor, offsets): (Vec2, &[Vec2]),
-        face: Option<Face>,
+        face: Option<CrackFace>,
         out: &mut Vec<[f64; 3]>,
     ) {
         self.0[function as usize].jets(anchor, offsets, face, out);

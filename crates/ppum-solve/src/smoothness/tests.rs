@@ -1,9 +1,9 @@
 use super::pieces::{SmoothPieces, rays};
-use super::traits::{Surroundings, Traits, traits_of_coefficient};
-use crate::quadrature::{Growth, Kink, Singular};
+use super::traits::{TraitContext, Traits, traits_of_coefficient};
+use crate::quadrature::{KinkLine, SingularGrowth, Singularity};
 use ppum::crack::{Crack, CrackEnd, End, TipId};
 use ppum::formula::{Formula, Scope, Table};
-use ppum::function::{Declared, Frame, Function, FunctionKind, Role, WESTERGAARD};
+use ppum::function::{Frame, Function, FunctionKind, NonsmoothPoints, Role, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -52,12 +52,12 @@ fn knots_of_splines() {
 }
 
 /// A crack, patches of half-size 0.1.
-fn surroundings() -> Surroundings<'static> {
+fn surroundings() -> TraitContext<'static> {
     let kinked = Crack {
         points: vec![vec2(-1.0, 0.0), vec2(0.0, 0.0), vec2(1.0, 1.0)],
         ends: [CrackEnd::Mouth, CrackEnd::Tip],
     };
-    Surroundings {
+    TraitContext {
         cracks: vec![kinked].into(),
         tables: &[],
         domain: Rect::new(vec2(-2.0, -2.0), vec2(2.0, 2.0)),
@@ -72,8 +72,10 @@ fn traits(text: &str, frame: Frame) -> Traits {
 }
 
 /// Distance of a point to the line of a kink.
-fn off(kink: &Kink, p: Vec2) -> f64 {
-    let (Kink::Line([a, b]) | Kink::Segment([a, b])) = kink else { panic!("a line: {kink:?}") };
+fn off(kink: &KinkLine, p: Vec2) -> f64 {
+    let (KinkLine::Line([a, b]) | KinkLine::Segment([a, b])) = kink else {
+        panic!("a line: {kink:?}")
+    };
     ((*b - *a).cross(p - *a) / (*b - *a).length()).abs()
 }
 
@@ -95,7 +97,7 @@ fn kinks_are_seen_in_the_world() {
     let p = vec2(1.0, 1.0) + diagonal * 2.0 + diagonal.left();
     assert!(off(&found.kinks[0], p) < 1e-14 && off(&found.kinks[0], vec2(1.0, 1.0)) < 1e-14);
     let found = traits("if(x^2 + y^2 < 1, x, y)", Frame::Fixed { origin, angle });
-    let [Kink::Curve(level)] = found.kinks.as_slice() else { panic!("{:?}", found.kinks) };
+    let [KinkLine::Curve(level)] = found.kinks.as_slice() else { panic!("{:?}", found.kinks) };
     assert!(level(origin + x.left() * 0.99) * level(origin + x.left() * 1.01) < 0.0);
     assert!(level(origin + x).abs() < 1e-14);
 }
@@ -105,10 +107,11 @@ fn kinks_are_seen_in_the_world() {
 fn the_cut_of_the_polar_angle_is_a_kink() {
     let frame = Frame::Fixed { origin: vec2(0.5, 0.0), angle: std::f64::consts::FRAC_PI_2 };
     let found = traits("r^0.6*sin(0.6*theta)", frame);
-    let [Kink::Segment([a, b])] = found.kinks.as_slice() else { panic!("{:?}", found.kinks) };
+    let [KinkLine::Segment([a, b])] = found.kinks.as_slice() else { panic!("{:?}", found.kinks) };
     assert_eq!(*a, vec2(0.5, 0.0));
     assert!((b.x - 0.5).abs() < 1e-14 && b.y < -10.0, "{b:?}");
-    let [Singular { point, growth: Growth::Powers { least } }] = found.singular[..] else {
+    let [Singularity { point, growth: SingularGrowth::Powers { least } }] = found.singular[..]
+    else {
         panic!("{:?}", found.singular)
     };
     assert!(point == vec2(0.5, 0.0) && (least - 0.6).abs() < 1e-6 && found.probe.is_some());
@@ -140,8 +143,8 @@ fn kinks_at_angles_are_rays() {
     let frame = Frame::Fixed { origin: vec2(1.0, 0.0), angle: PI / 2.0 };
     let found = traits("r*abs(theta - 0.6)", frame);
     let ray = vec2((0.6 + PI / 2.0).cos(), (0.6 + PI / 2.0).sin());
-    let on_ray = |kink: &Kink| {
-        matches!(kink, Kink::Segment([a, b]) if *a == vec2(1.0, 0.0)
+    let on_ray = |kink: &KinkLine| {
+        matches!(kink, KinkLine::Segment([a, b]) if *a == vec2(1.0, 0.0)
             && (*b - *a).cross(ray).abs() < 1e-13 && (*b - *a).dot(ray) > 10.0)
     };
     assert!(found.kinks.iter().any(on_ray), "{:?}", found.kinks);
@@ -151,19 +154,21 @@ fn kinks_at_angles_are_rays() {
 fn functions_at_tips() {
     for text in WESTERGAARD {
         let found = traits(text, Frame::Tip(TIP));
-        assert_eq!(found.singular, [Singular::tip(vec2(1.0, 1.0))]);
+        assert_eq!(found.singular, [Singularity::tip(vec2(1.0, 1.0))]);
         assert!(found.kinks.is_empty() && found.probe.is_none() && found.degree == 0);
     }
     let found = traits("r^(3/2)*cos(3*theta/2)", Frame::Tip(TIP));
-    assert_eq!(found.singular, [Singular::tip(vec2(1.0, 1.0))]);
+    assert_eq!(found.singular, [Singularity::tip(vec2(1.0, 1.0))]);
     assert!(found.kinks.is_empty() && found.probe.is_some());
     assert_eq!(traits("log(r)", Frame::Tip(TIP)).divergent, Some(vec2(1.0, 1.0)));
 }
 
 #[test]
 fn declared_places() {
-    let declared =
-        Declared { kinks: vec![[vec2(0.0, 0.0), vec2(0.0, 2.0)]], singular: vec![vec2(0.0, 1.0)] };
+    let declared = NonsmoothPoints {
+        kinks: vec![[vec2(0.0, 0.0), vec2(0.0, 2.0)]],
+        singular: vec![vec2(0.0, 1.0)],
+    };
     let kind = FunctionKind::Formula {
         text: "hypot(x, y - 1)^0.3".into(),
         frame: Frame::Fixed { origin: vec2(1.0, 0.0), angle: std::f64::consts::FRAC_PI_2 },
@@ -173,11 +178,11 @@ fn declared_places() {
     };
     let function = Function { name: "declared".into(), kind };
     let found = surroundings().traits(&function).expect("a function");
-    let [Singular { point, growth: Growth::HalfPowers }] = found.singular[..] else {
+    let [Singularity { point, growth: SingularGrowth::HalfPowers }] = found.singular[..] else {
         panic!("{:?}", found.singular)
     };
     assert!((point - vec2(0.0, 0.0)).length() < 1e-15);
-    let Some(Kink::Segment([a, b])) = found.kinks.last() else { panic!("{:?}", found.kinks) };
+    let Some(KinkLine::Segment([a, b])) = found.kinks.last() else { panic!("{:?}", found.kinks) };
     assert!((*a - vec2(1.0, 0.0)).length() < 1e-15 && (*b - vec2(-1.0, 0.0)).length() < 1e-15);
 }
 
@@ -188,7 +193,7 @@ fn coefficients() {
     assert!(steps.probe.is_none() && steps.degree == 0);
     assert!(off(&steps.kinks[0], vec2(1.0, 0.4)) < 1e-15);
     assert!(of("3").kinks.is_empty());
-    let [Kink::Curve(level)] = &of("if(x^2 + y^2 < 0.25, 10, 1)").kinks[..] else {
+    let [KinkLine::Curve(level)] = &of("if(x^2 + y^2 < 0.25, 10, 1)").kinks[..] else {
         panic!("a circle")
     };
     assert!(level(vec2(0.4, 0.0)) * level(vec2(0.6, 0.0)) < 0.0);

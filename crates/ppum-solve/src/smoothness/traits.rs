@@ -3,26 +3,27 @@
 use super::growth::{Behaviour, growth};
 use super::pieces::{SmoothPieces, rays};
 use super::probe::Probe;
-use crate::quadrature::{Growth, Kink, Singular};
+use crate::quadrature::{KinkLine, SingularGrowth, Singularity};
 use ppum::crack::Crack;
 use ppum::dataset::{BoxPartition, Step};
 use ppum::expression::Expression;
 use ppum::formula::{self, Formula, Table};
 use ppum::function::{
-    CompileError, Declared, Frame, Function, FunctionError, FunctionKind, function_scope, native,
+    CompileError, Frame, Function, FunctionError, FunctionKind, NonsmoothPoints, function_scope,
+    native,
 };
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Exponent that a function of infinite energy is graded for.
-const DIVERGENT: Growth = Growth::Powers { least: 0.04 };
+const DIVERGENT: SingularGrowth = SingularGrowth::Powers { least: 0.04 };
 
 /// The traits of one function or coefficient that quadrature has to know.
 #[derive(Default)]
 pub(super) struct Traits {
-    pub(super) singular: Vec<Singular>,
-    pub(super) kinks: Vec<Kink>,
+    pub(super) singular: Vec<Singularity>,
+    pub(super) kinks: Vec<KinkLine>,
     pub(super) probe: Option<Probe>,
     /// Degree, where it is a piecewise polynomial.
     pub(super) degree: usize,
@@ -31,13 +32,13 @@ pub(super) struct Traits {
 }
 
 impl Traits {
-    fn add_singular(&mut self, point: Vec2, growth: Growth) {
-        self.singular.push(Singular { point, growth });
+    fn add_singular(&mut self, point: Vec2, growth: SingularGrowth) {
+        self.singular.push(Singularity { point, growth });
     }
 }
 
 /// The surroundings that the traits of a function depend on.
-pub(super) struct Surroundings<'s> {
+pub(super) struct TraitContext<'s> {
     pub(super) cracks: Arc<[Crack]>,
     pub(super) tables: &'s [Arc<Table>],
     /// The box that the cells cover.
@@ -54,7 +55,7 @@ pub(crate) fn box_of(partition: &BoxPartition) -> Rect {
     partition.cell.iter().fold(first, |all, cell| all.union(cell))
 }
 
-impl<'s> Surroundings<'s> {
+impl<'s> TraitContext<'s> {
     pub(super) fn new(step: &Step, tables: &'s [Arc<Table>]) -> Self {
         let partition = step.partition.boxes();
         let domain = box_of(partition);
@@ -71,7 +72,7 @@ impl<'s> Surroundings<'s> {
     pub(super) fn traits(&self, function: &Function) -> Result<Traits, FunctionError> {
         match &function.kind {
             FunctionKind::Formula { text, frame, .. } if native(text, *frame).is_some() => {
-                let singular = vec![Singular::tip(self.axes(*frame).origin)];
+                let singular = vec![Singularity::tip(self.axes(*frame).origin)];
                 Ok(Traits { singular, ..Traits::default() })
             }
             FunctionKind::Formula { text, frame, parameters, declared, .. } => {
@@ -93,28 +94,28 @@ impl<'s> Surroundings<'s> {
         &self,
         function: &Function,
         formula: &Formula,
-        axes: &Axes,
-        declared: &Declared,
+        axes: &FrameAxes,
+        declared: &NonsmoothPoints,
     ) -> Result<Traits, FunctionError> {
         let probe = Probe::function(function, &self.cracks, self.tables)?;
         let SmoothPieces { sets, degree } = SmoothPieces::new(formula);
         let mut traits = Traits { degree: degree.unwrap_or(0), ..Traits::default() };
         for set in sets {
             if let Some(line) = set.line() {
-                traits.kinks.push(Kink::Line(axes.line(line)));
+                traits.kinks.push(KinkLine::Line(axes.line(line)));
             } else if let Some(rays) = rays(&set.value) {
                 traits.kinks.extend(rays.into_iter().map(|theta| self.ray(axes, theta)));
             } else {
                 let text = set.value.text();
                 let part = Probe::part_of(function, text, &self.cracks, self.tables)?;
-                traits.kinks.push(Kink::Curve(Arc::new(move |p| part.jet(p, Vec2::ZERO)[0])));
+                traits.kinks.push(KinkLine::Curve(Arc::new(move |p| part.jet(p, Vec2::ZERO)[0])));
             }
         }
         if formula.uses_branch() && !axes.is_tip {
             traits.kinks.push(self.ray(axes, PI));
         }
         let segments = declared.kinks.iter();
-        traits.kinks.extend(segments.map(|s| Kink::Segment(s.map(|p| axes.to_world(p)))));
+        traits.kinks.extend(segments.map(|s| KinkLine::Segment(s.map(|p| axes.to_world(p)))));
         if formula.singular_at_origin() {
             match growth(&|offset| probe.jet(axes.origin, offset), self.scale) {
                 Behaviour::Constant => {}
@@ -131,19 +132,19 @@ impl<'s> Surroundings<'s> {
         // may look nearer than the rule for half powers does: noise would be taken for
         // the function.
         for &point in &declared.singular {
-            traits.add_singular(axes.to_world(point), Growth::HalfPowers);
+            traits.add_singular(axes.to_world(point), SingularGrowth::HalfPowers);
         }
         traits.probe = (degree.is_none() && declared.singular.is_empty()).then_some(probe);
         Ok(traits)
     }
 
     /// The ray from the origin of a frame, as far as the domain reaches.
-    fn ray(&self, axes: &Axes, theta: f64) -> Kink {
+    fn ray(&self, axes: &FrameAxes, theta: f64) -> KinkLine {
         let end = vec2(theta.cos(), theta.sin()) * (self.reach + axes.origin.length());
-        Kink::Segment([axes.origin, axes.to_world(end)])
+        KinkLine::Segment([axes.origin, axes.to_world(end)])
     }
 
-    fn axes(&self, frame: Frame) -> Axes {
+    fn axes(&self, frame: Frame) -> FrameAxes {
         let (origin, x, is_tip) = match frame {
             Frame::Fixed { origin, angle } => (origin, vec2(angle.cos(), angle.sin()), false),
             Frame::Tip(tip) => {
@@ -152,7 +153,7 @@ impl<'s> Surroundings<'s> {
             }
             _ => (Vec2::ZERO, vec2(1.0, 0.0), false),
         };
-        Axes { origin, x, is_tip }
+        FrameAxes { origin, x, is_tip }
     }
 }
 
@@ -188,13 +189,13 @@ pub(super) fn traits_of_data(data: &Expression, mean: f64) -> Option<Traits> {
     }
     let kinks = in_world(sets);
     // the sides of curves are looked at, too: rules of pieces with such sides are not exact
-    let curved = kinks.iter().any(|kink| matches!(kink, Kink::Curve(_)));
+    let curved = kinks.iter().any(|kink| matches!(kink, KinkLine::Curve(_)));
     let is_probed = degree.is_none() || curved;
     let probe = is_probed.then(|| Probe::Load { formula: formula.clone(), mean });
     Some(Traits { kinks, probe, ..Traits::default() })
 }
 
-/// Level functions of the plate's x and y on whose zero sets a load may jump.
+/// Level functions of the body's x and y on whose zero sets a load may jump.
 pub(crate) fn levels_of_data(data: &Expression) -> Vec<Formula> {
     if data.constant().is_some() {
         return Vec::new();
@@ -202,24 +203,24 @@ pub(crate) fn levels_of_data(data: &Expression) -> Vec<Formula> {
     SmoothPieces::new(data.formula()).sets.into_iter().map(|set| set.value).collect()
 }
 
-/// Sets of a formula of the plate's x and y.
-fn in_world(sets: Vec<formula::Kink>) -> Vec<Kink> {
-    let world = Axes { origin: Vec2::ZERO, x: vec2(1.0, 0.0), is_tip: false };
+/// Sets of a formula of the body's x and y.
+fn in_world(sets: Vec<formula::Kink>) -> Vec<KinkLine> {
+    let world = FrameAxes { origin: Vec2::ZERO, x: vec2(1.0, 0.0), is_tip: false };
     let kink = |set: formula::Kink| match set.line() {
-        Some(line) => Kink::Line(world.line(line)),
-        None => Kink::Curve(Arc::new(move |p: Vec2| set.value.evaluate(&[p.x, p.y]))),
+        Some(line) => KinkLine::Line(world.line(line)),
+        None => KinkLine::Curve(Arc::new(move |p: Vec2| set.value.evaluate(&[p.x, p.y]))),
     };
     sets.into_iter().map(kink).collect()
 }
 
 /// A frame's axes in the world.
-struct Axes {
+struct FrameAxes {
     origin: Vec2,
     x: Vec2,
     is_tip: bool,
 }
 
-impl Axes {
+impl FrameAxes {
     fn to_world(&self, p: Vec2) -> Vec2 {
         self.origin + self.x * p.x + self.x.left() * p.y
     }

@@ -1,7 +1,7 @@
 //! Finds the cells of a space that are alike.
 
-use super::alike::{Alike, Member, PatchKind, ReferenceCell};
-use super::trial::Space;
+use super::congruence::{CongruentCells, Member, PatchKind, ReferenceCell};
+use super::trial::TrialSpace;
 use ppum::dataset::{BoxPartition, FieldData, Step};
 use ppum::function::{Function, FunctionKind};
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -10,7 +10,7 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
-/// Parts of a cell's size that its measures are rounded to: fine enough that borders of patches
+/// Parts of a cell's size that its measures are rounded to: fine enough that boundaries of patches
 /// that coincide still do for quadrature, coarse enough for the rounding of coordinates.
 const PARTS: f64 = (1_u64 << 42) as f64;
 
@@ -24,8 +24,8 @@ const AT_ONCE: usize = 4096;
 /// Bits of the cell's size that are rounded away.
 const SIZE_BITS: u64 = 12;
 
-impl Alike {
-    pub(super) fn new(space: &Space<'_>) -> Self {
+impl CongruentCells {
+    pub(super) fn new(space: &TrialSpace<'_>) -> Self {
         let mut alike = Self::of_cells(space);
         alike.kinds.par_iter_mut().for_each(|kind| kind.find_rules(space));
         alike.find_patches(space);
@@ -33,12 +33,12 @@ impl Alike {
     }
 
     /// The kinds in the order of their measures.
-    fn of_cells(space: &Space<'_>) -> Self {
+    fn of_cells(space: &TrialSpace<'_>) -> Self {
         let quadrature = space.quadrature(0);
         let mut known: HashMap<Vec<i64>, u32> = HashMap::new();
         let measured = |cell: usize| {
             let is_whole =
-                quadrature.is_whole(&space.partition().cell[cell], &space.coverers[cell]);
+                quadrature.is_whole(&space.partition().cell[cell], &space.covering_patches[cell]);
             is_whole.then(|| measures(space, cell)).flatten()
         };
         let mut numbered = |(measures, patches): (Vec<i64>, Vec<u32>)| {
@@ -60,12 +60,12 @@ impl Alike {
         Self { kinds: all.into_iter().map(kind).collect(), cells, ..Self::default() }
     }
 
-    fn find_patches(&mut self, space: &Space<'_>) {
+    fn find_patches(&mut self, space: &TrialSpace<'_>) {
         let n = space.partition().len();
         let (mut seats, mut is_whole) = (vec![PatchKind::new(); n], vec![true; n]);
-        for (member, coverers) in self.cells.iter().zip(&space.coverers) {
+        for (member, covering_patches) in self.cells.iter().zip(&space.covering_patches) {
             match member {
-                None => coverers.iter().for_each(|&patch| is_whole[patch as usize] = false),
+                None => covering_patches.iter().for_each(|&patch| is_whole[patch as usize] = false),
                 Some(Member { kind, patches }) => (0..)
                     .zip(patches)
                     .for_each(|(seat, &patch)| seats[patch as usize].push((*kind, seat))),
@@ -85,21 +85,22 @@ impl Alike {
 }
 
 impl ReferenceCell {
-    fn find_rules(&mut self, like: &Space<'_>) {
+    fn find_rules(&mut self, like: &TrialSpace<'_>) {
         let space = self.space(like);
         let quadrature = space.quadrature(0);
-        self.rules = quadrature.cell(&space.partition().cell[0], &space.coverers[0]);
+        self.rules = quadrature.cell(&space.partition().cell[0], &space.covering_patches[0]);
     }
 
     /// The space of the cell at the origin and its patches, with the quadrature of another one: its
-    /// first cell is the one, and its patches, which all cover it, stand in the order of their seats.
-    pub(crate) fn space<'d>(&self, like: &Space<'d>) -> Space<'d> {
+    /// first cell is the one, and its patches, which all cover it, stand in the order of their
+    /// local indices.
+    pub(crate) fn space<'d>(&self, like: &TrialSpace<'d>) -> TrialSpace<'d> {
         let (size, seats) = self.measures.split_at(2);
         let size = vec2(f64::from_bits(size[0] as u64), f64::from_bits(size[1] as u64));
         let cell = Rect::around(Vec2::ZERO, size * 0.5);
-        let seats: Vec<_> = seats.chunks_exact(Seat::NUMBERS).map(Seat::of).collect();
+        let seats: Vec<_> = seats.chunks_exact(CellPatch::NUMBERS).map(CellPatch::of).collect();
         let n = seats.len();
-        let all = |of: fn(&Seat) -> [i64; 2]| -> Vec<Vec2> {
+        let all = |of: fn(&CellPatch) -> [i64; 2]| -> Vec<Vec2> {
             let length = |parts: [i64; 2]| parts.map(|parts| parts as f64 / PARTS);
             let seen = |[x, y]: [f64; 2]| vec2(x * size.x, y * size.y);
             seats.iter().map(|seat| seen(length(of(seat)))).collect()
@@ -121,23 +122,23 @@ impl ReferenceCell {
         let mut step = Step::new(partition).with_field(data);
         step.functions = vec![Function { name: "one".into(), kind: FunctionKind::One }];
         let (equation, every) = (like.equation(), vec![(0..n as u32).collect()]);
-        let mut space = Space::of_cells(Cow::Owned(step), (equation, &[]), every, like.orders)
+        let mut space = TrialSpace::of_cells(Cow::Owned(step), (equation, &[]), every, like.orders)
             .expect("the constant one compiles");
-        space.caches.alike = OnceLock::from(Alike::default());
+        space.caches.alike = OnceLock::from(CongruentCells::default());
         space
     }
 }
 
-impl<'d> Space<'d> {
+impl<'d> TrialSpace<'d> {
     /// The cells that are alike.
-    pub(crate) fn alike(&self) -> &Alike {
-        self.caches.alike.get_or_init(|| Alike::new(self))
+    pub(crate) fn alike(&self) -> &CongruentCells {
+        self.caches.alike.get_or_init(|| CongruentCells::new(self))
     }
 }
 
 /// A patch as a cell sees it, in parts of the cell's size.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Seat {
+struct CellPatch {
     center: [i64; 2],
     half: [i64; 2],
     origin: [i64; 2],
@@ -145,7 +146,7 @@ struct Seat {
     degree: u8,
 }
 
-impl Seat {
+impl CellPatch {
     const NUMBERS: usize = 9;
 
     fn numbers(&self) -> [i64; Self::NUMBERS] {
@@ -160,9 +161,9 @@ impl Seat {
     }
 }
 
-/// The measures of a cell, and its patches in the order of their seats; none where not all
+/// The measures of a cell, and its patches in the order of their local indices; none where not all
 /// functions are polynomials of one order on patches of one size.
-fn measures(space: &Space<'_>, cell: usize) -> Option<(Vec<i64>, Vec<u32>)> {
+fn measures(space: &TrialSpace<'_>, cell: usize) -> Option<(Vec<i64>, Vec<u32>)> {
     let (rect, data) = (&space.partition().cell[cell], space.data());
     let seat = |&patch: &u32| {
         let blocks = data.blocks(patch as usize);
@@ -172,9 +173,11 @@ fn measures(space: &Space<'_>, cell: usize) -> Option<(Vec<i64>, Vec<u32>)> {
         let seat = seat(space.partition(), patch as usize, rect, data.block_degree[first])?;
         is_plain.then_some((seat, patch))
     };
-    let mut seats: Vec<(Seat, u32)> =
-        space.coverers[cell].iter().map(seat).collect::<Option<_>>()?;
-    let alike = |(a, b): (&Seat, &Seat)| (a.half, a.scale, a.degree) == (b.half, b.scale, b.degree);
+    let mut seats: Vec<(CellPatch, u32)> =
+        space.covering_patches[cell].iter().map(seat).collect::<Option<_>>()?;
+    let alike = |(a, b): (&CellPatch, &CellPatch)| {
+        (a.half, a.scale, a.degree) == (b.half, b.scale, b.degree)
+    };
     if !seats.windows(2).all(|pair| alike((&pair[0].0, &pair[1].0))) {
         return None;
     }
@@ -187,14 +190,14 @@ fn measures(space: &Space<'_>, cell: usize) -> Option<(Vec<i64>, Vec<u32>)> {
 }
 
 /// A patch as a cell sees it.
-fn seat(partition: &BoxPartition, patch: usize, cell: &Rect, degree: u8) -> Option<Seat> {
+fn seat(partition: &BoxPartition, patch: usize, cell: &Rect, degree: u8) -> Option<CellPatch> {
     let (middle, size) = (cell.center(), cell.size());
     let parts = |v: Vec2| {
         let [x, y] = [v.x / size.x, v.y / size.y];
         let is_small = x.abs() < LARGEST && y.abs() < LARGEST;
         is_small.then(|| [x, y].map(|parts| (parts * PARTS).round() as i64))
     };
-    Some(Seat {
+    Some(CellPatch {
         center: parts(partition.center[patch] - middle)?,
         half: parts(partition.half[patch])?,
         origin: parts(partition.origin[patch] - middle)?,

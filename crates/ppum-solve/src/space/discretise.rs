@@ -1,18 +1,18 @@
 //! From a problem to a step with all coefficients zero: cover, enrichment, inspection.
 
-use super::enrichment::{Block, Enrichments};
+use super::enrichment::{BlockSpec, Enrichments};
 use super::error::SpaceError;
 use super::inspect::inspect;
-use super::mesh::Mesh;
-use crate::quadrature::{Geometry, Orders, Quadrature, Rule};
+use super::mesh::CoverMesh;
+use crate::quadrature::{CellRule, Orders, Quadrature, SmoothnessGeometry};
 use crate::refine::RefineError;
-use crate::watched::Stage;
+use crate::watched::WorkPhase;
 use ppum::dataset::{Attribute, BoxPartition, FieldData, MAX_DEGREE, Step, monomials};
 use ppum::domain::Hole;
 use ppum::progress::{Phase, Watcher};
 use ppum::vec2::{Rect, vec2};
 use ppum_problem::Problem;
-use ppum_problem::geometry::Placed;
+use ppum_problem::geometry::BoxList;
 use ppum_problem::quantities::field_names;
 
 /// The step of a problem with all coefficients zero.
@@ -21,18 +21,18 @@ use ppum_problem::quantities::field_names;
 /// A cover that cannot be built or refined, an order formula that gives no order, a function that
 /// is not finite on its patches; cancelled.
 pub fn discretise(problem: &Problem, watcher: &dyn Watcher) -> Result<Step, SpaceError> {
-    let stage = Stage::uncounted(watcher, Phase::Cover)?;
-    discretise_on(problem, &Mesh::new(problem, usize::MAX, &stage)?, &stage)
+    let stage = WorkPhase::uncounted(watcher, Phase::Cover)?;
+    discretise_on(problem, &CoverMesh::new(problem, usize::MAX, &stage)?, &stage)
 }
 
-/// The same on a mesh of the problem.
+/// Discretises a problem on a given mesh of its cover.
 ///
 /// # Errors
 /// See [`discretise`].
 pub fn discretise_on(
     problem: &Problem,
-    mesh: &Mesh,
-    stage: &Stage<'_>,
+    mesh: &CoverMesh,
+    stage: &WorkPhase<'_>,
 ) -> Result<Step, SpaceError> {
     let set = &problem.discretization;
     let partition =
@@ -105,15 +105,15 @@ fn solid_part(
     if holes.is_empty() {
         return Ok((partition, raised.to_vec()));
     }
-    let geometry = Geometry { holes, ..Geometry::new(&partition, &[]) };
+    let geometry = SmoothnessGeometry { holes, ..SmoothnessGeometry::new(&partition, &[]) };
     let quadrature = Quadrature::new(geometry, Orders::for_degree(1));
     let all = partition.cell.iter().copied().reduce(|all, cell| all.union(&cell));
     let all = all.ok_or(SpaceError::Nothing)?;
-    let placed = Placed::new(holes.iter().map(|hole| (hole.bounds().intersection(&all), hole)));
+    let placed = BoxList::new(holes.iter().map(|hole| (hole.bounds().intersection(&all), hole)));
     let is_solid = |(index, cell): (u32, &Rect)| {
         let size = cell.size();
         let near: Vec<_> = placed.near(cell).copied().collect();
-        let area = |rules: Vec<Rule>| rules.iter().flat_map(|r| &r.weights).sum::<f64>();
+        let area = |rules: Vec<CellRule>| rules.iter().flat_map(|r| &r.weights).sum::<f64>();
         near.is_empty()
             || has_room(cell, &near)
             || area(quadrature.cell(cell, &[index])) > LEAST_PART * size.x * size.y
@@ -128,8 +128,8 @@ fn solid_part(
 /// Places of a cell in each direction that are looked at before its area is integrated.
 const LOOKS: u32 = 5;
 
-/// Distance from rims and borders, in sizes of a cell, of a place that shows enough of
-/// the material.
+/// Distance from rims and boundaries, in sizes of a cell, of a place that shows enough of the
+/// material.
 const ROOM: f64 = 1e-5;
 
 /// True if one of some places in a cell lies clearly outside of holes: most cells are seen to be
@@ -149,8 +149,8 @@ fn kept<T: Clone>(all: &[T], keep: &[bool]) -> Vec<T> {
 }
 
 /// Order of the polynomials, number of blocks and number of functions of each patch.
-fn attributes(blocks: &[Vec<Block>]) -> Vec<Attribute> {
-    let attribute = |name: &str, value: &dyn Fn(&Vec<Block>) -> usize| Attribute {
+fn attributes(blocks: &[Vec<BlockSpec>]) -> Vec<Attribute> {
+    let attribute = |name: &str, value: &dyn Fn(&Vec<BlockSpec>) -> usize| Attribute {
         name: name.into(),
         values: blocks.iter().map(|b| value(b) as f64).collect(),
     };
@@ -161,7 +161,7 @@ fn attributes(blocks: &[Vec<Block>]) -> Vec<Attribute> {
     ]
 }
 
-fn field(problem: &Problem, blocks: &[Vec<Block>]) -> FieldData {
+fn field(problem: &Problem, blocks: &[Vec<BlockSpec>]) -> FieldData {
     let (name, components) = field_names(&problem.equation);
     let mut data = FieldData::new(name, components);
     data.exact = problem.exact.iter().map(|e| e.text().to_owned()).collect();

@@ -2,16 +2,16 @@
 
 use super::error::SpaceError;
 use crate::refine::{RefineError, cover};
-use crate::watched::Stage;
+use crate::watched::WorkPhase;
 use ppum::box_tree::BoxTree;
 use ppum::cover::{Cover, CoverError};
 use ppum::dataset::BoxPartition;
 use ppum::vec2::Rect;
 use ppum_problem::Problem;
 
-/// What is to be done to a cell.
+/// The change that a cell undergoes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Change {
+pub enum CellChange {
     /// It stays as it is.
     Keep,
     /// Its four quarters take its place.
@@ -23,17 +23,17 @@ pub enum Change {
 /// A cover, and of each of its cells by how much the order is raised above the one that the
 /// problem gives.
 #[derive(Clone, Debug)]
-pub struct Mesh {
+pub struct CoverMesh {
     pub(super) cover: Cover,
     pub(super) raised: Vec<u8>,
 }
 
-impl Mesh {
+impl CoverMesh {
     /// The cover of a problem, of at most so many cells.
     ///
     /// # Errors
     /// A cover that cannot be built or refined; cancelled.
-    pub fn new(problem: &Problem, most: usize, stage: &Stage<'_>) -> Result<Self, SpaceError> {
+    pub fn new(problem: &Problem, most: usize, stage: &WorkPhase<'_>) -> Result<Self, SpaceError> {
         let cover = cover(problem, most, stage)?;
         let raised = vec![0; cover.n_cells()];
         Ok(Self { cover, raised })
@@ -62,7 +62,7 @@ impl Mesh {
         Some(Self { cover, raised })
     }
 
-    /// The mesh after changes to the cells of a partition, which is this mesh's but for cells in
+    /// The mesh after changes to the cells of a partition, which is this mesh's except for cells in
     /// holes. Cells beside those that are divided may have to be divided, too. None if nothing can
     /// be changed.
     ///
@@ -71,34 +71,36 @@ impl Mesh {
     pub fn changed(
         &self,
         partition: &BoxPartition,
-        changes: &[Change],
+        changes: &[CellChange],
     ) -> Result<Option<Self>, SpaceError> {
         let cells = self.cover.cells();
-        let mut change = vec![Change::Keep; cells.len()];
+        let mut change = vec![CellChange::Keep; cells.len()];
         let mut own = partition.cell.iter().zip(changes).peekable();
         for ((cell, _), change) in cells.iter().zip(&mut change) {
             if let Some((_, wanted)) = own.next_if(|(solid, _)| *solid == cell) {
                 *change = *wanted;
             }
         }
-        if change.iter().all(|change| *change == Change::Keep) {
+        if change.iter().all(|change| *change == CellChange::Keep) {
             return Ok(None);
         }
         let mut cover = self.cover.clone();
-        let mut divide = change.iter().map(|change| *change == Change::Divide);
+        let mut divide = change.iter().map(|change| *change == CellChange::Divide);
         match cover.refine(|_, _| divide.next() == Some(true)) {
             // as small as numbers allow: not an error of the problem
             Err(CoverError::TooSmall { .. }) => return Ok(None),
             other => other.map_err(RefineError::from)?,
         };
-        let raise = |(raised, change): (&u8, &Change)| raised + u8::from(*change == Change::Raise);
+        let raise =
+            |(raised, change): (&u8, &CellChange)| raised + u8::from(*change == CellChange::Raise);
         let raised: Vec<u8> = self.raised.iter().zip(&change).map(raise).collect();
         let raised = inherited(&cells, &raised, &cover.cells());
         Ok(Some(Self { cover, raised }))
     }
 }
 
-/// What cells have from those that they lie in. Both lists are in the order of one tree.
+/// Returns the values that new cells inherit from the old cells that they lie in. Both lists are in
+/// the order of one tree.
 fn inherited(old: &[(Rect, u8)], of_old: &[u8], new: &[(Rect, u8)]) -> Vec<u8> {
     let mut at = 0;
     let of = |(cell, _): &(Rect, u8)| {

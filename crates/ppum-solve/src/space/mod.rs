@@ -1,7 +1,7 @@
 //! The trial space: a step whose coefficients are still to be found, and the lists the solver needs
 //! to walk over it.
 
-mod alike;
+mod congruence;
 mod congruent;
 mod discretise;
 mod enrichment;
@@ -13,11 +13,11 @@ mod trial;
 mod williams;
 
 pub use crate::refine::RefineError;
-pub(crate) use alike::Member;
+pub(crate) use congruence::Member;
 pub use discretise::{discretise, discretise_on};
 pub use error::SpaceError;
 pub use inspect::InspectError;
 pub(crate) use known::KnownFunction;
-pub use mesh::{Change, Mesh};
-pub use trial::Space;
+pub use mesh::{CellChange, CoverMesh};
+pub use trial::TrialSpace;
 pub(crate) use williams::{ANGULAR, Origin, SeriesFunctions};

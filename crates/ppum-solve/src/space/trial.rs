@@ -1,10 +1,10 @@
 //! A step with the lists that the solver needs to walk over it.
 
-use super::alike::Alike;
+use super::congruence::CongruentCells;
 use super::known::{KnownFunction, KnownFunctions, known_functions};
 use super::williams::{self, SeriesFunctions};
 use crate::law::joined;
-use crate::quadrature::{Orders, Quadrature, Rule};
+use crate::quadrature::{CellRule, Orders, Quadrature};
 use crate::smoothness::Smoothness;
 use crate::terms::{HeldLine, held_lines};
 use ppum::box_tree::BoxTree;
@@ -22,23 +22,23 @@ use std::sync::{Arc, OnceLock};
 /// Accuracy of the quadrature of products of partition functions with polynomials of the
 /// highest degree.
 ///
-/// What a solution has of the highest degree falls with the order as its error does, so the same
-/// part of it is allowed at all orders: 2e-5, which changes factors by less than a thousandth of
-/// their error (docs/decisions/0030-points.md).
+/// The share of the highest degree in a solution falls with the order as the error does, so the
+/// same tolerance for it holds at all orders: 2e-5, which changes factors by less than a thousandth
+/// of their error (docs/decisions/0030-points.md).
 const WEIGHT_ACCURACY: f64 = 2e-5;
 
 /// A step and its walks. Errors, energies and stress intensity factors of a solution are integrated
 /// over the same cells as the system, so one space serves from the first estimate to the last
 /// warning: what it looks at of its step is everything but the coefficients.
 #[derive(Debug)]
-pub struct Space<'d> {
+pub struct TrialSpace<'d> {
     pub(super) step: Cow<'d, Step>,
     /// The holes that are cut out of the cells.
     pub(crate) holes: &'d [Hole],
     /// The step's functions, compiled.
     pub(crate) functions: FunctionTable,
     /// The patches whose open supports meet a cell, cell by cell.
-    pub coverers: Vec<Vec<u32>>,
+    pub covering_patches: Vec<Vec<u32>>,
     /// The number of functions of a patch's local space, patch by patch.
     pub sizes: Vec<usize>,
     /// The constant σ that a block's function f is replaced by f − σ with while solving, block
@@ -48,10 +48,10 @@ pub struct Space<'d> {
     /// larger part of the patch: the jump across a sliver is a function of its own, not a small
     /// difference of large ones. Zero for all other functions.
     pub(crate) shifts: Vec<f64>,
-    /// Of each patch, those functions that stand for the series of tips and corners; empty if there
+    /// The functions of each patch that represent the series of tips and corners; empty if there
     /// are none anywhere.
     pub(super) series: Vec<Vec<SeriesFunctions>>,
-    /// Of patches at edges with cracks, the lines on which a component is zero.
+    /// For patches at edges with cracks, the lines on which a component is zero.
     pub(super) held: BTreeMap<u32, Vec<HeldLine>>,
     /// Functions of patches whose coefficients are known: they have no unknowns.
     pub(super) known: KnownFunctions,
@@ -61,16 +61,16 @@ pub struct Space<'d> {
     pub(super) caches: Caches,
 }
 
-/// What is computed of a space when it is first asked for.
+/// Tables of a space that are computed when they are first asked for.
 #[derive(Debug, Default)]
 pub(super) struct Caches {
-    /// Of each cell, its rules; none of cells that are alike.
-    rules: Vec<OnceLock<Vec<Rule>>>,
+    /// The rules of each cell; none of cells that are alike.
+    rules: Vec<OnceLock<Vec<CellRule>>>,
     /// The cells that are alike.
-    pub(super) alike: OnceLock<Alike>,
+    pub(super) alike: OnceLock<CongruentCells>,
 }
 
-impl<'d> Space<'d> {
+impl<'d> TrialSpace<'d> {
     /// The walks over the first field of a step on a domain.
     ///
     /// # Errors
@@ -125,8 +125,9 @@ impl<'d> Space<'d> {
             None => Smoothness::new(&step, &step.fields[0], equation, tables)?,
         };
         let partition = step.partition.boxes();
-        let (coverers, orders) = (coverers(partition), orders(partition, smoothness.degree()));
-        let space = Self::of_cells(step, (equation, tables), coverers, orders)?;
+        let (covering_patches, orders) =
+            (covering_patches(partition), orders(partition, smoothness.degree()));
+        let space = Self::of_cells(step, (equation, tables), covering_patches, orders)?;
         Ok(Self { holes: &domain.holes, smoothness, ..space })
     }
 
@@ -134,7 +135,7 @@ impl<'d> Space<'d> {
     pub(super) fn of_cells(
         step: Cow<'d, Step>,
         (equation, tables): (&'d Equation, &[Arc<Table>]),
-        coverers: Vec<Vec<u32>>,
+        covering_patches: Vec<Vec<u32>>,
         orders: Orders,
     ) -> Result<Self, FunctionError> {
         let (n, data) = (step.partition.len(), &step.fields[0]);
@@ -149,7 +150,7 @@ impl<'d> Space<'d> {
             known: KnownFunctions::new(),
             smoothness: Smoothness::default(),
             caches: Caches { rules: vec![OnceLock::new(); n], ..Caches::default() },
-            coverers,
+            covering_patches,
             orders,
             equation,
             step,
@@ -195,11 +196,11 @@ impl<'d> Space<'d> {
     /// The rules of the default quadrature on a cell. They are made once, for Gram matrices,
     /// stiffness and estimate, since they take a tenth of a solution's time, and seconds where
     /// formulas are probed; on cells that are alike they are moved.
-    pub(crate) fn rules(&self, quadrature: &Quadrature<'_>, cell: usize) -> Cow<'_, [Rule]> {
+    pub(crate) fn rules(&self, quadrature: &Quadrature<'_>, cell: usize) -> Cow<'_, [CellRule]> {
         if let Some(rules) = self.alike().rules(cell, self.partition().cell[cell].center()) {
             return Cow::Owned(rules);
         }
-        let rules = || quadrature.cell(&self.partition().cell[cell], &self.coverers[cell]);
+        let rules = || quadrature.cell(&self.partition().cell[cell], &self.covering_patches[cell]);
         Cow::Borrowed(self.caches.rules[cell].get_or_init(rules))
     }
 
@@ -250,7 +251,7 @@ impl<'d> Space<'d> {
     }
 }
 
-impl Space<'_> {
+impl TrialSpace<'_> {
     /// The series of a patch.
     pub(crate) fn series(&self, patch: usize) -> &[SeriesFunctions] {
         self.series.get(patch).map_or(&[], Vec::as_slice)
@@ -285,8 +286,8 @@ impl Space<'_> {
     }
 }
 
-/// Of each cell, the patches whose open supports meet it.
-fn coverers(partition: &BoxPartition) -> Vec<Vec<u32>> {
+/// Returns for each cell the patches whose open supports meet it.
+fn covering_patches(partition: &BoxPartition) -> Vec<Vec<u32>> {
     let supports: Vec<_> = (0..partition.len()).map(|i| partition.support(i)).collect();
     let tree = BoxTree::new(&supports);
     let of_cell = |cell| {

@@ -1,11 +1,11 @@
 //! Functions that stand for the series of tips and corners: the solution takes combinations of
 //! them only.
 
-use crate::corner::{Corner, WedgeTerm, corners};
+use crate::corner::{SingularCorner, WedgeTerm, corners};
 use crate::terms::{on_side, symmetry_of_field};
 use ppum::crack::TipId;
 use ppum::dataset::{Equation, Step, monomials};
-use ppum::function::{Declared, Frame, Function, FunctionKind, GROUP, Role, WESTERGAARD};
+use ppum::function::{Frame, Function, FunctionKind, GROUP, NonsmoothPoints, Role, WESTERGAARD};
 use ppum::library::WEDGE;
 use ppum::vec2::Vec2;
 use ppum_problem::{Problem, Symmetry};
@@ -37,8 +37,8 @@ pub(crate) enum Origin {
     /// so that Williams' series up to r^(N − ½) are combinations of them with polynomials of degree
     /// N − 1. At a tip on an edge they are those of one symmetry to its axis.
     Tip(TipId, Option<Symmetry>),
-    /// The four of [`WEDGE`] in the frame of a corner make one field. Of Poisson's equation one of
-    /// them does.
+    /// The four of [`WEDGE`] in the frame of a corner make one field. For Poisson's equation, one
+    /// of them does.
     Corner {
         at: Vec2,
         /// Angle of the bisector.
@@ -87,9 +87,9 @@ pub(super) fn series(problem: &Problem, step: &Step) -> Vec<Vec<SeriesFunctions>
 }
 
 /// By its first function in the table, the origin of each group of functions, and their number.
-type Groups = BTreeMap<u32, (Origin, usize)>;
+type FunctionOrigins = BTreeMap<u32, (Origin, usize)>;
 
-fn groups(problem: &Problem, step: &Step) -> Groups {
+fn groups(problem: &Problem, step: &Step) -> FunctionOrigins {
     let mut groups = of_tips(problem, step);
     // to look for corners takes a second where rims have thousands of vertices
     if !step.functions.iter().any(|function| function.kind.role() == Some(Role::Corner)) {
@@ -107,7 +107,7 @@ fn groups(problem: &Problem, step: &Step) -> Groups {
 }
 
 /// The built-in functions of each tip.
-fn of_tips(problem: &Problem, step: &Step) -> Groups {
+fn of_tips(problem: &Problem, step: &Step) -> FunctionOrigins {
     let mut known = BTreeSet::new();
     let mut first = |kind: &FunctionKind| match *kind {
         FunctionKind::Formula { frame: Frame::Tip(tip), role: Role::Tip, .. } => {
@@ -121,7 +121,10 @@ fn of_tips(problem: &Problem, step: &Step) -> Groups {
 }
 
 /// The functions of a corner, in groups: one for each of its fields.
-pub(super) fn of_corner(corner: &Corner, equation: &Equation) -> Vec<(Vec<Function>, Origin)> {
+pub(super) fn of_corner(
+    corner: &SingularCorner,
+    equation: &Equation,
+) -> Vec<(Vec<Function>, Origin)> {
     let Some(wedge) = &corner.wedge else { return Vec::new() };
     let frame = Frame::Fixed { origin: corner.at, angle: wedge.bisector };
     let function = |term: &WedgeTerm, text: &str| Function {
@@ -131,7 +134,7 @@ pub(super) fn of_corner(corner: &Corner, equation: &Equation) -> Vec<(Vec<Functi
             frame,
             parameters: vec![("lambda".into(), term.exponent)],
             // known, so that quadrature need not look for it
-            declared: Declared { singular: vec![Vec2::ZERO], ..Declared::default() },
+            declared: NonsmoothPoints { singular: vec![Vec2::ZERO], ..NonsmoothPoints::default() },
             role: Role::Corner,
         },
     };
@@ -148,7 +151,7 @@ pub(super) fn of_corner(corner: &Corner, equation: &Equation) -> Vec<(Vec<Functi
     wedge.terms.iter().map(group).collect()
 }
 
-fn of_patch(step: &Step, patch: usize, groups: &Groups) -> Vec<SeriesFunctions> {
+fn of_patch(step: &Step, patch: usize, groups: &FunctionOrigins) -> Vec<SeriesFunctions> {
     let (data, mut at, mut found) = (&step.fields[0], 0, Vec::new());
     for block in data.blocks(patch) {
         let degree = usize::from(data.block_degree[block]);

@@ -12,14 +12,14 @@ use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
 use ppum_problem::Problem;
 
-/// What acts between the faces of a crack.
+/// The law between the faces of a crack.
 #[derive(Clone, Copy, Debug)]
 pub struct FaceLaw {
     /// Coulomb's coefficient of friction.
     pub(crate) friction: f64,
 }
 
-/// What acts on a face at a point.
+/// The traction on a face at a point, and the gap.
 #[derive(Clone, Copy, Debug)]
 pub struct FaceTraction {
     /// The traction on the face.
@@ -29,7 +29,7 @@ pub struct FaceTraction {
 }
 
 impl FaceTraction {
-    /// Of a point with nothing behind it.
+    /// No traction and no gap: nothing lies behind the point.
     const OPEN: Self = Self { traction: Vec2::ZERO, gap: 0.0 };
 }
 

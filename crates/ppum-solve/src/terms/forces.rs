@@ -7,7 +7,7 @@
 //! 2μ (u_x + i u_y) = (−2κ F ln r + F̄ e^{2iθ}) / (2π (1 + κ))
 //! ```
 //!
-//! and at a straight border (Flamant), θ from the normal into the body
+//! and at a straight boundary (Flamant), θ from the normal into the body
 //!
 //! ```text
 //! 2μ (u_x + i u_y) = (−(κ + 1) F ln r − (κ − 1) i F θ + F̄ e^{2iθ}) / 2π
@@ -19,15 +19,15 @@
 
 use super::known::{KnownField, on_side};
 use ppum::dataset::Material;
-use ppum::function::{Declared, Frame, Function, FunctionKind, Role};
+use ppum::function::{Frame, Function, FunctionKind, NonsmoothPoints, Role};
 use ppum::vec2::{Vec2, vec2};
 use ppum_problem::{Force, ForcePlace, Problem};
 use std::f64::consts::PI;
 
-/// The functions of the angle and the distance, the last at borders only.
+/// The functions of the angle and the distance, the last at boundaries only.
 const TEXTS: [&str; 4] = ["log(r)", "(x^2 - y^2)/r^2", "2*x*y/r^2", "theta"];
 
-/// Distances to the next border or crack that a patch with the force may reach: what the border
+/// Distances to the next boundary or crack that a patch with the force may reach: what the boundary
 /// answers is beyond its polynomials where it is farther.
 const REACH: f64 = 3.0;
 
@@ -59,7 +59,7 @@ fn known_field(
             text: on_side(text, side),
             frame: Frame::Fixed { origin: force.at, angle: axis.y.atan2(axis.x) },
             parameters: Vec::new(),
-            declared: Declared { singular: vec![Vec2::ZERO], ..Declared::default() },
+            declared: NonsmoothPoints { singular: vec![Vec2::ZERO], ..NonsmoothPoints::default() },
             role: Role::Force,
         },
     };
@@ -85,7 +85,7 @@ fn kelvin(Vec2 { x, y }: Vec2, material: &Material) -> Vec<[f64; 2]> {
     all.map(|pair| pair.map(|c| unit * c)).to_vec()
 }
 
-/// The same of Flamant's, with the normal into the body, from which the angle is measured.
+/// Flamant's solution, with the normal into the body, from which the angle is measured.
 fn flamant(force: Vec2, inward: Vec2, material: &Material) -> Vec<[f64; 2]> {
     let kappa = material.kolosov();
     let unit = 1.0 / (4.0 * PI * material.mu());

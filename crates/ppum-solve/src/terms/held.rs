@@ -1,4 +1,4 @@
-//! Components of the field that are zero on a line: the symmetry of a straight line of the border
+//! Components of the field that are zero on a line: the symmetry of a straight line of the boundary
 //! that holds a crack.
 //!
 //! The tip's singular functions that have the symmetry satisfy it; of the polynomials, and of jumps

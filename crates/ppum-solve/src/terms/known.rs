@@ -5,8 +5,8 @@ use ppum::dataset::BoxPartition;
 use ppum::function::Function;
 use ppum::vec2::{Rect, Vec2};
 
-/// A part of the field that is known but for a smooth rest: functions times coefficients, singular
-/// at a point where a load acts.
+/// A part of the field that is known except for a smooth rest: functions times coefficients,
+/// singular at a point where a load acts.
 pub struct KnownField {
     pub at: Vec2,
     pub load: Vec2,
@@ -17,7 +17,7 @@ pub struct KnownField {
     /// Radius of the disc that the patches that hold the point must lie in.
     pub reach: f64,
     pub(crate) functions: Vec<Function>,
-    /// Of each function, its coefficient in each component.
+    /// The coefficient of each function in each component.
     pub(crate) coefficients: Vec<[f64; 2]>,
 }
 
@@ -37,12 +37,12 @@ impl KnownField {
     }
 
     /// True if the patches that hold the point have room, and are not much larger than the
-    /// distance to the next border.
+    /// distance to the next boundary.
     pub fn fits(&self, partition: &BoxPartition, bounds: &Rect) -> bool {
         (0..partition.len()).all(|k| self.fits_in(&partition.support(k), bounds))
     }
 
-    /// The same of one patch, which need not hold the point.
+    /// True if one patch fits, or does not hold the point.
     pub(crate) fn fits_in(&self, support: &Rect, bounds: &Rect) -> bool {
         !support.contains(self.at) || self.is_near(&support.intersection(bounds), self.reach)
     }

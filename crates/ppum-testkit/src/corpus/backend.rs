@@ -1,41 +1,41 @@
 //! Evaluators of formulas as the corpus sees them.
 
-use ppum::formula::{Formula, FormulaJets, Scratch};
-use ppum::real::Scalar as Number;
+use ppum::formula::{BlockScratch, Formula, FormulaJets};
+use ppum::real::LaneNumber as Number;
 
-use super::cases::Case;
+use super::cases::FormulaCase;
 
 /// The result of an evaluator on a case.
 #[derive(Clone, Debug)]
-pub enum Outcome {
-    /// Value, gradient, Hessian, as in [`Case::expected`]; orders may be missing at the end.
+pub enum CaseOutcome {
+    /// Value, gradient, Hessian, as in [`FormulaCase::expected`]; orders may be missing at the end.
     Results(Vec<Vec<f64>>),
     /// It cannot be asked, for this reason.
     Skipped(String),
 }
 
 /// An evaluator.
-pub trait Backend {
+pub trait FormulaBackend {
     /// For messages.
     fn name(&self) -> &str;
 
     /// Evaluates a case, derivatives included.
-    fn evaluate(&mut self, case: &Case) -> Outcome;
+    fn evaluate(&mut self, case: &FormulaCase) -> CaseOutcome;
 }
 
 /// Double precision at one point, each derivative made by [`Formula::derivative`] as a formula of
 /// its own.
 #[derive(Debug, Default)]
-pub struct Derivatives {
+pub struct DerivativeFormulas {
     scratch: Vec<f64>,
 }
 
-impl Backend for Derivatives {
+impl FormulaBackend for DerivativeFormulas {
     fn name(&self) -> &str {
         "scalar, derivative by derivative"
     }
 
-    fn evaluate(&mut self, case: &Case) -> Outcome {
+    fn evaluate(&mut self, case: &FormulaCase) -> CaseOutcome {
         let f = parse(case);
         let by = |f: &Formula, variable: &String| {
             f.derivative(variable).unwrap_or_else(|error| panic!("{}: {error}", case.place))
@@ -49,27 +49,27 @@ impl Backend for Derivatives {
         let mut all = |formulas: &[Formula]| -> Vec<f64> {
             formulas.iter().map(|f| f.evaluate_with(&case.inputs, &mut self.scratch)).collect()
         };
-        Outcome::Results(vec![all(&[f]), all(&first), all(&second)])
+        CaseOutcome::Results(vec![all(&[f]), all(&first), all(&second)])
     }
 }
 
 /// Double precision at one point, all derivatives in one program: [`FormulaJets`].
 #[derive(Debug, Default)]
-pub struct Scalar {
+pub struct ScalarJets {
     scratch: Vec<f64>,
 }
 
-impl Backend for Scalar {
+impl FormulaBackend for ScalarJets {
     fn name(&self) -> &str {
         "scalar f64"
     }
 
-    fn evaluate(&mut self, case: &Case) -> Outcome {
+    fn evaluate(&mut self, case: &FormulaCase) -> CaseOutcome {
         let f = parse(case);
         let jets = jets(case, &f);
         let mut out = vec![0.0; jets.n_outputs()];
         jets.evaluate(&case.inputs, &mut self.scratch, &mut out);
-        Outcome::Results(orders(case, &out))
+        CaseOutcome::Results(orders(case, &out))
     }
 }
 
@@ -78,29 +78,29 @@ impl Backend for Scalar {
 /// The case's point stands at several places of a block, other numbers and NaN between them: its
 /// results must not depend on where it stands.
 #[derive(Debug)]
-pub struct Lanes<T> {
+pub struct LaneBlocks<T> {
     name: String,
-    scratch: Scratch<T>,
+    scratch: BlockScratch<T>,
 }
 
 /// The places of the case's point: first, last, and between, in different lanes of vectors of up
 /// to 16.
 const PLACES: [usize; 5] = [0, 7, 16, 31, 63];
 
-impl<T: Number> Lanes<T> {
+impl<T: Number> LaneBlocks<T> {
     /// The lanes of a number type, called `name`.
     #[must_use]
     pub fn new(name: &str) -> Self {
-        Self { name: name.to_owned(), scratch: Scratch::default() }
+        Self { name: name.to_owned(), scratch: BlockScratch::default() }
     }
 }
 
-impl<T: Number> Backend for Lanes<T> {
+impl<T: Number> FormulaBackend for LaneBlocks<T> {
     fn name(&self) -> &str {
         &self.name
     }
 
-    fn evaluate(&mut self, case: &Case) -> Outcome {
+    fn evaluate(&mut self, case: &FormulaCase) -> CaseOutcome {
         let f = parse(case);
         let jets = jets(case, &f);
         let mut block = jets.block::<T>(&mut self.scratch);
@@ -117,7 +117,7 @@ impl<T: Number> Backend for Lanes<T> {
             let equal = here.iter().zip(&first).all(|(&a, &b)| same(a, b));
             assert!(equal, "{}: {here:?} at {place}, not {first:?}", case.place);
         }
-        Outcome::Results(orders(case, &first))
+        CaseOutcome::Results(orders(case, &first))
     }
 }
 
@@ -129,7 +129,7 @@ fn fill<T: Number>(to: &mut [T], input: f64) {
     }
 }
 
-/// The same number to the last bit, or both NaN.
+/// Tests whether two numbers agree to the last bit, or are both NaN.
 fn same(a: f64, b: f64) -> bool {
     a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan()
 }
@@ -139,14 +139,14 @@ fn same(a: f64, b: f64) -> bool {
 /// # Panics
 /// When it cannot be compiled.
 #[must_use]
-pub fn jets(case: &Case, f: &Formula) -> FormulaJets {
+pub fn jets(case: &FormulaCase, f: &Formula) -> FormulaJets {
     let order = if case.variables.len() > 2 { 0 } else { case.expected.len() - 1 };
     FormulaJets::new(&[f], order).unwrap_or_else(|error| panic!("{}: {error}", case.place))
 }
 
 /// The outputs of a [`FormulaJets`] order by order.
 #[must_use]
-pub fn orders(case: &Case, mut out: &[f64]) -> Vec<Vec<f64>> {
+pub fn orders(case: &FormulaCase, mut out: &[f64]) -> Vec<Vec<f64>> {
     let n = case.variables.len();
     let counts = [1, n, n * (n + 1) / 2];
     let of_order = |count: usize| {
@@ -162,7 +162,7 @@ pub fn orders(case: &Case, mut out: &[f64]) -> Vec<Vec<f64>> {
 /// # Panics
 /// When it does not parse.
 #[must_use]
-pub fn parse(case: &Case) -> Formula {
+pub fn parse(case: &FormulaCase) -> Formula {
     Formula::parse(&case.formula, &case.scope)
         .unwrap_or_else(|error| panic!("{}: {}\n{error}", case.place, case.formula))
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::record::{Record, records};
+use super::record::{CorpusRecord, records};
 use ppum::formula::{Scope, Table};
 
 /// The themes, one file each.
@@ -23,7 +23,7 @@ pub const THEMES: [&str; 11] = [
 
 /// A formula at a point, and what must come out.
 #[derive(Clone, Debug)]
-pub struct Case {
+pub struct FormulaCase {
     /// Theme and line, for messages.
     pub place: String,
     /// The text.
@@ -65,11 +65,11 @@ pub fn folder() -> PathBuf {
 /// # Panics
 /// When a file is missing or a record is not as `README.md` says.
 #[must_use]
-pub fn cases() -> Vec<Case> {
+pub fn cases() -> Vec<FormulaCase> {
     let tables = tables();
     let of_theme = |theme: &&str| {
         let records = records(&folder().join(format!("formulas/{theme}.txt")));
-        records.iter().map(|record| Case::new(record, &tables)).collect::<Vec<_>>()
+        records.iter().map(|record| FormulaCase::new(record, &tables)).collect::<Vec<_>>()
     };
     THEMES.iter().flat_map(of_theme).collect()
 }
@@ -84,7 +84,7 @@ pub fn tables() -> Vec<Arc<Table>> {
     records.iter().map(|record| Arc::new(table(record))).collect()
 }
 
-fn table(record: &Record) -> Table {
+fn table(record: &CorpusRecord) -> Table {
     let numbers = |key| record.all(key).flat_map(|text| record.numbers(text)).collect::<Vec<_>>();
     let (name, x, y, values) =
         (record.text("table"), numbers("x"), numbers("y"), numbers("values"));
@@ -96,8 +96,8 @@ fn table(record: &Record) -> Table {
     table.unwrap_or_else(|error| record.fail(&error.to_string()))
 }
 
-impl Case {
-    fn new(record: &Record, tables: &[Arc<Table>]) -> Self {
+impl FormulaCase {
+    fn new(record: &CorpusRecord, tables: &[Arc<Table>]) -> Self {
         let (scope, variables) = scope(record, tables);
         let at = record.pairs("at");
         let input = |name: &str| {
@@ -124,7 +124,7 @@ impl Case {
 }
 
 /// The scope of a record and its independent variables.
-fn scope(record: &Record, tables: &[Arc<Table>]) -> (Scope, Vec<String>) {
+fn scope(record: &CorpusRecord, tables: &[Arc<Table>]) -> (Scope, Vec<String>) {
     let kind = record.text("scope");
     let names: Vec<&str> = match kind {
         "cartesian" | "polar" => vec!["x", "y"],
@@ -146,7 +146,7 @@ fn scope(record: &Record, tables: &[Arc<Table>]) -> (Scope, Vec<String>) {
     (scope.with_sides(sides), names.into_iter().map(str::to_owned).collect())
 }
 
-fn bounds(record: &Record) -> [Bound; 3] {
+fn bounds(record: &CorpusRecord) -> [Bound; 3] {
     let part = |key| record.find(key).map_or(Vec::new(), |text| record.numbers(text));
     let [arithmetic, functions, inputs] = ["arithmetic", "functions", "inputs"].map(part);
     let at = |part: &[f64], order: usize| part.get(order).copied().unwrap_or(0.0);

@@ -3,23 +3,23 @@
 use std::path::Path;
 
 /// One record.
-pub(super) struct Record {
+pub(super) struct CorpusRecord {
     /// File and line, for messages.
     pub(super) place: String,
     lines: Vec<(String, String)>,
 }
 
 /// The records of a file.
-pub(super) fn records(path: &Path) -> Vec<Record> {
+pub(super) fn records(path: &Path) -> Vec<CorpusRecord> {
     let text =
         std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let name = path.file_name().map_or("?".into(), |name| name.to_string_lossy());
     let lines: Vec<(usize, &str)> = (1..).zip(text.lines()).collect();
     let blocks = lines.split(|(_, line)| line.is_empty()).filter(|block| !block.is_empty());
-    blocks.map(|block| Record::new(format!("{name}:{}", block[0].0), block)).collect()
+    blocks.map(|block| CorpusRecord::new(format!("{name}:{}", block[0].0), block)).collect()
 }
 
-impl Record {
+impl CorpusRecord {
     fn new(place: String, block: &[(usize, &str)]) -> Self {
         let pair = |&(number, line): &(usize, &str)| {
             let split = line.split_once(": ");

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::backend::{Backend, Outcome};
-use super::cases::Case;
+use super::backend::{CaseOutcome, FormulaBackend};
+use super::cases::FormulaCase;
 use super::tolerance::Tolerance;
 
 /// The results of a run over cases.
 #[derive(Clone, Debug, Default)]
-pub struct Report {
+pub struct CorpusReport {
     /// Name of the back end.
     pub backend: String,
     /// Cases with at least one number compared.
@@ -25,19 +25,23 @@ pub struct Report {
 }
 
 /// Evaluates the cases and compares with what the corpus says.
-pub fn check(backend: &mut dyn Backend, tolerance: &Tolerance, cases: &[Case]) -> Report {
-    let mut report = Report { backend: backend.name().to_owned(), ..Report::default() };
+pub fn check(
+    backend: &mut dyn FormulaBackend,
+    tolerance: &Tolerance,
+    cases: &[FormulaCase],
+) -> CorpusReport {
+    let mut report = CorpusReport { backend: backend.name().to_owned(), ..CorpusReport::default() };
     for case in cases {
         match (&case.not_single, backend.evaluate(case)) {
             (Some(reason), _) if tolerance.rounds_inputs => report.skip(reason),
-            (_, Outcome::Skipped(reason)) => report.skip(&reason),
-            (_, Outcome::Results(found)) => report.compare(case, &found, tolerance),
+            (_, CaseOutcome::Skipped(reason)) => report.skip(&reason),
+            (_, CaseOutcome::Results(found)) => report.compare(case, &found, tolerance),
         }
     }
     report
 }
 
-impl Report {
+impl CorpusReport {
     /// Number of cases.
     #[must_use]
     pub fn cases(&self) -> usize {
@@ -48,7 +52,7 @@ impl Report {
         *self.skipped.entry(reason.to_owned()).or_default() += 1;
     }
 
-    fn compare(&mut self, case: &Case, found: &[Vec<f64>], tolerance: &Tolerance) {
+    fn compare(&mut self, case: &FormulaCase, found: &[Vec<f64>], tolerance: &Tolerance) {
         self.asserted += 1;
         let mut failure = String::new();
         for (order, (expected, found)) in case.expected.iter().zip(found).enumerate() {
@@ -82,7 +86,7 @@ fn difference(a: f64, b: f64) -> f64 {
     }
 }
 
-impl fmt::Display for Report {
+impl fmt::Display for CorpusReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (worst, place) = &self.worst;
         writeln!(

@@ -105,10 +105,10 @@ fn assert_close(actual: f64, expected: f64, tolerance: f64, what: &str) {
 }
 
 /// (x, y), mode II?, displacements in plane strain and in plane stress, stresses.
-type TableRow = ([f64; 2], bool, [f64; 2], [f64; 2], [f64; 3]);
+type TabulatedValues = ([f64; 2], bool, [f64; 2], [f64; 2], [f64; 3]);
 
 /// E = 1, ν = 0.3, K = 1; evaluated from Irwin's formulas by independent code, ten digits.
-const TABLE: [TableRow; 5] = [
+const TABLE: [TabulatedValues; 5] = [
     (
         [0.5, 0.0],
         false,

@@ -76,13 +76,13 @@ impl Wirtinger {
 
 /// A right-handed frame: origin and direction of its x axis.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Axes {
+pub(super) struct RightHandedFrame {
     pub(super) origin: Vec2,
     /// Unit vector.
     pub(super) direction: Vec2,
 }
 
-impl Axes {
+impl RightHandedFrame {
     pub(super) fn new(origin: Vec2, direction: Vec2) -> Self {
         Self { origin, direction: direction.unit() }
     }

@@ -1,6 +1,6 @@
 //! A straight crack in the infinite plane under uniform stress far away.
 
-use super::field::{Axes, Component, ElasticField, ExactField, Wirtinger, number, sum};
+use super::field::{Component, ElasticField, ExactField, RightHandedFrame, Wirtinger, number, sum};
 use num_complex::Complex64;
 use ppum::dataset::Material;
 use ppum::vec2::Vec2;
@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 /// (Muskhelishvili 1953, §120). Westergaard's field has N_x = N_y = σ, τ = 0.
 #[derive(Clone, Debug)]
 pub struct CrackInPlane {
-    axes: Axes,
+    axes: RightHandedFrame,
     half_length: f64,
     material: Material,
     /// N_x, N_y, τ in the crack's frame.
@@ -36,11 +36,11 @@ impl CrackInPlane {
         half_length: f64,
         sigma: f64,
     ) -> Self {
-        let axes = Axes::new(center, direction);
+        let axes = RightHandedFrame::new(center, direction);
         Self { axes, half_length, material, remote: [sigma, sigma, 0.0] }
     }
 
-    /// The same crack under other stresses far away: σ_xx, σ_yy, σ_xy in the crack's frame.
+    /// Returns the crack under other stresses far away: σ_xx, σ_yy, σ_xy in the crack's frame.
     #[must_use]
     pub fn with_remote(mut self, remote: [f64; 3]) -> Self {
         self.remote = remote;

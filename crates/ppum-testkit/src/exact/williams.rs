@@ -1,6 +1,6 @@
 //! Williams' eigenfunctions at the tip of a straight crack with free faces.
 
-use super::field::{Axes, Component, ElasticField, ExactField, Wirtinger, number};
+use super::field::{Component, ElasticField, ExactField, RightHandedFrame, Wirtinger, number};
 use num_complex::Complex64;
 use ppum::dataset::Material;
 use ppum::vec2::Vec2;
@@ -20,7 +20,7 @@ use std::f64::consts::TAU;
 /// II: order 1 has a = K_I/√(2π), b = K_II/√(2π); order 2 has a = T/4, and b turns the body.
 #[derive(Clone, Debug)]
 pub struct Williams {
-    axes: Axes,
+    axes: RightHandedFrame,
     material: Material,
     terms: Vec<WilliamsTerm>,
 }
@@ -131,7 +131,7 @@ impl Williams {
     /// The zero field at a tip that grows along `direction` (of any length).
     #[must_use]
     pub fn new(material: Material, tip: Vec2, direction: Vec2) -> Self {
-        Self { axes: Axes::new(tip, direction), material, terms: Vec::new() }
+        Self { axes: RightHandedFrame::new(tip, direction), material, terms: Vec::new() }
     }
 
     /// Adds the singular field of order 1.

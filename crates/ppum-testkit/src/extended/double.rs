@@ -7,12 +7,12 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 ///
 /// Sums and products after Joldeș, Muller and Popescu (2017), relative errors below 2⁻¹⁰².
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Double {
+pub struct DoubleDouble {
     high: f64,
     low: f64,
 }
 
-impl Double {
+impl DoubleDouble {
     /// The exact sum of two f64 (Knuth).
     #[must_use]
     pub fn sum(a: f64, b: f64) -> Self {
@@ -46,13 +46,13 @@ impl Double {
     }
 }
 
-impl From<f64> for Double {
+impl From<f64> for DoubleDouble {
     fn from(high: f64) -> Self {
         Self { high, low: 0.0 }
     }
 }
 
-impl Add for Double {
+impl Add for DoubleDouble {
     type Output = Self;
     fn add(self, b: Self) -> Self {
         let (high, low) = (Self::sum(self.high, b.high), Self::sum(self.low, b.low));
@@ -61,21 +61,21 @@ impl Add for Double {
     }
 }
 
-impl Neg for Double {
+impl Neg for DoubleDouble {
     type Output = Self;
     fn neg(self) -> Self {
         Self { high: -self.high, low: -self.low }
     }
 }
 
-impl Sub for Double {
+impl Sub for DoubleDouble {
     type Output = Self;
     fn sub(self, b: Self) -> Self {
         self + -b
     }
 }
 
-impl Mul for Double {
+impl Mul for DoubleDouble {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
         let p = Self::product(self.high, b.high);
@@ -83,7 +83,7 @@ impl Mul for Double {
     }
 }
 
-impl Div for Double {
+impl Div for DoubleDouble {
     type Output = Self;
     /// Long division: three digits of 53 bits.
     fn div(self, b: Self) -> Self {
@@ -97,7 +97,7 @@ impl Div for Double {
 
 macro_rules! with_f64 {
     ($($trait:ident $method:ident),*) => {$(
-        impl $trait<f64> for Double {
+        impl $trait<f64> for DoubleDouble {
             type Output = Self;
             fn $method(self, b: f64) -> Self {
                 self.$method(Self::from(b))
@@ -107,19 +107,19 @@ macro_rules! with_f64 {
 }
 with_f64!(Add add, Sub sub, Mul mul, Div div);
 
-impl PartialOrd for Double {
+impl PartialOrd for DoubleDouble {
     fn partial_cmp(&self, b: &Self) -> Option<Ordering> {
         (*self - *b).high.partial_cmp(&0.0)
     }
 }
 
-impl PartialEq<f64> for Double {
+impl PartialEq<f64> for DoubleDouble {
     fn eq(&self, b: &f64) -> bool {
         *self == Self::from(*b)
     }
 }
 
-impl PartialOrd<f64> for Double {
+impl PartialOrd<f64> for DoubleDouble {
     fn partial_cmp(&self, b: &f64) -> Option<Ordering> {
         self.partial_cmp(&Self::from(*b))
     }
@@ -134,13 +134,14 @@ mod tests {
     #[test]
     fn thirty_digits() {
         for k in 1..500 {
-            let (a, b) = (Double::from(f64::from(k)), Double::from(f64::from(3 * k + 1)));
+            let (a, b) =
+                (DoubleDouble::from(f64::from(k)), DoubleDouble::from(f64::from(3 * k + 1)));
             assert!((((a / b) * b - a) / a).to_f64().abs() < 1e-31);
             assert!(((b.sqrt() * b.sqrt() - b) / b).to_f64().abs() < 1e-30);
             assert!(((a / b + b / a - (a * a + b * b) / (a * b)) * a / b).to_f64().abs() < 1e-31);
         }
         // √2 = 1.41421356237309504880168872420969807856967…
-        let tail = Double::from(2.0).sqrt() - SQRT_2;
+        let tail = DoubleDouble::from(2.0).sqrt() - SQRT_2;
         assert!((tail.to_f64() + 9.667_293_313_452_913e-17).abs() < 1e-31);
     }
 }

@@ -8,55 +8,59 @@
 mod double;
 pub mod elementary;
 
-pub use double::Double;
+pub use double::DoubleDouble;
 use ppum::crack::{Crack, End, TipId};
 use ppum::dataset::{Dataset, FieldData, Material, Step, StressState};
-use ppum::function::{Cut, Frame, FunctionKind, Part, WESTERGAARD};
+use ppum::function::{Cut, CutSide, Frame, FunctionKind, WESTERGAARD};
 use ppum::polynomial::exponents;
 use ppum::vec2::Vec2;
 use ppum::weight::WeightFunction;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
 /// A point of 2 × 106 bits.
-pub type Point = [Double; 2];
+pub type ExtendedPoint = [DoubleDouble; 2];
 
 /// The exact sum of an anchor and an offset.
 #[must_use]
-pub fn point(anchor: Vec2, offset: Vec2) -> Point {
-    [Double::sum(anchor.x, offset.x), Double::sum(anchor.y, offset.y)]
+pub fn point(anchor: Vec2, offset: Vec2) -> ExtendedPoint {
+    [DoubleDouble::sum(anchor.x, offset.x), DoubleDouble::sum(anchor.y, offset.y)]
 }
 
 /// A value and its gradient.
 #[derive(Clone, Copy, Debug)]
 pub struct Dual {
     /// f
-    pub v: Double,
+    pub v: DoubleDouble,
     /// ∂f/∂x
-    pub x: Double,
+    pub x: DoubleDouble,
     /// ∂f/∂y
-    pub y: Double,
+    pub y: DoubleDouble,
 }
 
 impl Dual {
     /// A constant.
     #[must_use]
-    pub fn constant(v: impl Into<Double>) -> Self {
+    pub fn constant(v: impl Into<DoubleDouble>) -> Self {
         Self { v: v.into(), x: 0.0.into(), y: 0.0.into() }
     }
 
     /// g(f) where g has value `v` and derivative `slope` at f.
-    fn chain(self, v: Double, slope: Double) -> Self {
+    fn chain(self, v: DoubleDouble, slope: DoubleDouble) -> Self {
         Self { v, x: slope * self.x, y: slope * self.y }
     }
 
     /// A function of a and b with value `v` and derivatives `p` by a and `q` by b.
-    fn chain_of_two(v: Double, (a, p): (Self, Double), (b, q): (Self, Double)) -> Self {
+    fn chain_of_two(
+        v: DoubleDouble,
+        (a, p): (Self, DoubleDouble),
+        (b, q): (Self, DoubleDouble),
+    ) -> Self {
         Self { v, x: p * a.x + q * b.x, y: p * a.y + q * b.y }
     }
 
     fn sqrt(self) -> Self {
         let v = self.v.sqrt();
-        self.chain(v, Double::from(0.5) / v)
+        self.chain(v, DoubleDouble::from(0.5) / v)
     }
 
     fn powi(self, n: i32) -> Self {
@@ -103,18 +107,18 @@ impl Div for Dual {
     type Output = Self;
     fn div(self, b: Self) -> Self {
         let v = self.v / b.v;
-        Self::chain_of_two(v, (self, Double::from(1.0) / b.v), (b, -(v / b.v)))
+        Self::chain_of_two(v, (self, DoubleDouble::from(1.0) / b.v), (b, -(v / b.v)))
     }
 }
 
 /// The first field of a step of a dataset.
 #[derive(Clone, Copy, Debug)]
-pub struct Extended<'d> {
+pub struct ExtendedField<'d> {
     step: &'d Step,
     data: &'d FieldData,
 }
 
-impl<'d> Extended<'d> {
+impl<'d> ExtendedField<'d> {
     /// The first field of a step.
     #[must_use]
     pub fn new(dataset: &'d Dataset, step: usize) -> Self {
@@ -127,7 +131,7 @@ impl<'d> Extended<'d> {
     /// # Panics
     /// If a patch there has a formula that is no Westergaard function.
     #[must_use]
-    pub fn evaluate(&self, p: Point) -> Vec<Dual> {
+    pub fn evaluate(&self, p: ExtendedPoint) -> Vec<Dual> {
         let weights: Vec<_> = (0..self.step.partition.len())
             .filter_map(|patch| Some((patch, self.weight(patch, p)?)))
             .collect();
@@ -143,14 +147,14 @@ impl<'d> Extended<'d> {
     }
 
     /// W_i, if the patch covers the point.
-    fn weight(&self, patch: usize, p: Point) -> Option<Dual> {
+    fn weight(&self, patch: usize, p: ExtendedPoint) -> Option<Dual> {
         let partition = self.step.partition.boxes();
         let s = scaled(p, partition.center[patch], partition.half[patch]);
         let covers = s.iter().all(|s| s.v >= -1.0 && s.v < 1.0);
         covers.then(|| spline(&partition.weight, s[0]) * spline(&partition.weight, s[1]))
     }
 
-    fn local_field(&self, patch: usize, component: usize, p: Point) -> Dual {
+    fn local_field(&self, patch: usize, component: usize, p: ExtendedPoint) -> Dual {
         let partition = self.step.partition.boxes();
         let [xi, eta] = scaled(p, partition.origin[patch], partition.scale[patch]);
         let mut v = Dual::constant(0.0);
@@ -165,7 +169,7 @@ impl<'d> Extended<'d> {
         v
     }
 
-    fn function(&self, index: u32, p: Point) -> Dual {
+    fn function(&self, index: u32, p: ExtendedPoint) -> Dual {
         match &self.step.functions[index as usize].kind {
             FunctionKind::One => Dual::constant(1.0),
             FunctionKind::Side { crack } => {
@@ -183,7 +187,7 @@ impl<'d> Extended<'d> {
     }
 
     /// Real or imaginary part of √z, z = x + iy in the tip's frame, or that times sin θ = y / |z|.
-    fn westergaard(&self, tip: TipId, k: usize, p: Point) -> Dual {
+    fn westergaard(&self, tip: TipId, k: usize, p: ExtendedPoint) -> Dual {
         let crack = &self.step.cracks[tip.crack as usize];
         let ahead = axis(crack, tip.end);
         let [dx, dy] = minus(p, crack.end_point(tip.end));
@@ -201,15 +205,15 @@ impl<'d> Extended<'d> {
 }
 
 /// (p − origin) / scale
-fn scaled(p: Point, origin: Vec2, scale: Vec2) -> [Dual; 2] {
+fn scaled(p: ExtendedPoint, origin: Vec2, scale: Vec2) -> [Dual; 2] {
     let [dx, dy] = minus(p, origin);
-    let one = Double::from(1.0);
+    let one = DoubleDouble::from(1.0);
     let (ix, iy) = (one / scale.x, one / scale.y);
-    let zero = Double::from(0.0);
+    let zero = DoubleDouble::from(0.0);
     [Dual { v: dx * ix, x: ix, y: zero }, Dual { v: dy * iy, x: zero, y: iy }]
 }
 
-fn minus(p: Point, q: Vec2) -> Point {
+fn minus(p: ExtendedPoint, q: Vec2) -> ExtendedPoint {
     [p[0] - q.x, p[1] - q.y]
 }
 
@@ -233,7 +237,7 @@ fn spline(weight: &WeightFunction, s: Dual) -> Dual {
 }
 
 /// Unit direction out of the crack at an end.
-fn axis(crack: &Crack, end: End) -> Point {
+fn axis(crack: &Crack, end: End) -> ExtendedPoint {
     let n = crack.points.len();
     let (from, to) = match end {
         End::Start => (crack.points[1], crack.points[0]),
@@ -258,8 +262,8 @@ fn root(x: Dual, y: Dual) -> [Dual; 2] {
 /// +1 left of a crack, −1 right of it. Its first and last segment, extended to infinity, part the
 /// plane in two; a ray from the point changes sides whenever it crosses.
 #[must_use]
-pub fn side(crack: &Crack, p: Point) -> f64 {
-    let ray = [Double::from(0.602_214_076), Double::from(0.798_357_313)];
+pub fn side(crack: &Crack, p: ExtendedPoint) -> f64 {
+    let ray = [DoubleDouble::from(0.602_214_076), DoubleDouble::from(0.798_357_313)];
     let last = crack.points.len() - 2;
     let crosses = |(k, s): (usize, &[Vec2])| {
         let from = minus(point(s[0], Vec2::ZERO), s[1]).map(|c| -c);
@@ -280,10 +284,10 @@ pub fn side(crack: &Crack, p: Point) -> f64 {
 /// # Panics
 /// If a cut or a segment is not there.
 #[must_use]
-pub fn indicator(cuts: &[Cut], cracks: &[Crack], p: Point) -> f64 {
-    let mut part = Part::Cut(0);
+pub fn indicator(cuts: &[Cut], cracks: &[Crack], p: ExtendedPoint) -> f64 {
+    let mut part = CutSide::Cut(0);
     loop {
-        let Part::Cut(k) = part else { return if part == Part::Inside { 1.0 } else { 0.0 } };
+        let CutSide::Cut(k) = part else { return if part == CutSide::Inside { 1.0 } else { 0.0 } };
         let Cut { segment, left, right } = cuts[k as usize];
         let points = &cracks[segment.crack as usize].points[segment.segment as usize..];
         let from = minus(point(points[1], Vec2::ZERO), points[0]);
@@ -293,30 +297,30 @@ pub fn indicator(cuts: &[Cut], cracks: &[Crack], p: Point) -> f64 {
 
 /// The side far out in a direction: left is what lies anticlockwise between the crack's end
 /// and start.
-fn far_side(start: Point, end: Point, direction: Point) -> f64 {
+fn far_side(start: ExtendedPoint, end: ExtendedPoint, direction: ExtendedPoint) -> f64 {
     let (turn, to_start) = (angle(end, direction), angle(end, start));
     if turn < to_start { 1.0 } else { -1.0 }
 }
 
 /// Angle from a to b, anticlockwise, in [0, 2π).
-fn angle(a: Point, b: Point) -> f64 {
+fn angle(a: ExtendedPoint, b: ExtendedPoint) -> f64 {
     let (c, s) = ((a[0] * b[0] + a[1] * b[1]).to_f64(), cross(a, b).to_f64());
     s.atan2(c).rem_euclid(std::f64::consts::TAU)
 }
 
-fn cross(a: Point, b: Point) -> Double {
+fn cross(a: ExtendedPoint, b: ExtendedPoint) -> DoubleDouble {
     a[0] * b[1] - a[1] * b[0]
 }
 
 /// von Mises' stress √(3/2 s:s) of a displacement.
 #[must_use]
-pub fn von_mises(material: &Material, u: &[Dual]) -> Double {
-    let (e, nu) = (Double::from(material.young), Double::from(material.poisson));
-    let one = Double::from(1.0);
+pub fn von_mises(material: &Material, u: &[Dual]) -> DoubleDouble {
+    let (e, nu) = (DoubleDouble::from(material.young), DoubleDouble::from(material.poisson));
+    let one = DoubleDouble::from(1.0);
     let mu = e / ((one + nu) * 2.0);
     let (lambda, out) = match material.state {
         StressState::PlaneStrain => (e * nu / ((one + nu) * (one - nu * 2.0)), nu),
-        StressState::PlaneStress => (e * nu / (one - nu * nu), Double::from(0.0)),
+        StressState::PlaneStress => (e * nu / (one - nu * nu), DoubleDouble::from(0.0)),
     };
     let trace = u[0].x + u[1].y;
     let xx = mu * u[0].x * 2.0 + lambda * trace;
@@ -339,7 +343,7 @@ mod tests {
     fn roots() {
         for k in 0..48 {
             let (s, c) = (f64::from(k) / 48.0 * 6.2).sin_cos();
-            let zero = Double::from(0.0);
+            let zero = DoubleDouble::from(0.0);
             let x = Dual { v: c.into(), x: 1.0.into(), y: zero };
             let y = Dual { v: s.into(), x: zero, y: 1.0.into() };
             let [re, im] = root(x, y);

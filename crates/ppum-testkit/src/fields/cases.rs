@@ -17,7 +17,7 @@ use crate::synthetic::{Coefficients, Recipe, crack, kinked};
 
 /// A dataset to be drawn.
 #[derive(Clone, Debug)]
-pub struct Case {
+pub struct DrawingCase {
     /// Its subject.
     pub name: String,
     /// The dataset; its first step is drawn.
@@ -34,7 +34,7 @@ const SOME: &[&str] = &["von-mises", "uy"];
 /// Degree 0 to 8, the same everywhere else.
 const DEGREES: [u8; 9] = [2, 0, 8, 1, 5, 3, 7, 4, 6];
 
-impl Case {
+impl DrawingCase {
     fn new(name: &str, recipe: &Recipe, quantities: &[&str]) -> Self {
         Self {
             name: name.to_owned(),
@@ -62,7 +62,7 @@ fn whole(pixels: [u32; 2]) -> Window {
 
 /// Covers, weights, degrees and frames of polynomials.
 #[must_use]
-pub fn coverings() -> Vec<Case> {
+pub fn coverings() -> Vec<DrawingCase> {
     let default = Recipe::default;
     let weight = |text: &str| {
         let known = WeightFunction::from_library(text);
@@ -73,27 +73,31 @@ pub fn coverings() -> Vec<Case> {
         ["linear", "quadratic", "cubic", "bump", "if(t < 1/4, 1, (1 - t)^2*(16/9)) + 0.3*(1 - t)"];
     let of_weight = |text: &&str| {
         let recipe = Recipe { weight: weight(text), tip_level: 3, ..default() };
-        Case::new(&format!("weight {text}"), &recipe, &["von-mises"])
+        DrawingCase::new(&format!("weight {text}"), &recipe, &["von-mises"])
     };
     let mut all: Vec<_> = weights.iter().map(of_weight).collect();
     let mixed = Recipe { degrees: DEGREES.to_vec(), tip_degree: 1, own_frames: true, ..default() };
-    all.push(Case::new("degrees 0 to 8, frames of their own", &mixed, SOME));
+    all.push(DrawingCase::new("degrees 0 to 8, frames of their own", &mixed, SOME));
     for level in [0, 1, 5] {
         let recipe = Recipe { level, tip_level: level, ..default() };
-        all.push(Case::new(&format!("uniform cover of level {level}"), &recipe, &["von-mises"]));
+        all.push(DrawingCase::new(
+            &format!("uniform cover of level {level}"),
+            &recipe,
+            &["von-mises"],
+        ));
     }
     let graded = Recipe { level: 1, tip_level: 8, random_rounds: 2, ..default() };
-    all.push(Case::new("graded cover", &graded, &["von-mises", "overlap"]));
+    all.push(DrawingCase::new("graded cover", &graded, &["von-mises", "overlap"]));
     let partition = ["von-mises", "ux", "phi:3", "weight-sum", "overlap"];
     for (seed, quantities) in [(1, &partition[..]), (2, SOME), (3, SOME)] {
-        all.push(Case::new(&format!("random {seed}"), &Recipe::random(seed), quantities));
+        all.push(DrawingCase::new(&format!("random {seed}"), &Recipe::random(seed), quantities));
     }
     all
 }
 
 /// Functions, cracks and numbers of components.
 #[must_use]
-pub fn functions() -> Vec<Case> {
+pub fn functions() -> Vec<DrawingCase> {
     let default = Recipe::default;
     let texts = WESTERGAARD.map(|text| format!("({text})"));
     let formulas = Recipe { tip_functions: texts, tip_degree: 1, ..default() };
@@ -110,18 +114,18 @@ pub fn functions() -> Vec<Case> {
     let sides = Recipe { extra, degrees: vec![1, 2], ..default() };
     let cracks = Recipe { cracks: several(), zone: 0.1, ..default() };
     let mut all = vec![
-        Case::new("tip functions without a kernel", &formulas, SOME),
-        Case::new("other tip functions", &others, SOME),
-        Case::new("formulas in fixed frames and with sides", &sides, SOME),
-        Case::new("several cracks", &cracks, SOME).with_windows(vec![whole([147, 111])]),
-        Case::new("a function of a table", &extra_of_one("x*y^2"), SOME).with(tabulate),
+        DrawingCase::new("tip functions without a kernel", &formulas, SOME),
+        DrawingCase::new("other tip functions", &others, SOME),
+        DrawingCase::new("formulas in fixed frames and with sides", &sides, SOME),
+        DrawingCase::new("several cracks", &cracks, SOME).with_windows(vec![whole([147, 111])]),
+        DrawingCase::new("a function of a table", &extra_of_one("x*y^2"), SOME).with(tabulate),
     ];
     for components in [1, 3, 4, 6] {
         let recipe = Recipe { components, degrees: vec![2, 3], tip_level: 3, ..default() };
         let name = format!("{components} components");
         let quantities =
             if components == 4 { &["gradient", "magnitude"][..] } else { &["gradient"] };
-        all.push(Case::new(&name, &recipe, quantities));
+        all.push(DrawingCase::new(&name, &recipe, quantities));
     }
     all
 }
@@ -149,7 +153,7 @@ fn tabulate(dataset: &mut Dataset) {
 
 /// Cracks that cross, branch and end on each other, seen as a whole, in patches of all sizes.
 #[must_use]
-pub fn junctions() -> Vec<Case> {
+pub fn junctions() -> Vec<DrawingCase> {
     let graded = Recipe::meeting();
     let coarse = Recipe { level: 1, tip_level: 2, overlap: 1.6, ..Recipe::meeting() };
     let random = Recipe {
@@ -160,10 +164,10 @@ pub fn junctions() -> Vec<Case> {
     };
     let one = Recipe { components: 1, weight: WeightFunction::Cubic, ..Recipe::meeting() };
     vec![
-        Case::new("junctions", &graded, SOME).with_windows(vec![whole([151, 113])]),
-        Case::new("junctions in large patches", &coarse, SOME),
-        Case::new("junctions of unrelated patches", &random, SOME),
-        Case::new("junctions of a potential", &one, &["gradient", "u"]),
+        DrawingCase::new("junctions", &graded, SOME).with_windows(vec![whole([151, 113])]),
+        DrawingCase::new("junctions in large patches", &coarse, SOME),
+        DrawingCase::new("junctions of unrelated patches", &random, SOME),
+        DrawingCase::new("junctions of a potential", &one, &["gradient", "u"]),
     ]
 }
 
@@ -187,7 +191,7 @@ const HEATED: [&str; 9] = [
 
 /// Equations, materials, holes, and quantities of all kinds.
 #[must_use]
-pub fn equations() -> Vec<Case> {
+pub fn equations() -> Vec<DrawingCase> {
     let elastic: Vec<&str> = ELASTIC.split("; ").collect();
     let coarse = Recipe { level: 1, tip_level: 2, ..Recipe::default() };
     let regions = Equation::Elasticity(Elasticity {
@@ -213,19 +217,20 @@ pub fn equations() -> Vec<Case> {
     };
     let conductivity = expression("1 + 0.5*sin(3*x)");
     vec![
-        Case::new("all quantities", &coarse, &elastic).with_windows(vec![whole([89, 67])]),
-        Case::new("plane stress", &coarse, &["von-mises", "szz"])
+        DrawingCase::new("all quantities", &coarse, &elastic).with_windows(vec![whole([89, 67])]),
+        DrawingCase::new("plane stress", &coarse, &["von-mises", "szz"])
             .with(|d| d.equation = Equation::elasticity(stress)),
-        Case::new("materials by region", &coarse, &["von-mises", "energy"])
+        DrawingCase::new("materials by region", &coarse, &["von-mises", "energy"])
             .with(|d| d.equation = regions),
-        Case::new("Poisson", &one, &["energy", "u"])
+        DrawingCase::new("Poisson", &one, &["energy", "u"])
             .with(|d| d.equation = Equation::Poisson { conductivity }),
-        Case::new("temperature in plane strain", &three, &HEATED)
+        DrawingCase::new("temperature in plane strain", &three, &HEATED)
             .with(heated(StressState::PlaneStrain)),
-        Case::new("temperature in plane stress", &three, &HEATED)
+        DrawingCase::new("temperature in plane stress", &three, &HEATED)
             .with(heated(StressState::PlaneStress)),
-        Case::new("holes", &coarse, &["von-mises", "ux"]).with(|d| d.domain.holes = holes()),
-        Case::new("outline", &coarse, &["von-mises", "ux"]).with(|d| d.domain.holes = outlined()),
+        DrawingCase::new("holes", &coarse, &["von-mises", "ux"]).with(|d| d.domain.holes = holes()),
+        DrawingCase::new("outline", &coarse, &["von-mises", "ux"])
+            .with(|d| d.domain.holes = outlined()),
     ]
 }
 
@@ -251,7 +256,7 @@ fn outlined() -> Vec<Hole> {
 
 /// Windows partly and wholly outside, of odd sizes, and inside one patch.
 #[must_use]
-pub fn wholes() -> Vec<Case> {
+pub fn wholes() -> Vec<DrawingCase> {
     let recipe = Recipe::default();
     let corner = recipe.domain.max + vec2(0.013, 0.017);
     let seen = |center, width, pixels| Window { center, width, pixels };
@@ -263,9 +268,11 @@ pub fn wholes() -> Vec<Case> {
     let patch = vec2(0.2 + 1.0 / 6.0, -0.3 + 1.0 / 6.0);
     let alone = vec![seen(patch, 0.11, [65, 33]), seen(patch, 1e-8, [33, 65])];
     vec![
-        Case::new("partly and wholly outside", &Recipe::default(), SOME).with_windows(windows),
-        Case::new("inside one patch", &inside, SOME).with_windows(alone),
-        Case::new("unrelated patches", &unrelated(), SOME).with_windows(vec![whole([101, 75])]),
+        DrawingCase::new("partly and wholly outside", &Recipe::default(), SOME)
+            .with_windows(windows),
+        DrawingCase::new("inside one patch", &inside, SOME).with_windows(alone),
+        DrawingCase::new("unrelated patches", &unrelated(), SOME)
+            .with_windows(vec![whole([101, 75])]),
     ]
 }
 
@@ -279,9 +286,9 @@ fn unrelated() -> Recipe {
 }
 
 /// Zooms by factors up to 1e12 to a tip, beside it, to the middle of an oblique crack and to a
-/// kink; the picture's centre lies on them, or a few pixels beside the tip.
+/// kink; the image's centre lies on them, or a few pixels beside the tip.
 #[must_use]
-pub fn zooms() -> Case {
+pub fn zooms() -> DrawingCase {
     let recipe = Recipe { tip_level: 9, ..Recipe::default() };
     let points = recipe.cracks[0].points.clone();
     let middle = points[0] + (points[1] - points[0]) * 0.63;
@@ -291,7 +298,7 @@ pub fn zooms() -> Case {
         .iter()
         .flat_map(|place| ZOOMS.map(|zoom| zoomed(&recipe, place(zoom), zoom)))
         .collect();
-    Case::new("zooms", &recipe, SOME).with_windows(windows)
+    DrawingCase::new("zooms", &recipe, SOME).with_windows(windows)
 }
 
 const ZOOMS: [f64; 5] = [1.0, 1e3, 1e6, 1e9, 1e12];
@@ -304,12 +311,12 @@ fn zoomed(recipe: &Recipe, center: Vec2, zoom: f64) -> Window {
 /// no finer than is seen of jumps in single precision: their slopes are differences of constants
 /// over the size of a patch.
 #[must_use]
-pub fn junction_zooms() -> Case {
+pub fn junction_zooms() -> DrawingCase {
     let recipe = Recipe { tip_level: 4, ..Recipe::meeting() };
     let arm = &recipe.cracks[0].points;
     let middle = arm[0] + (arm[1] - arm[0]) * 0.13;
     let places = recipe.junctions.iter().map(|place| place.center).chain([middle]);
     let seen = places.flat_map(|at| ZOOMS[1..].iter().map(move |&zoom| (at, zoom)));
     let windows = seen.map(|(at, zoom)| zoomed(&recipe, at, zoom)).collect();
-    Case::new("zooms to junctions", &recipe, SOME).with_windows(windows)
+    DrawingCase::new("zooms to junctions", &recipe, SOME).with_windows(windows)
 }

@@ -1,7 +1,7 @@
 //! The corpus of fields: what every renderer must draw alike, and how alike.
 //!
-//! A [`Case`] is a dataset with windows to look at and quantities to draw. [`Truth`] evaluates a
-//! window point by point in double precision and says what a renderer may miss:
+//! A [`DrawingCase`] is a dataset with windows to look at and quantities to draw. [`Truth`]
+//! evaluates a window point by point in double precision and says what a renderer may miss:
 //!
 //! - *local scale*: the largest magnitude, in the 3 × 3 pixels around one, of the quantity and of
 //!   what it is made of: |u| for values, |∇u| for derivatives (Young's modulus is of size one in
@@ -16,6 +16,8 @@ mod cases;
 mod truth;
 mod window;
 
-pub use cases::{Case, coverings, equations, functions, junction_zooms, junctions, wholes, zooms};
-pub use truth::{BAND, Differences, Expected, Truth};
+pub use cases::{
+    DrawingCase, coverings, equations, functions, junction_zooms, junctions, wholes, zooms,
+};
+pub use truth::{BAND, Differences, ExpectedValues, Truth};
 pub use window::Window;

@@ -1,4 +1,4 @@
-//! The truth that a picture is held to.
+//! The truth that an image is held to.
 
 use ppum::crack::{LocalCrack, Side};
 use ppum::field::Field;
@@ -25,7 +25,7 @@ pub struct Truth<'f> {
 
 /// The values of a quantity, and their local scale.
 #[derive(Clone, Debug)]
-pub struct Expected<'t> {
+pub struct ExpectedValues<'t> {
     band: &'t [bool],
     /// The values, row by row from the top; NaN outside the domain.
     pub values: Vec<f64>,
@@ -34,7 +34,7 @@ pub struct Expected<'t> {
     anisotropy: Option<Vec<f64>>,
 }
 
-/// The largest error of a picture.
+/// The largest error of an image.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Differences {
     /// Largest difference in units of the local scale.
@@ -77,7 +77,7 @@ impl<'f> Truth<'f> {
 
     /// The values of a quantity by [`Quantity::at`].
     #[must_use]
-    pub fn expected(&self, quantity: &Quantity) -> Expected<'_> {
+    pub fn expected(&self, quantity: &Quantity) -> ExpectedValues<'_> {
         let evaluate = |quantity: &Quantity| -> Vec<f64> {
             let mut local = self.field.at(self.window.center);
             let value = |offset| quantity.at(&mut local, offset, Side::Above);
@@ -100,14 +100,14 @@ impl<'f> Truth<'f> {
             let [s1, s2] = [Quantity::Principal1, Quantity::Principal2].map(|q| evaluate(&q));
             s1.iter().zip(s2).map(|(a, b)| a - b).collect()
         });
-        Expected { band: &self.band, values, scale, anisotropy }
+        ExpectedValues { band: &self.band, values, scale, anisotropy }
     }
 
     /// A component with derivatives: all pixels of v, x, y, xx, xy, yy. Second derivatives are
     /// differences of terms of the size |∇u| |∇φ_i| and have that for their scale: |∇u| over the
     /// smallest half-extent of a patch in sight.
     #[must_use]
-    pub fn component(&self, component: usize) -> [Expected<'_>; 6] {
+    pub fn component(&self, component: usize) -> [ExpectedValues<'_>; 6] {
         let mut local = self.field.at(self.window.center);
         let mut jets = vec![Jet::constant(0.0); self.field.components()];
         let mut one = |offset| match local.evaluate::<2>(offset, Side::Above, &mut jets) {
@@ -127,13 +127,13 @@ impl<'f> Truth<'f> {
                 1 | 2 => self.gradients.clone(),
                 _ => curvatures().zip(&self.gradients).map(|(c, g)| c.max(g / smallest)).collect(),
             };
-            Expected { band: &self.band, values, scale, anisotropy: None }
+            ExpectedValues { band: &self.band, values, scale, anisotropy: None }
         })
     }
 }
 
-impl Expected<'_> {
-    /// Compares a picture, row by row from the top.
+impl ExpectedValues<'_> {
+    /// Compares an image, row by row from the top.
     ///
     /// # Panics
     /// If it has another number of pixels.

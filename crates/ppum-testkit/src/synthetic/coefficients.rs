@@ -1,6 +1,6 @@
 //! Blocks and coefficients of synthetic fields.
 
-use super::components::Components;
+use super::components::SyntheticComponents;
 use super::recipe::{Coefficients, Junction, Recipe};
 use crate::random::Random;
 use ppum::crack::{Crack, End, LocalCrack, Side};
@@ -77,16 +77,16 @@ struct CoefficientMaker<'a> {
     data: FieldData,
     random: Random,
     /// The components of the boxes around junctions.
-    around: Vec<Components>,
+    around: Vec<SyntheticComponents>,
     /// The function of the next patch's first component.
     next: u32,
 }
 
 /// The components of the boxes around junctions.
-pub(super) fn around(recipe: &Recipe) -> Vec<Components> {
+pub(super) fn around(recipe: &Recipe) -> Vec<SyntheticComponents> {
     let components = |place: &Junction| {
         let bounds = Rect::around(place.center, vec2(place.radius, place.radius));
-        Components::new(&recipe.cracks, &cutting(recipe, &bounds), &bounds)
+        SyntheticComponents::new(&recipe.cracks, &cutting(recipe, &bounds), &bounds)
     };
     recipe.junctions.iter().map(components).collect()
 }
@@ -105,13 +105,17 @@ fn cutting(recipe: &Recipe, bounds: &Rect) -> Vec<u32> {
 
 /// The components of a patch that has functions of them: its cracks leave more than the two that a
 /// side tells apart, or two cracks leave two.
-fn components(recipe: &Recipe, partition: &BoxPartition, patch: usize) -> Option<Components> {
+fn components(
+    recipe: &Recipe,
+    partition: &BoxPartition,
+    patch: usize,
+) -> Option<SyntheticComponents> {
     if recipe.junctions.is_empty() || !recipe.jumps {
         return None;
     }
     let support = partition.support(patch).intersection(&recipe.domain);
     let cracks = cutting(recipe, &support);
-    let components = Components::new(&recipe.cracks, &cracks, &support);
+    let components = SyntheticComponents::new(&recipe.cracks, &cracks, &support);
     let count = components.count();
     (count > 2 || count == 2 && cracks.len() > 1).then_some(components)
 }
@@ -153,7 +157,13 @@ impl CoefficientMaker<'_> {
 
     /// The smooth block is the field on the first component; those of the others are what the field
     /// differs by there.
-    fn add_components(&mut self, patch: usize, degree: u8, components: &Components, near: &[bool]) {
+    fn add_components(
+        &mut self,
+        patch: usize,
+        degree: u8,
+        components: &SyntheticComponents,
+        near: &[bool],
+    ) {
         let center = self.partition.center[patch];
         let on = |k: usize| {
             let at = components.middle(k);

@@ -1,4 +1,5 @@
-//! What cracks leave of a box: connected components, and the functions that are 1 on one of them.
+//! The parts that cracks leave of a box: connected components, and the functions that are 1 on one
+//! of them.
 //!
 //! In the box cracks may cross, branch, kink and end on each other, but no tip lies in it. Then the
 //! lines of the segments cut it into convex cells whose sides lie on a crack wholly or not at all,
@@ -7,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use ppum::crack::{Crack, SegmentId};
-use ppum::function::{Cut, Part};
+use ppum::function::{Cut, CutSide};
 use ppum::segment::signed_area;
 use ppum::vec2::{Rect, Vec2};
 
@@ -19,21 +20,21 @@ const SHORTEST: f64 = 1e-6;
 
 /// The connected components of a box.
 #[derive(Clone, Debug)]
-pub struct Components {
-    root: Node,
+pub struct SyntheticComponents {
+    root: SyntheticNode,
     lines: Vec<CrackSegment>,
     /// The convex cells.
     cells: Vec<Vec<Vec2>>,
-    /// Of each cell, the component.
+    /// The component of each cell.
     of_cell: Vec<usize>,
     count: usize,
 }
 
 /// A tree of cuts by lines.
 #[derive(Clone, Debug)]
-enum Node {
+enum SyntheticNode {
     Cell(usize),
-    Cut { line: usize, sides: [Box<Node>; 2] },
+    Cut { line: usize, sides: [Box<SyntheticNode>; 2] },
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -42,13 +43,18 @@ struct CrackSegment {
     ends: [Vec2; 2],
 }
 
-impl Components {
+impl SyntheticComponents {
     /// The components of a box that some cracks, by their indices, leave.
     #[must_use]
     pub fn new(cracks: &[Crack], which: &[u32], bounds: &Rect) -> Self {
         let lines = which.iter().flat_map(|&crack| lines(crack, &cracks[crack as usize])).collect();
-        let mut all =
-            Self { root: Node::Cell(0), lines, cells: Vec::new(), of_cell: Vec::new(), count: 0 };
+        let mut all = Self {
+            root: SyntheticNode::Cell(0),
+            lines,
+            cells: Vec::new(),
+            of_cell: Vec::new(),
+            count: 0,
+        };
         all.root = all.cut(bounds.corners().to_vec(), 0);
         all.join(bounds);
         all
@@ -88,17 +94,17 @@ impl Components {
     }
 
     /// Cuts a cell by the lines from a number on that part it.
-    fn cut(&mut self, cell: Vec<Vec2>, first: usize) -> Node {
+    fn cut(&mut self, cell: Vec<Vec2>, first: usize) -> SyntheticNode {
         let least = ROUNDING * signed_area(&cell);
         for line in first..self.lines.len() {
             let parts = [1.0, -1.0].map(|side| clipped(&cell, &self.lines[line], side));
             if parts.iter().all(|part| signed_area(part) > least) {
                 let sides = parts.map(|part| Box::new(self.cut(part, line + 1)));
-                return Node::Cut { line, sides };
+                return SyntheticNode::Cut { line, sides };
             }
         }
         self.cells.push(cell);
-        Node::Cell(self.cells.len() - 1)
+        SyntheticNode::Cell(self.cells.len() - 1)
     }
 
     /// Joins cells across the sides that no crack lies on, and numbers what has come together.
@@ -145,8 +151,8 @@ impl Components {
         let mut node = &self.root;
         loop {
             match node {
-                Node::Cell(cell) => return *cell,
-                Node::Cut { line, sides } => {
+                SyntheticNode::Cell(cell) => return *cell,
+                SyntheticNode::Cut { line, sides } => {
                     node = &sides[usize::from(self.lines[*line].distance(p) < 0.0)];
                 }
             }
@@ -154,24 +160,24 @@ impl Components {
     }
 
     /// Appends the cuts of a node, unless all of it is in the component or all outside.
-    fn write(&self, node: &Node, component: usize, cuts: &mut Vec<Cut>) -> Part {
-        let Node::Cut { line, sides } = node else { return self.part(node, component) };
+    fn write(&self, node: &SyntheticNode, component: usize, cuts: &mut Vec<Cut>) -> CutSide {
+        let SyntheticNode::Cut { line, sides } = node else { return self.part(node, component) };
         let here = cuts.len();
         let segment = self.lines[*line].id;
-        cuts.push(Cut { segment, left: Part::Outside, right: Part::Outside });
+        cuts.push(Cut { segment, left: CutSide::Outside, right: CutSide::Outside });
         let [left, right] = [0, 1].map(|side| self.write(&sides[side], component, cuts));
-        if left == right && !matches!(left, Part::Cut(_)) {
+        if left == right && !matches!(left, CutSide::Cut(_)) {
             cuts.truncate(here);
             return left;
         }
         cuts[here] = Cut { segment, left, right };
-        Part::Cut(here as u32)
+        CutSide::Cut(here as u32)
     }
 
-    fn part(&self, node: &Node, component: usize) -> Part {
+    fn part(&self, node: &SyntheticNode, component: usize) -> CutSide {
         match node {
-            Node::Cell(cell) if self.of_cell[*cell] == component => Part::Inside,
-            _ => Part::Outside,
+            SyntheticNode::Cell(cell) if self.of_cell[*cell] == component => CutSide::Inside,
+            _ => CutSide::Outside,
         }
     }
 }
@@ -243,8 +249,8 @@ mod tests {
         angles.iter().map(arm).collect()
     }
 
-    fn all(cracks: &[Crack]) -> Components {
-        Components::new(cracks, &(0..cracks.len() as u32).collect::<Vec<_>>(), &BOX)
+    fn all(cracks: &[Crack]) -> SyntheticComponents {
+        SyntheticComponents::new(cracks, &(0..cracks.len() as u32).collect::<Vec<_>>(), &BOX)
     }
 
     /// The components of a star are its sectors, also where one is wider than a half turn.

@@ -14,7 +14,7 @@ mod recipe;
 mod series;
 
 pub use coefficients::{amplitude, cut_off, level, smooth};
-pub use components::Components;
+pub use components::SyntheticComponents;
 pub use dataset::{opening, polynomial};
 pub use recipe::{Coefficients, Junction, Recipe, crack, kinked};
 pub use series::{growing, series};

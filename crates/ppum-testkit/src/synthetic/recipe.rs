@@ -4,7 +4,7 @@ use crate::random::Random;
 use ppum::cover::Cover;
 use ppum::crack::{Crack, CrackEnd, TipId, tips};
 use ppum::dataset::{BoxPartition, MAX_DEGREE};
-use ppum::function::{Declared, Frame, FunctionKind, Role, WESTERGAARD};
+use ppum::function::{Frame, FunctionKind, NonsmoothPoints, Role, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
@@ -75,7 +75,7 @@ pub enum Coefficients {
     /// × cut-off. Patches near a tip have its functions with these factors, all else is expanded by
     /// Taylor's formula about each patch, so that neighbours agree up to h³.
     Taylor,
-    /// The same polynomial everywhere: for each component the coefficients of the monomials, in the
+    /// One polynomial everywhere: for each component the coefficients of the monomials, in the
     /// order of datasets, of x and y measured from the domain's centre. Blocks other than the
     /// smooth one get zeros. Degrees of blocks must suffice.
     Polynomial(Vec<Vec<f64>>),
@@ -132,7 +132,7 @@ impl Recipe {
             text: text.to_owned(),
             frame,
             parameters: vec![("a".to_owned(), 1.5)],
-            declared: Declared::default(),
+            declared: NonsmoothPoints::default(),
             role: Role::User,
         };
         let frame = Frame::Fixed { origin: vec2(0.9, 0.1), angle: random.between(-3.0, 3.0) };

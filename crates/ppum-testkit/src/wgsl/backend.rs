@@ -3,7 +3,7 @@
 use ppum::formula::{FormulaJets, Scope, wgsl_prelude};
 
 use super::module::Module;
-use crate::corpus::{Backend, Case, Outcome, SHADER, jets, orders, parse};
+use crate::corpus::{CaseOutcome, FormulaBackend, FormulaCase, SHADER, jets, orders, parse};
 
 /// Single precision at one point: the text of [`FormulaJets::wgsl`] in the interpreter.
 ///
@@ -23,7 +23,7 @@ impl Shader {
     ///
     /// # Panics
     /// When a formula cannot be compiled.
-    pub fn new(cases: &[Case]) -> Result<Self, String> {
+    pub fn new(cases: &[FormulaCase]) -> Result<Self, String> {
         Self::with_edited(cases, |text| text)
     }
 
@@ -34,7 +34,10 @@ impl Shader {
     ///
     /// # Panics
     /// When a formula cannot be compiled.
-    pub fn with_edited(cases: &[Case], edit: impl Fn(String) -> String) -> Result<Self, String> {
+    pub fn with_edited(
+        cases: &[FormulaCase],
+        edit: impl Fn(String) -> String,
+    ) -> Result<Self, String> {
         let mut formulas = Vec::new();
         let mut source = wgsl_prelude().to_owned();
         for case in cases {
@@ -50,28 +53,28 @@ impl Shader {
 }
 
 /// The name that tells the functions of cases apart.
-fn key(case: &Case) -> (String, Scope, usize) {
+fn key(case: &FormulaCase) -> (String, Scope, usize) {
     (case.formula.clone(), case.scope.clone(), case.expected.len())
 }
 
-fn jets_of(case: &Case) -> FormulaJets {
+fn jets_of(case: &FormulaCase) -> FormulaJets {
     jets(case, &parse(case))
 }
 
-impl Backend for Shader {
+impl FormulaBackend for Shader {
     fn name(&self) -> &str {
         "WGSL, interpreted"
     }
 
-    fn evaluate(&mut self, case: &Case) -> Outcome {
+    fn evaluate(&mut self, case: &FormulaCase) -> CaseOutcome {
         let Some(index) = self.formulas.iter().position(|known| *known == key(case)) else {
-            return Outcome::Skipped("not among the functions".to_owned());
+            return CaseOutcome::Skipped("not among the functions".to_owned());
         };
         let inputs: Vec<f32> = case.inputs.iter().map(|&input| input as f32).collect();
         let out = self.module.call(&format!("formula_{index}"), &inputs);
         let out = out.unwrap_or_else(|error| panic!("{}: {error}", case.place));
         let out: Vec<f64> = out.into_iter().map(f64::from).collect();
-        Outcome::Results(orders(case, &out))
+        CaseOutcome::Results(orders(case, &out))
     }
 }
 
@@ -91,7 +94,7 @@ pub fn with_wrong_derivative(text: String) -> String {
 
 /// True if [`with_wrong_derivative`] makes an error of a case that rounding cannot make.
 #[must_use]
-pub fn tells_wrong_derivative(case: &Case) -> bool {
+pub fn tells_wrong_derivative(case: &FormulaCase) -> bool {
     let last = case.expected.len() - 1;
     let expected = case.expected[last][case.expected[last].len() - 1];
     let limit = SHADER.limit(&case.bounds[last], expected);

@@ -4,16 +4,16 @@ use naga::{
     Arena, ArraySize, Block, Expression, Function, Handle, Module, Statement, Type, TypeInner,
 };
 
-use super::value::{Value, binary, math, unary, unknown};
+use super::value::{WgslValue, binary, math, unary, unknown};
 
 /// One call of a function.
 pub(super) struct CallFrame<'m> {
     module: &'m Module,
     function: &'m Function,
-    arguments: Vec<Value>,
-    variables: Vec<Option<Value>>,
+    arguments: Vec<WgslValue>,
+    variables: Vec<Option<WgslValue>>,
     /// Results of the expressions that were emitted.
-    results: Vec<Option<Value>>,
+    results: Vec<Option<WgslValue>>,
 }
 
 /// The next step of execution after a statement.
@@ -21,7 +21,7 @@ enum Flow {
     On,
     Break,
     Continue,
-    Return(Option<Value>),
+    Return(Option<WgslValue>),
 }
 
 impl<'m> CallFrame<'m> {
@@ -29,8 +29,8 @@ impl<'m> CallFrame<'m> {
     pub(super) fn call(
         module: &'m Module,
         function: &'m Function,
-        arguments: Vec<Value>,
-    ) -> Result<Value, String> {
+        arguments: Vec<WgslValue>,
+    ) -> Result<WgslValue, String> {
         let (given, expected) = (arguments.len(), function.arguments.len());
         if given != expected {
             return Err(format!("{given} arguments, not {expected}"));
@@ -86,7 +86,7 @@ impl<'m> CallFrame<'m> {
                 return Ok(Flow::Return(value.map(|value| self.value(value)).transpose()?));
             }
             Statement::Store { pointer, value } => {
-                let Value::Pointer(variable, path) = self.value(*pointer)? else {
+                let WgslValue::Pointer(variable, path) = self.value(*pointer)? else {
                     return unknown(statement);
                 };
                 let value = self.value(*value)?;
@@ -128,20 +128,20 @@ impl<'m> CallFrame<'m> {
     }
 
     /// The value that an expression has given, or gives whenever it is asked.
-    fn value(&self, handle: Handle<Expression>) -> Result<Value, String> {
+    fn value(&self, handle: Handle<Expression>) -> Result<WgslValue, String> {
         match &self.results[handle.index()] {
             Some(value) => Ok(value.clone()),
             None => self.evaluate(handle),
         }
     }
 
-    fn evaluate(&self, handle: Handle<Expression>) -> Result<Value, String> {
+    fn evaluate(&self, handle: Handle<Expression>) -> Result<WgslValue, String> {
         let at = |handle: Handle<Expression>| self.value(handle);
         match &self.function.expressions[handle] {
             Expression::FunctionArgument(index) => Ok(self.arguments[*index as usize].clone()),
-            Expression::LocalVariable(variable) => Ok(Value::Pointer(*variable, vec![])),
+            Expression::LocalVariable(variable) => Ok(WgslValue::Pointer(*variable, vec![])),
             Expression::Load { pointer } => match at(*pointer)? {
-                Value::Pointer(variable, path) => {
+                WgslValue::Pointer(variable, path) => {
                     let whole = self.variables[variable.index()]
                         .as_ref()
                         .ok_or("a variable is read before it is written")?;
@@ -166,7 +166,7 @@ impl<'m> CallFrame<'m> {
     }
 
     /// An element, without a copy of what it is an element of.
-    fn element(&self, base: Handle<Expression>, index: usize) -> Result<Value, String> {
+    fn element(&self, base: Handle<Expression>, index: usize) -> Result<WgslValue, String> {
         match &self.results[base.index()] {
             Some(value) => value.element(index),
             None => self.evaluate(base)?.element(index),
@@ -179,25 +179,26 @@ fn constant(
     module: &Module,
     arena: &Arena<Expression>,
     handle: Handle<Expression>,
-    at: &dyn Fn(Handle<Expression>) -> Result<Value, String>,
-) -> Result<Value, String> {
+    at: &dyn Fn(Handle<Expression>) -> Result<WgslValue, String>,
+) -> Result<WgslValue, String> {
     match &arena[handle] {
-        Expression::Literal(literal) => Value::literal(*literal),
+        Expression::Literal(literal) => WgslValue::literal(*literal),
         Expression::Constant(constant) => global(module, module.constants[*constant].init),
         Expression::ZeroValue(ty) => zero(module, *ty),
-        Expression::Splat { size, value } => Ok(Value::List(vec![at(*value)?; *size as usize])),
+        Expression::Splat { size, value } => Ok(WgslValue::List(vec![at(*value)?; *size as usize])),
         Expression::Swizzle { size, vector, pattern } => {
             let vector = at(*vector)?;
             let picked = pattern[..*size as usize].iter().map(|&c| vector.element(c as usize));
-            picked.collect::<Result<_, _>>().map(Value::List)
+            picked.collect::<Result<_, _>>().map(WgslValue::List)
         }
         Expression::Compose { ty, components } => {
-            let parts: Vec<Value> = components.iter().map(|&c| at(c)).collect::<Result<_, _>>()?;
+            let parts: Vec<WgslValue> =
+                components.iter().map(|&c| at(c)).collect::<Result<_, _>>()?;
             match module.types[*ty].inner {
-                TypeInner::Array { .. } | TypeInner::Struct { .. } => Ok(Value::List(parts)),
+                TypeInner::Array { .. } | TypeInner::Struct { .. } => Ok(WgslValue::List(parts)),
                 // of numbers and shorter vectors
                 TypeInner::Vector { .. } => {
-                    Ok(Value::List(parts.into_iter().flat_map(Value::elements).collect()))
+                    Ok(WgslValue::List(parts.into_iter().flat_map(WgslValue::elements).collect()))
                 }
                 ref other => unknown(other),
             }
@@ -207,23 +208,23 @@ fn constant(
 }
 
 /// A constant of the module.
-fn global(module: &Module, handle: Handle<Expression>) -> Result<Value, String> {
+fn global(module: &Module, handle: Handle<Expression>) -> Result<WgslValue, String> {
     constant(module, &module.global_expressions, handle, &|handle| global(module, handle))
 }
 
 /// The zero of a type.
-fn zero(module: &Module, ty: Handle<Type>) -> Result<Value, String> {
+fn zero(module: &Module, ty: Handle<Type>) -> Result<WgslValue, String> {
     match module.types[ty].inner {
-        TypeInner::Scalar(scalar) => Value::zero(scalar.kind),
+        TypeInner::Scalar(scalar) => WgslValue::zero(scalar.kind),
         TypeInner::Vector { size, scalar } => {
-            Ok(Value::List(vec![Value::zero(scalar.kind)?; size as usize]))
+            Ok(WgslValue::List(vec![WgslValue::zero(scalar.kind)?; size as usize]))
         }
         TypeInner::Array { base, size: ArraySize::Constant(size), .. } => {
-            Ok(Value::List(vec![zero(module, base)?; size.get() as usize]))
+            Ok(WgslValue::List(vec![zero(module, base)?; size.get() as usize]))
         }
         TypeInner::Struct { ref members, .. } => {
             let zeros = members.iter().map(|member| zero(module, member.ty));
-            zeros.collect::<Result<_, _>>().map(Value::List)
+            zeros.collect::<Result<_, _>>().map(WgslValue::List)
         }
         ref other => unknown(other),
     }

@@ -3,7 +3,7 @@
 use naga::valid::{Capabilities, ValidationFlags, Validator};
 
 use super::interpreter::CallFrame;
-use super::value::Value;
+use super::value::WgslValue;
 
 /// A valid module.
 #[derive(Debug)]
@@ -37,7 +37,7 @@ impl Module {
     pub fn call(&self, function: &str, arguments: &[f32]) -> Result<Vec<f32>, String> {
         let found = self.naga.functions.iter().find(|(_, f)| f.name.as_deref() == Some(function));
         let (_, found) = found.ok_or_else(|| format!("no function `{function}`"))?;
-        let arguments: Vec<Value> = arguments.iter().map(|&a| Value::F32(a)).collect();
+        let arguments: Vec<WgslValue> = arguments.iter().map(|&a| WgslValue::F32(a)).collect();
         let result = CallFrame::call(&self.naga, found, arguments);
         result.and_then(|value| value.numbers()).map_err(|error| format!("`{function}`: {error}"))
     }

@@ -8,25 +8,25 @@ use naga::{
 
 /// The value of an expression.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
+pub(super) enum WgslValue {
     F32(f32),
     I32(i32),
     U32(u32),
     Bool(bool),
     /// An array, a vector or a structure.
-    List(Vec<Value>),
+    List(Vec<WgslValue>),
     /// A variable, or what is reached in it by these indices.
     Pointer(Handle<LocalVariable>, Vec<usize>),
 }
 
-use Value::{Bool, F32, I32, List, Pointer, U32};
+use WgslValue::{Bool, F32, I32, List, Pointer, U32};
 
 /// That a construct is not known here.
 pub(super) fn unknown<T>(what: impl Debug) -> Result<T, String> {
     Err(format!("the interpreter does not know {what:?}"))
 }
 
-impl Value {
+impl WgslValue {
     pub(super) fn literal(literal: Literal) -> Result<Self, String> {
         match literal {
             Literal::F32(v) => Ok(F32(v)),
@@ -130,7 +130,7 @@ impl Value {
     }
 }
 
-pub(super) fn unary(op: UnaryOperator, a: &Value) -> Result<Value, String> {
+pub(super) fn unary(op: UnaryOperator, a: &WgslValue) -> Result<WgslValue, String> {
     match (op, a) {
         (UnaryOperator::Negate, F32(a)) => Ok(F32(-a)),
         (UnaryOperator::Negate, I32(a)) => Ok(I32(a.wrapping_neg())),
@@ -143,7 +143,11 @@ pub(super) fn unary(op: UnaryOperator, a: &Value) -> Result<Value, String> {
     }
 }
 
-pub(super) fn binary(op: BinaryOperator, a: &Value, b: &Value) -> Result<Value, String> {
+pub(super) fn binary(
+    op: BinaryOperator,
+    a: &WgslValue,
+    b: &WgslValue,
+) -> Result<WgslValue, String> {
     let result = match (a, b) {
         (List(_), _) | (_, List(_)) => return by_element(&[a, b], |ab| binary(op, &ab[0], &ab[1])),
         (F32(a), F32(b)) => arithmetic(op, *a, *b).map(F32).or_else(|| compare(op, a, b)),
@@ -181,7 +185,7 @@ fn integer(op: BinaryOperator, a: u32, b: u32) -> Option<u32> {
     })
 }
 
-fn compare<T: PartialOrd>(op: BinaryOperator, a: &T, b: &T) -> Option<Value> {
+fn compare<T: PartialOrd>(op: BinaryOperator, a: &T, b: &T) -> Option<WgslValue> {
     Some(Bool(match op {
         BinaryOperator::Equal => a == b,
         BinaryOperator::NotEqual => a != b,
@@ -205,15 +209,15 @@ fn logic(op: BinaryOperator, a: bool, b: bool) -> Option<bool> {
 
 /// A function of scalars for each element of vectors; scalars among them stand for all elements.
 fn by_element(
-    arguments: &[&Value],
-    of: impl Fn(&[Value]) -> Result<Value, String>,
-) -> Result<Value, String> {
-    let count = |argument: &&Value| match argument {
+    arguments: &[&WgslValue],
+    of: impl Fn(&[WgslValue]) -> Result<WgslValue, String>,
+) -> Result<WgslValue, String> {
+    let count = |argument: &&WgslValue| match argument {
         List(values) => values.len(),
         _ => 1,
     };
     let lane = |k: usize| {
-        let at = |argument: &&Value| match argument {
+        let at = |argument: &&WgslValue| match argument {
             List(_) => argument.element(k),
             scalar => Ok((*scalar).clone()),
         };
@@ -224,20 +228,20 @@ fn by_element(
 }
 
 /// a·b
-fn dot(a: &[Value], b: &[Value]) -> Result<Value, String> {
+fn dot(a: &[WgslValue], b: &[WgslValue]) -> Result<WgslValue, String> {
     a.iter().zip(b).try_fold(F32(0.0), |sum, (a, b)| {
         binary(BinaryOperator::Add, &sum, &binary(BinaryOperator::Multiply, a, b)?)
     })
 }
 
-pub(super) fn math(function: MathFunction, arguments: &[Value]) -> Result<Value, String> {
+pub(super) fn math(function: MathFunction, arguments: &[WgslValue]) -> Result<WgslValue, String> {
     match (function, arguments) {
         (MathFunction::Dot, [List(a), List(b)]) => return dot(a, b),
         (MathFunction::Length, [List(a)]) => {
             return math(MathFunction::Sqrt, &[dot(a, a)?]);
         }
         (_, [List(_), ..]) => {
-            let arguments: Vec<&Value> = arguments.iter().collect();
+            let arguments: Vec<&WgslValue> = arguments.iter().collect();
             return by_element(&arguments, |lane| math(function, lane));
         }
         _ => {}
@@ -315,7 +319,7 @@ fn of_three(function: MathFunction, a: f32, b: f32, c: f32) -> Option<f32> {
     })
 }
 
-fn of_integers(function: MathFunction, a: u32, b: u32) -> Result<Value, String> {
+fn of_integers(function: MathFunction, a: u32, b: u32) -> Result<WgslValue, String> {
     match function {
         MathFunction::Min => Ok(U32(a.min(b))),
         MathFunction::Max => Ok(U32(a.max(b))),

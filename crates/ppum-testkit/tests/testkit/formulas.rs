@@ -1,12 +1,13 @@
 //! All back ends of formulas against the conformance corpus (`tests/corpus`).
 
 use ppum_testkit::corpus::{
-    self, Backend, Derivatives, LANES, LANES_SINGLE, Lanes, Report, SCALAR, Scalar, Tolerance,
+    self, CorpusReport, DerivativeFormulas, FormulaBackend, LANES, LANES_SINGLE, LaneBlocks,
+    SCALAR, ScalarJets, Tolerance,
 };
 
 /// Runs the whole corpus.
 #[track_caller]
-fn conforms(backend: &mut dyn Backend, tolerance: &Tolerance) -> Report {
+fn conforms(backend: &mut dyn FormulaBackend, tolerance: &Tolerance) -> CorpusReport {
     let cases = corpus::cases();
     let report = corpus::check(backend, tolerance, &cases);
     println!("{report}");
@@ -17,27 +18,27 @@ fn conforms(backend: &mut dyn Backend, tolerance: &Tolerance) -> Report {
 
 #[test]
 fn scalar() {
-    let report = conforms(&mut Scalar::default(), &SCALAR);
+    let report = conforms(&mut ScalarJets::default(), &SCALAR);
     assert!(report.asserted >= 900, "{} cases", report.asserted);
     assert!(report.skipped.is_empty());
 }
 
 #[test]
 fn scalar_derivative_by_derivative() {
-    let report = conforms(&mut Derivatives::default(), &SCALAR);
+    let report = conforms(&mut DerivativeFormulas::default(), &SCALAR);
     assert!(report.asserted >= 900, "{} cases", report.asserted);
     assert!(report.skipped.is_empty());
 }
 
 #[test]
 fn lanes_of_doubles() {
-    let report = conforms(&mut Lanes::<f64>::new("lanes f64"), &LANES);
+    let report = conforms(&mut LaneBlocks::<f64>::new("lanes f64"), &LANES);
     assert!(report.skipped.is_empty());
 }
 
 #[test]
 fn lanes_of_singles() {
-    let report = conforms(&mut Lanes::<f32>::new("lanes f32"), &LANES_SINGLE);
+    let report = conforms(&mut LaneBlocks::<f32>::new("lanes f32"), &LANES_SINGLE);
     assert!(report.asserted >= 700, "{} cases", report.asserted);
 }
 
@@ -54,7 +55,7 @@ fn wrong_expectations_fail() {
             changed += 1;
         }
     }
-    let report = corpus::check(&mut Derivatives::default(), &SCALAR, &cases);
+    let report = corpus::check(&mut DerivativeFormulas::default(), &SCALAR, &cases);
     assert!(changed > 900, "{changed} of {} changed", cases.len());
     assert_eq!(report.failures.len(), changed);
 }

@@ -5,7 +5,7 @@ use std::sync::mpsc;
 use std::time::{Duration, Instant};
 
 use ppum_testkit::corpus::hostile::{
-    Arena, Fate, STACK, Seed, mutant, seeds, survive, valid_seeds,
+    Arena, ParseOutcome, STACK, Seed, mutant, seeds, survive, valid_seeds,
 };
 use ppum_testkit::random::Random;
 
@@ -59,7 +59,10 @@ fn kept_texts() {
     let fates = run(kept.into_iter().map(|seed| (seed.name, seed.text)), 1);
     println!("refused, too large, evaluated: {fates:?}");
     assert_eq!(fates.iter().sum::<usize>(), count);
-    assert!(fates[Fate::Refused as usize] >= 150 && fates[Fate::Evaluated as usize] >= 100);
+    assert!(
+        fates[ParseOutcome::Refused as usize] >= 150
+            && fates[ParseOutcome::Evaluated as usize] >= 100
+    );
 }
 
 /// A fixed number of mutants, the same ones every time.
@@ -75,5 +78,5 @@ fn mutants() {
     let fates = run(texts, 2);
     println!("refused, too large, evaluated: {fates:?}");
     assert_eq!(fates.iter().sum::<usize>(), COUNT);
-    assert!(fates[Fate::Evaluated as usize] > COUNT / 5, "{fates:?}");
+    assert!(fates[ParseOutcome::Evaluated as usize] > COUNT / 5, "{fates:?}");
 }

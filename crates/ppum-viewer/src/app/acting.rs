@@ -1,27 +1,27 @@
-//! What actions do.
+//! Runs actions.
 
 use std::path::Path;
 use std::sync::Arc;
 
 use ppum_render::colormap::NAMES;
-use ppum_render::range::Range;
+use ppum_render::range::RangeChoice;
 use ppum_render::scale::Scale;
-use ppum_scene::colors::Colors;
+use ppum_scene::colors::ColorOptions;
 use ppum_scene::compare::Compare;
-use ppum_scene::deformed::Factor;
+use ppum_scene::deformed::Magnification;
 use ppum_scene::mirror::Mirror;
-use ppum_scene::overlays::Levels;
+use ppum_scene::overlays::IsolineLevels;
 
 use crate::actions::Action;
 use crate::app::Viewer;
-use crate::controls::swing::Swing;
-use crate::export::{ExportChoice, ExportKind, Order, PageSize};
+use crate::controls::deformation_animation::DeformationAnimation;
+use crate::export::{ExportChoice, ExportKind, ImageExport, PageSize};
 use crate::panels::export::Exporter;
-use crate::panels::palette::Palette;
+use crate::panels::palette::CommandPalette;
 use crate::player;
 use crate::reading::tool::Tool;
 use crate::session::{DrawerPage, Pane};
-use crate::stage::Stage;
+use crate::stage::ViewPane;
 
 impl Viewer {
     /// Does what was asked for.
@@ -75,7 +75,7 @@ impl Viewer {
         }
     }
 
-    fn active(&mut self) -> (&mut Pane, &mut Stage) {
+    fn active(&mut self) -> (&mut Pane, &mut ViewPane) {
         let active = self.session.active;
         (&mut self.session.panes[active], &mut self.stages[active])
     }
@@ -113,20 +113,21 @@ impl Viewer {
         let colors = &mut pane.scene.colors;
         match action {
             Action::NextScale => colors.scale = next_scale(colors.scale),
-            Action::AutomaticRange => colors.range = Range::Auto,
+            Action::AutomaticRange => colors.range = RangeChoice::Auto,
             Action::FreezeRange => freeze(pane, stage),
             Action::NextMap => next_map(colors, stage),
             Action::ReverseMap => reverse_map(colors, stage),
             Action::Overlays => stage.controls.toggle_overlays(&mut pane.scene.overlays),
-            Action::Isolines => toggle(&mut pane.scene.overlays.isolines, Levels::Auto),
+            Action::Isolines => toggle(&mut pane.scene.overlays.isolines, IsolineLevels::Auto),
             Action::Deform | Action::Swing if stage.is_rigid() && pane.scene.deformed.is_none() => {
                 stage.tell("Nothing is deformed: a potential has no displacements");
             }
-            Action::Deform => toggle(&mut pane.scene.deformed, Factor::Auto),
+            Action::Deform => toggle(&mut pane.scene.deformed, Magnification::Auto),
             Action::Swing => {
                 let now = ctx.input(|input| input.time);
-                stage.controls.swing = stage.controls.swing.is_none().then(|| Swing::new(now));
-                pane.scene.deformed = pane.scene.deformed.or(Some(Factor::Auto));
+                stage.controls.swing =
+                    stage.controls.swing.is_none().then(|| DeformationAnimation::new(now));
+                pane.scene.deformed = pane.scene.deformed.or(Some(Magnification::Auto));
             }
             Action::Mirror => toggle(&mut pane.scene.mirror, Mirror::Auto),
             Action::Compare => {
@@ -144,8 +145,8 @@ impl Viewer {
         true
     }
 
-    /// Reads values, goes through the steps, takes pictures out; false if the action is none
-    /// that does.
+    /// Reads values, goes through the steps, takes images out; false if the action is none that
+    /// does.
     fn read(&mut self, ctx: &egui::Context, action: Action) -> bool {
         let active = self.session.active;
         let (pane, stage) = (&mut self.session.panes[active], &mut self.stages[active]);
@@ -214,7 +215,7 @@ impl Viewer {
                 _ => egui::gui_zoom::zoom_out(ctx),
             },
             Action::Help => self.has_help = !self.has_help,
-            Action::Palette => self.palette = Some(Palette::default()),
+            Action::Palette => self.palette = Some(CommandPalette::default()),
             Action::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
             _ => return false,
         }
@@ -239,9 +240,9 @@ fn next_scale(scale: Scale) -> Scale {
 }
 
 /// Copies the command that draws what is seen.
-fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &Stage) -> Result<(), String> {
+fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &ViewPane) -> Result<(), String> {
     let (Some(frame), Some(view)) = (stage.frame(), stage.view) else { return Ok(()) };
-    let order = Order {
+    let order = ImageExport {
         field: Arc::clone(&frame.field),
         file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),
         left: frame.left(),
@@ -255,28 +256,28 @@ fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &Stage) -> Result<(), S
 }
 
 /// The next map, reversed if this one is.
-fn next_map(colors: &mut Colors, stage: &Stage) {
+fn next_map(colors: &mut ColorOptions, stage: &ViewPane) {
     let name = colors.colormap.as_deref().unwrap_or(default_map(stage));
     let (base, end) = name.strip_suffix("_r").map_or((name, ""), |base| (base, "_r"));
     let at = NAMES.iter().position(|known| *known == base).map_or(0, |at| at + 1);
     colors.colormap = Some(format!("{}{end}", NAMES[at % NAMES.len()]));
 }
 
-fn default_map(stage: &Stage) -> &'static str {
+fn default_map(stage: &ViewPane) -> &'static str {
     stage.frames.newest().map_or(NAMES[0], |frame| frame.default_map())
 }
 
-/// The map from its other end; that of the picture if none is chosen.
-fn reverse_map(colors: &mut Colors, stage: &Stage) {
+/// The map from its other end; that of the image if none is chosen.
+fn reverse_map(colors: &mut ColorOptions, stage: &ViewPane) {
     let name = colors.colormap.as_deref().unwrap_or(default_map(stage));
     let reversed = name.strip_suffix("_r").map_or_else(|| format!("{name}_r"), str::to_owned);
     colors.colormap = Some(reversed);
 }
 
-/// Keeps the range of the picture.
-fn freeze(pane: &mut Pane, stage: &Stage) {
+/// Keeps the range of the image.
+fn freeze(pane: &mut Pane, stage: &ViewPane) {
     if let Some(frame) = stage.frames.newest() {
         let norm = &frame.picture.normalization;
-        pane.scene.colors.range = Range::Fixed(norm.min(), norm.max());
+        pane.scene.colors.range = RangeChoice::Fixed(norm.min(), norm.max());
     }
 }

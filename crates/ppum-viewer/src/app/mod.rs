@@ -1,7 +1,7 @@
-//! The window as a whole: what is open, what is shown around the plate, what actions do.
+//! The window as a whole: open datasets, panels around the views, actions.
 
 mod acting;
-pub mod parting;
+pub mod closing;
 mod problems;
 mod work;
 
@@ -12,49 +12,49 @@ use egui::{CentralPanel, Panel, Rect, Ui, UiBuilder, vec2};
 use ppum::dataset::Dataset;
 
 use crate::actions;
-use crate::desk::Desk;
 use crate::fonts::fonts;
-use crate::frames::{Backend, Minus};
+use crate::frames::{Backend, SubtractedImage};
 use crate::page::PageOrder;
+use crate::panel_context::PanelContext;
 use crate::panels::export::Exporter;
-use crate::panels::palette::Palette;
+use crate::panels::palette::CommandPalette;
 use crate::panels::{self, help, top};
 use crate::player::Player;
-use crate::session::{DrawerPage, Session, Theme, VisibleRegion};
-use crate::stage::difference::Pair;
-use crate::stage::{Opened, Stage};
-use crate::undo::{Rest, Undo};
+use crate::session::{DrawerPage, Session, VisibleRegion, WindowTheme};
+use crate::stage::difference::PairRole;
+use crate::stage::{OpenDataset, ViewPane};
+use crate::undo::{RestDetector, Undo};
 use crate::widgets::make_readable;
 
 /// The window.
 pub struct Viewer {
-    /// What is chosen.
+    /// The session.
     pub session: Session,
-    /// What is shown of it.
-    pub stages: Vec<Stage>,
-    rest: Rest<Session>,
+    /// The views of the session.
+    pub stages: Vec<ViewPane>,
+    rest: RestDetector<Session>,
     pub(crate) settings: Undo<Session>,
-    /// What plays the steps of a series.
+    /// The player of the steps of a series.
     pub player: Player,
     /// Files that are open, read and written.
-    pub files: crate::files::Files,
+    pub files: crate::files::WindowFiles,
     /// The problem that is written and solved.
-    pub solving: crate::solving::Solving,
-    /// What is about to be closed with a solution that is not saved.
-    parting: parting::Question,
+    pub solving: crate::solving::SolverPane,
+    /// The state of closing a solution that is not saved.
+    parting: closing::ClosingQuestion,
     /// The dataset that is to make place for the solution that is computed.
     replaced: Option<Arc<Dataset>>,
     /// The page that is written once its name is chosen.
     page: Option<PageOrder>,
     /// Files that were read and are not shown yet.
-    waiting: std::collections::VecDeque<crate::files::read::Arrived>,
-    pub(crate) palette: Option<Palette>,
+    waiting: std::collections::VecDeque<crate::files::read::ReadFile>,
+    pub(crate) palette: Option<CommandPalette>,
     pub(crate) exporter: Option<Exporter>,
     pub(crate) has_help: bool,
     /// The number of the tip that is flown to next.
     pub(crate) tip: usize,
     pub(crate) backend: Backend,
-    /// What the system calls the window.
+    /// The title of the window.
     title: String,
 }
 
@@ -65,7 +65,7 @@ impl Viewer {
         Self::with_backend(ctx, session, Backend::default())
     }
 
-    /// The same with something else that computes the values.
+    /// Makes the window with a given backend.
     #[must_use]
     pub fn with_backend(ctx: &egui::Context, mut session: Session, backend: Backend) -> Self {
         ctx.set_fonts(fonts());
@@ -75,17 +75,17 @@ impl Viewer {
         for theme in [egui::Theme::Dark, egui::Theme::Light] {
             ctx.style_mut_of(theme, |style| make_readable(&mut style.visuals));
         }
-        session.mend();
-        let stages = session.panes.iter().map(|_| Stage::new(ctx, backend)).collect();
+        session.repair();
+        let stages = session.panes.iter().map(|_| ViewPane::new(ctx, backend)).collect();
         Self {
             settings: Undo::new(session.settings()),
-            rest: Rest::new(session.settings()),
+            rest: RestDetector::new(session.settings()),
             session,
             stages,
             player: Player::default(),
-            files: crate::files::Files::new(ctx, None),
-            solving: crate::solving::Solving::new(ctx),
-            parting: parting::Question::default(),
+            files: crate::files::WindowFiles::new(ctx, None),
+            solving: crate::solving::SolverPane::new(ctx),
+            parting: closing::ClosingQuestion::default(),
             replaced: None,
             page: None,
             waiting: std::collections::VecDeque::new(),
@@ -102,7 +102,7 @@ impl Viewer {
     pub fn open(&mut self, path: Option<PathBuf>, dataset: Arc<Dataset>) {
         let active = self.session.active;
         self.session.panes[active].file.clone_from(&path);
-        self.stages[active].opened = Some(Opened::new(path, dataset));
+        self.stages[active].opened = Some(OpenDataset::new(path, dataset));
     }
 
     /// Shows the window once.
@@ -115,7 +115,7 @@ impl Viewer {
         help::take(ui.ctx(), &mut self.has_help, &mut actions);
         let active = self.session.active;
         self.player.advance(ui.ctx(), &mut self.session.panes[active], &self.stages[active]);
-        let mut desk = Desk {
+        let mut desk = PanelContext {
             session: &mut self.session,
             stages: &mut self.stages,
             player: &mut self.player,
@@ -196,10 +196,10 @@ impl Viewer {
     /// One view, or two side by side.
     pub(crate) fn split(&mut self, ctx: &egui::Context) {
         if self.session.panes.len() == 2 {
-            self.part(ctx, parting::Parting::Pane(1));
+            self.part(ctx, closing::CloseGuard::Pane(1));
         } else {
             self.session.panes.push(self.session.panes[0].clone());
-            let mut stage = Stage::new(ctx, self.backend);
+            let mut stage = ViewPane::new(ctx, self.backend);
             stage.opened.clone_from(&self.stages[0].opened);
             self.stages.push(stage);
         }
@@ -232,7 +232,7 @@ impl Viewer {
         // a change that is not yet at rest is a step too
         self.settings.note(&self.session.settings());
         if self.takes_view(back) {
-            return self.part(ctx, parting::Parting::View(back));
+            return self.part(ctx, closing::CloseGuard::View(back));
         }
         self.take_settings(ctx, back);
     }
@@ -253,15 +253,15 @@ impl Viewer {
             count if count > self.session.panes.len() => self.split(ctx),
             _ => {}
         }
-        self.rest = Rest::new(state.settings());
+        self.rest = RestDetector::new(state.settings());
         self.session = state;
         self.show_theme(ctx);
     }
 
     pub(crate) fn turn_theme(&mut self, ctx: &egui::Context) {
         self.session.theme = match ctx.theme() {
-            egui::Theme::Dark => Theme::Light,
-            egui::Theme::Light => Theme::Dark,
+            egui::Theme::Dark => WindowTheme::Light,
+            egui::Theme::Light => WindowTheme::Dark,
         };
         self.show_theme(ctx);
     }
@@ -269,9 +269,9 @@ impl Viewer {
     /// Gives the window the session's theme.
     pub(crate) fn show_theme(&self, ctx: &egui::Context) {
         ctx.set_theme(match self.session.theme {
-            Theme::System => egui::ThemePreference::System,
-            Theme::Light => egui::ThemePreference::Light,
-            Theme::Dark => egui::ThemePreference::Dark,
+            WindowTheme::System => egui::ThemePreference::System,
+            WindowTheme::Light => egui::ThemePreference::Light,
+            WindowTheme::Dark => egui::ThemePreference::Dark,
         });
     }
 }
@@ -295,7 +295,7 @@ fn focus_ring(ctx: &egui::Context) {
 const LEAST: f32 = 240.0;
 
 /// The panes side by side.
-fn plates(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn plates(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let count = desk.session.panes.len();
     pair(desk);
     caption(desk);
@@ -318,31 +318,31 @@ fn plates(ui: &mut Ui, desk: &mut Desk<'_>) {
 }
 
 /// Tells the views whether one is subtracted from the other.
-fn pair(desk: &mut Desk<'_>) {
+fn pair(desk: &mut PanelContext<'_>) {
     let is_shown = desk.session.minus.is_shown;
     let pane = &desk.session.panes[0];
     match &mut desk.stages[..] {
         [left, right] if is_shown => {
-            right.pair = Pair::Right(left.opened.as_ref().map(|opened| Minus {
+            right.pair = PairRole::Right(left.opened.as_ref().map(|opened| SubtractedImage {
                 dataset: Arc::clone(&opened.dataset),
                 subject: pane.scene.subject.clone(),
                 quantity: pane.scene.quantity.clone(),
             }));
-            left.pair = Pair::Left;
+            left.pair = PairRole::Left;
         }
-        stages => stages.iter_mut().for_each(|stage| stage.pair = Pair::Alone),
+        stages => stages.iter_mut().for_each(|stage| stage.pair = PairRole::Alone),
     }
 }
 
 /// Names what each of two views shows: the file, of a series the step, and the quantity.
-fn caption(desk: &mut Desk<'_>) {
+fn caption(desk: &mut PanelContext<'_>) {
     let are_two = desk.session.panes.len() > 1;
     for (pane, stage) in desk.session.panes.iter().zip(desk.stages.iter_mut()) {
         stage.caption = if are_two { stage.named(pane) } else { None };
     }
 }
 
-fn show_pane(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
+fn show_pane(ui: &mut Ui, desk: &mut PanelContext<'_>, number: usize) {
     if desk.stages[number].opened.is_none() {
         panels::start::show(ui, desk);
         return;
@@ -380,8 +380,8 @@ impl eframe::App for Viewer {
         self.show(ui);
     }
 
-    /// The ground around the plate. Nothing is drawn there: a software driver takes longer for that
-    /// than for all the rest.
+    /// The background around the views. Nothing is drawn there: a software driver takes longer for
+    /// that than for all the rest.
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         crate::widgets::ground(visuals).to_normalized_gamma_f32()
     }

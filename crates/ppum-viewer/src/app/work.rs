@@ -1,5 +1,5 @@
-//! What the window does with files and problems: what was read is shown, what has changed is read
-//! again, what was solved is seen.
+//! Work of the window with files and problems: shows files that were read, reads files again that
+//! have changed, shows solutions.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -9,17 +9,17 @@ use ppum::dataset::Dataset;
 
 use crate::actions::Action;
 use crate::app::Viewer;
-use crate::app::parting::Parting;
+use crate::app::closing::CloseGuard;
 use crate::files::dialog::Purpose;
-use crate::files::read::{Arrived, Content, Why};
+use crate::files::read::{FileContent, ReadFile, Why};
 use crate::files::watch::{Stamp, stamp};
-use crate::files::{SavedFile, Written, name, session_file};
+use crate::files::{SavedFile, WrittenFile, name, session_file};
 use crate::page::PageOrder;
 use crate::plate;
 use crate::player;
 use crate::session::{Pane, Session};
-use crate::solving::{Solved, editor_id};
-use crate::stage::{Opened, Stage};
+use crate::solving::{ComputedDataset, editor_id};
+use crate::stage::{OpenDataset, ViewPane};
 use crate::undo::Undo;
 
 impl Viewer {
@@ -56,13 +56,13 @@ impl Viewer {
         self.leave_when_saved(&ctx);
     }
 
-    /// Tells what the plates show otherwise than it was chosen.
+    /// Reports the choices that the views had to replace.
     fn tell_fallbacks(&mut self) {
         for stage in &mut self.stages {
             let path = stage.opened.as_ref().and_then(|opened| opened.path.clone());
             let path = path.unwrap_or_default();
             for text in stage.told.drain(..) {
-                let name = stage.opened.as_ref().map_or_else(String::new, Opened::name);
+                let name = stage.opened.as_ref().map_or_else(String::new, OpenDataset::name);
                 self.files.tell_too(&path, &format!("{name}: {text}"));
             }
         }
@@ -71,7 +71,7 @@ impl Viewer {
     /// True while something is read, written, solved or drawn.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        let is_drawing = self.stages.iter().any(Stage::is_drawing);
+        let is_drawing = self.stages.iter().any(ViewPane::is_drawing);
         is_drawing || self.files.is_working() || self.solving.is_working()
     }
 
@@ -80,7 +80,7 @@ impl Viewer {
         let pane = pane.min(1);
         if pane == self.session.panes.len() {
             self.session.panes.push(Pane::default());
-            self.stages.push(Stage::new(ctx, self.backend));
+            self.stages.push(ViewPane::new(ctx, self.backend));
         }
         self.files.open(path, pane, Why::Opened);
     }
@@ -89,8 +89,8 @@ impl Viewer {
     pub fn take_session(&mut self, ctx: &egui::Context, session: Session) {
         self.shelve();
         self.session = session;
-        self.session.mend();
-        self.stages = self.session.panes.iter().map(|_| Stage::new(ctx, self.backend)).collect();
+        self.session.repair();
+        self.stages = self.session.panes.iter().map(|_| ViewPane::new(ctx, self.backend)).collect();
         self.settings = Undo::new(self.session.settings());
         self.show_theme(ctx);
         for (number, pane) in self.session.panes.iter().enumerate() {
@@ -120,7 +120,7 @@ impl Viewer {
         match action {
             Action::Open => self.files.ask(Purpose::Open(active), file.as_deref()),
             Action::OpenBeside => self.files.ask(Purpose::Open(1), file.as_deref()),
-            Action::Close => self.part(ctx, Parting::Pane(active)),
+            Action::Close => self.part(ctx, CloseGuard::Pane(active)),
             Action::SaveDataset => self.ask_dataset_of(active),
             Action::SaveDatasetOf(pane) => self.ask_dataset_of(pane),
             Action::ExportPage => self.ask_page(active),
@@ -133,9 +133,9 @@ impl Viewer {
             Action::SaveSessionAs => self.ask_session(),
             Action::Solve => {
                 self.follow_dataset();
-                self.part(ctx, Parting::Solve(None));
+                self.part(ctx, CloseGuard::Solve(None));
             }
-            Action::Example(number) => self.part(ctx, Parting::Solve(Some(number))),
+            Action::Example(number) => self.part(ctx, CloseGuard::Solve(Some(number))),
             Action::CancelSolving => self.solving.cancel(),
             Action::SaveProblem => self.save_problem(),
             Action::SaveProblemAs => {
@@ -150,7 +150,7 @@ impl Viewer {
             Action::TakeText(number) => self.take_text(number),
             Action::DiscardText(number) => {
                 if let Some(draft) = self.files.texts().get(number).cloned() {
-                    self.part(ctx, Parting::Text(draft));
+                    self.part(ctx, CloseGuard::Text(draft));
                 }
             }
             Action::ShowText => self.show_text_of(active),
@@ -233,7 +233,7 @@ impl Viewer {
     }
 
     /// Something was written: it has a file now.
-    fn wrote(&mut self, Written { path, what }: Written) {
+    fn wrote(&mut self, WrittenFile { path, what }: WrittenFile) {
         match what {
             SavedFile::Dataset(dataset) => self.note_dataset_file(&dataset, &path),
             SavedFile::Session => self.files.session = Some(path.clone()),
@@ -258,8 +258,8 @@ impl Viewer {
     }
 
     /// Shows what was read; what cannot be read is told beside its name, and harms nothing.
-    pub(super) fn arrive(&mut self, ctx: &egui::Context, arrived: Arrived) {
-        let Arrived { path, pane, why, stamp, content } = arrived;
+    pub(super) fn arrive(&mut self, ctx: &egui::Context, arrived: ReadFile) {
+        let ReadFile { path, pane, why, stamp, content } = arrived;
         // it may have been closed since, and another one taken its place
         let Some(pane) = self.place_of(&path, pane, why) else { return };
         let content = content.and_then(|content| self.expected(&path, why, content));
@@ -274,9 +274,9 @@ impl Viewer {
                     self.files.remember(&path);
                 }
                 match content {
-                    Content::Dataset(dataset) => self.show_dataset(pane, path, dataset, why),
-                    Content::Problem(text) => self.take_problem(path, text, why),
-                    Content::Session(session) => {
+                    FileContent::Dataset(dataset) => self.show_dataset(pane, path, dataset, why),
+                    FileContent::Problem(text) => self.take_problem(path, text, why),
+                    FileContent::Session(session) => {
                         self.take_session(ctx, *session);
                         self.files.session = Some(path);
                     }
@@ -299,18 +299,18 @@ impl Viewer {
         (0..=last).find(|pane| self.is_of_pane(path, *pane)).or(is_text.then_some(0))
     }
 
-    /// What a file is read for that is open already, or that a session names; an error if something
-    /// else is in it.
-    fn expected(&self, path: &Path, why: Why, content: Content) -> Result<Content, String> {
+    /// Returns the content if a file that is open already, or that a session names, has the
+    /// expected kind; an error if something else is in it.
+    fn expected(&self, path: &Path, why: Why, content: FileContent) -> Result<FileContent, String> {
         let is_dataset = (0..self.session.panes.len()).any(|pane| self.is_of_pane(path, pane));
         let (is, wanted) = match &content {
             _ if why == Why::Opened => return Ok(content),
-            Content::Dataset(_) if is_dataset => return Ok(content),
-            Content::Problem(_) if !is_dataset => return Ok(content),
-            Content::Dataset(_) => ("a dataset", "a problem"),
-            Content::Problem(_) => ("the text of a problem", "a dataset"),
-            Content::Session(_) if is_dataset => ("a session", "a dataset"),
-            Content::Session(_) => ("a session", "a problem"),
+            FileContent::Dataset(_) if is_dataset => return Ok(content),
+            FileContent::Problem(_) if !is_dataset => return Ok(content),
+            FileContent::Dataset(_) => ("a dataset", "a problem"),
+            FileContent::Problem(_) => ("the text of a problem", "a dataset"),
+            FileContent::Session(_) if is_dataset => ("a session", "a dataset"),
+            FileContent::Session(_) => ("a session", "a problem"),
         };
         Err(format!("it is {is}, where {wanted} should be; open it by itself"))
     }
@@ -341,13 +341,13 @@ impl Viewer {
         let is_linked = self.session.linked && self.session.panes.len() > 1;
         let (pane, stage) = (&mut self.session.panes[pane], &mut self.stages[pane]);
         pane.file = Some(path.clone());
-        // linked views show a place that may be one of the other plate alone
+        // linked views show a place that may be one of the other body alone
         let is_elsewhere = |place| !is_linked && !plate::is_of(place, &dataset.domain.bounds);
         if stage.opened.is_none() && pane.place.is_some_and(is_elsewhere) {
             stage.show_whole(pane);
         }
         stage.told.extend(player::mend(pane, &dataset));
-        stage.take(pane, Opened::new(Some(path), dataset));
+        stage.take(pane, OpenDataset::new(Some(path), dataset));
     }
 
     /// Reads a file again that has changed; of one that vanished the last state stays.
@@ -367,15 +367,15 @@ impl Viewer {
         }
     }
 
-    /// Shows what was solved; the view is kept if the plate has the same place.
-    fn show_solved(&mut self, ctx: &egui::Context, solved: Solved) {
-        let Solved { pane, dataset, solution } = solved;
+    /// Shows what was solved; the view is kept if the body has the same place.
+    fn show_solved(&mut self, ctx: &egui::Context, solved: ComputedDataset) {
+        let ComputedDataset { pane, dataset, solution } = solved;
         let number = self.free_pane(ctx, pane, solution.is_complete());
         let (pane, stage) = (&mut self.session.panes[number], &mut self.stages[number]);
         pane.file = None;
         // what was a series may be one step now
         let _ = player::mend(pane, &dataset);
-        stage.take(pane, Opened { path: None, dataset, solution: Some(Arc::new(solution)) });
+        stage.take(pane, OpenDataset { path: None, dataset, solution: Some(Arc::new(solution)) });
     }
 
     /// Files that were dropped: the first in the active pane, another one beside it.

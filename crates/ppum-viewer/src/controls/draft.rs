@@ -1,11 +1,11 @@
-//! What is written and not yet understood.
+//! Text that is written and not yet understood.
 
-use ppum_scene::overlays::Levels;
+use ppum_scene::overlays::IsolineLevels;
 
 /// Levels while they are written.
 #[derive(Clone, Debug, Default)]
 pub struct LevelsDraft {
     pub(crate) text: String,
-    pub(crate) base: Option<Levels>,
+    pub(crate) base: Option<IsolineLevels>,
     pub(crate) mistake: Option<String>,
 }

@@ -1,23 +1,23 @@
-//! What a dataset has at a step: looked up once, not in every frame.
+//! The content of a dataset at a step: looked up once, not in every frame.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use ppum::dataset::{Dataset, FieldData, Step};
-use ppum::decompose::{KINDS, Part};
+use ppum::decompose::{FieldPart, KINDS};
 use ppum::function::{Function, FunctionKind};
-use ppum::text::Places;
+use ppum::text::LocationText;
 use ppum::weight::WeightFunction;
 use ppum_scene::facts::{Tip, all_tips};
 use ppum_scene::overlays::Overlay;
 use ppum_scene::range::places;
 
-/// What a dataset has at a step.
+/// The content of a dataset at a step.
 #[derive(Default)]
 pub struct Facts {
     of: Option<(Arc<Dataset>, usize)>,
     /// The kinds of blocks.
-    pub parts: Vec<Part>,
+    pub parts: Vec<FieldPart>,
     /// The functions, each once for all its places.
     pub functions: Vec<Stem>,
     /// Quantities that it names: names and formulas.
@@ -31,8 +31,8 @@ pub struct Facts {
     /// The crack tips with their factors.
     pub tips: Vec<Tip>,
     /// How places of the dataset are written.
-    pub places: Option<Places>,
-    /// True for plates that have stresses and displacements.
+    pub places: Option<LocationText>,
+    /// True for bodies that have stresses and displacements.
     pub is_elastic: bool,
 }
 
@@ -72,9 +72,9 @@ impl Facts {
         self.quantities = named.map(|named| (named.name.clone(), named.text.clone())).collect();
         if let Some(field) = step.fields.first() {
             let counts = counts(field, step.functions.len());
-            let used = |part: &Part| {
+            let used = |part: &FieldPart| {
                 let mut all = step.functions.iter().zip(&counts);
-                all.any(|(function, &count)| count > 0 && Part::of(&function.kind) == *part)
+                all.any(|(function, &count)| count > 0 && FieldPart::of(&function.kind) == *part)
             };
             self.parts = KINDS.into_iter().filter(used).collect();
             self.functions = stems(&step.functions, &counts);

@@ -1,11 +1,11 @@
-//! What the panels of one view remember while it is open, and what is not the session's: texts that
-//! are being written, lists that are open, work in the background, a factor that swings.
+//! The state of the panels of one view while it is open, as far as it is not part of the session:
+//! texts that are being written, lists that are open, work in the background, a factor that swings.
 
+pub mod choices;
+pub mod deformation_animation;
 pub mod draft;
 pub mod facts;
-pub mod known;
 pub mod range;
-pub mod swing;
 pub mod whole;
 
 use std::collections::BTreeMap;
@@ -13,24 +13,24 @@ use std::sync::{Arc, Weak};
 
 use ppum::dataset::Dataset;
 use ppum_figure::plot::Plot;
-use ppum_scene::deformed::Factor;
+use ppum_scene::deformed::Magnification;
 use ppum_scene::overlays::{Overlay, Overlays};
-use ppum_scene::scene::Scene;
+use ppum_scene::scene::SceneRequest;
 
-use crate::frames::{Frame, Frames};
+use crate::frames::{PaneFrames, RenderedFrame};
 use crate::session::Pane;
 use crate::widgets::chooser::Chooser;
 use crate::widgets::editor::Editor;
+use choices::FieldChoices;
+use deformation_animation::DeformationAnimation;
 use draft::LevelsDraft;
 use facts::Facts;
-use known::Known;
-use swing::Swing;
 use whole::{RangeSearch, Whole};
 
 /// Plots over the steps, with their names.
 type Courses = Vec<(&'static str, Plot)>;
 
-/// What the panels of one view remember.
+/// The state of the panels of one view.
 #[derive(Default)]
 pub struct Controls {
     /// The list of quantities.
@@ -39,26 +39,26 @@ pub struct Controls {
     pub maps: Chooser,
     /// Texts that are written, by what they are of.
     pub editors: BTreeMap<String, Editor>,
-    /// What the dataset has.
+    /// The content of the dataset.
     pub facts: Facts,
-    /// What its field can show.
-    pub known: Known,
-    /// The range of the whole plate, while it is looked for.
+    /// The quantities of its field.
+    pub known: FieldChoices,
+    /// The range of the whole body, while it is looked for.
     pub whole: Option<Whole>,
     /// The reason why a range was refused.
     pub refused: Option<String>,
     /// Levels of isolines that are written.
     pub levels: LevelsDraft,
     /// The factor of the deformation, while it swings.
-    pub swing: Option<Swing>,
+    pub swing: Option<DeformationAnimation>,
     /// The overlays that were there before all were hidden.
     pub hidden: Option<Overlays>,
-    /// True while the next click on the plate chooses a patch.
+    /// True while the next click on the view chooses a patch.
     pub is_picking: bool,
     /// The panel that is to be opened.
     pub wants: Option<&'static str>,
-    /// What is told of the colours of a picture.
-    pub colors_told: Option<(Weak<Frame>, String)>,
+    /// The description of the colours of an image.
+    pub colors_told: Option<(Weak<RenderedFrame>, String)>,
     /// Values over the steps of a dataset, with the names of their plots.
     pub courses: Option<(Arc<Dataset>, Courses)>,
     /// The automatic factor of the deformation, once it is known.
@@ -66,12 +66,12 @@ pub struct Controls {
 }
 
 impl Controls {
-    /// Goes on with all that goes on by itself: what is known, the range of the plate, the factor
+    /// Goes on with all that goes on by itself: what is known, the range of the body, the factor
     /// that swings.
-    pub fn advance(&mut self, ctx: &egui::Context, pane: &mut Pane, frames: &Frames) {
+    pub fn advance(&mut self, ctx: &egui::Context, pane: &mut Pane, frames: &PaneFrames) {
         if let Some(frame) = frames.newest() {
             self.known.look_up(&frame.field);
-            if frame.wanted.scene.deformed == Some(Factor::Auto) {
+            if frame.wanted.scene.deformed == Some(Magnification::Auto) {
                 self.factor = frame.factor;
             }
         }
@@ -91,14 +91,15 @@ impl Controls {
         }
     }
 
-    /// What is drawn of a scene: its factor as it swings, and the overlays that there are then.
+    /// Returns the scene that is drawn: with its factor during an animation, and the overlays that
+    /// exist then.
     #[must_use]
-    pub fn drawn(&self, scene: &Scene) -> Scene {
+    pub fn drawn(&self, scene: &SceneRequest) -> SceneRequest {
         let mut scene = scene.drawn();
         if let (Some(swing), Some(factor)) = (&self.swing, &mut scene.deformed) {
             let whole = match *factor {
-                Factor::Given(whole) => Some(whole),
-                Factor::Auto => self.factor,
+                Magnification::Given(whole) => Some(whole),
+                Magnification::Auto => self.factor,
             };
             *factor = whole.map_or(*factor, |whole| swing.of(whole));
         }

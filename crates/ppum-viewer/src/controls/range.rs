@@ -1,6 +1,6 @@
 //! Ranges as people write them and drag them.
 
-use ppum_scene::colors::Colors;
+use ppum_scene::colors::ColorOptions;
 
 /// A number as people and this program write it.
 pub(crate) fn parse(text: &str) -> Option<f64> {
@@ -21,7 +21,7 @@ pub(crate) fn digits([min, max]: [f64; 2], least: usize) -> usize {
 ///
 /// # Errors
 /// A range that is none; nothing has changed then.
-pub(crate) fn set(colors: &mut Colors, ends: [f64; 2], changed: usize) -> Result<(), String> {
+pub(crate) fn set(colors: &mut ColorOptions, ends: [f64; 2], changed: usize) -> Result<(), String> {
     let [min, max] = match (colors.symmetric, ends[changed].abs()) {
         (true, size) => [-size, size],
         (false, _) => ends,

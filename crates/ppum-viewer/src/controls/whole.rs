@@ -1,29 +1,29 @@
-//! The range of the whole plate, of one step or of all: found in the background, then fixed.
+//! The range of the whole body, of one step or of all: found in the background, then fixed.
 
 use std::collections::VecDeque;
 use std::ops::Range as Steps;
 use std::sync::Arc;
 
 use ppum::dataset::Dataset;
-use ppum_render::range::Range;
+use ppum_render::range::RangeChoice;
 use ppum_scene::overlays::Overlays;
-use ppum_scene::scene::Scene;
+use ppum_scene::scene::SceneRequest;
 
-use crate::frames::{Frames, Minus, Wanted};
+use crate::frames::{FrameRequest, PaneFrames, SubtractedImage};
 use crate::plate;
 
 /// A range that is looked for.
 pub struct Whole {
-    frames: Frames,
-    scene: Scene,
+    frames: PaneFrames,
+    scene: SceneRequest,
     dataset: Arc<Dataset>,
-    minus: Option<Minus>,
+    minus: Option<SubtractedImage>,
     steps: VecDeque<usize>,
     total: usize,
     found: Option<[f64; 2]>,
 }
 
-/// Pixels of the pictures that it is found from.
+/// Pixels of the images that it is found from.
 const PIXELS: [u32; 2] = [512, 512];
 
 /// The state of the search for a range.
@@ -32,26 +32,27 @@ pub enum RangeSearch {
     /// It is looked for.
     Working,
     /// The range.
-    Found(Range),
+    Found(RangeChoice),
     /// The reason why there is none.
     Failed(String),
 }
 
 impl Whole {
-    /// Looks for the range of a scene on the whole plate at some steps, or of its difference from
+    /// Looks for the range of a scene on the whole body at some steps, or of its difference from
     /// another one, whatever its range and its overlays are.
     #[must_use]
     pub fn new(
         ctx: &egui::Context,
         dataset: &Arc<Dataset>,
-        (scene, minus): (&Scene, Option<Minus>),
+        (scene, minus): (&SceneRequest, Option<SubtractedImage>),
         steps: Steps<usize>,
     ) -> Self {
         let ctx = ctx.clone();
-        let mut scene = Scene { overlays: Overlays::default(), deformed: None, ..scene.clone() };
-        scene.colors.range = Range::Auto;
+        let mut scene =
+            SceneRequest { overlays: Overlays::default(), deformed: None, ..scene.clone() };
+        scene.colors.range = RangeChoice::Auto;
         Self {
-            frames: Frames::new(move || ctx.request_repaint()),
+            frames: PaneFrames::new(move || ctx.request_repaint()),
             scene,
             dataset: Arc::clone(dataset),
             minus,
@@ -89,11 +90,11 @@ impl Whole {
         };
         let dataset = Arc::clone(&self.dataset);
         let minus = self.minus.clone();
-        self.frames.want(Wanted { minus, ..Wanted::new(dataset, scene, view) });
+        self.frames.want(FrameRequest { minus, ..FrameRequest::new(dataset, scene, view) });
         RangeSearch::Working
     }
 
-    /// Adds the range of a picture that is done.
+    /// Adds the range of an image that is done.
     fn take(&mut self) {
         let Some(frame) = self.frames.newest() else { return };
         if self.frames.is_working()
@@ -112,7 +113,7 @@ impl Whole {
 
     fn end(&self) -> RangeSearch {
         match self.found {
-            Some([min, max]) => RangeSearch::Found(Range::Fixed(min, max)),
+            Some([min, max]) => RangeSearch::Found(RangeChoice::Fixed(min, max)),
             None => RangeSearch::Failed("the quantity has no finite values on the plate".into()),
         }
     }

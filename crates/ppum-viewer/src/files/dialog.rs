@@ -11,12 +11,12 @@ use ppum::dataset::Dataset;
 
 use super::read::has_extension;
 use super::session_file;
-use crate::job::Job;
-use crate::replacing::{self, Replacing};
+use crate::job::BackgroundJob;
+use crate::replaced_file::{self, ReplacedFile};
 use crate::session::ProblemDraft;
 use crate::widgets::note_folder;
 
-/// What a file is chosen for. What is to be written is held: whatever is shown when the name is
+/// The purpose of a file. The content to be written is held: whatever is shown when the name is
 /// given, this is what gets the name.
 #[derive(Clone, Debug)]
 pub enum Purpose {
@@ -72,10 +72,10 @@ pub struct Dialog {
     text: String,
     chosen: Option<usize>,
     listed: Option<(PathBuf, Vec<FolderEntry>)>,
-    listing: Option<(PathBuf, Job<Vec<FolderEntry>>)>,
-    system: Option<Job<Option<PathBuf>>>,
+    listing: Option<(PathBuf, BackgroundJob<Vec<FolderEntry>>)>,
+    system: Option<BackgroundJob<Option<PathBuf>>>,
     error: Option<String>,
-    replacing: Replacing,
+    replacing: ReplacedFile,
 }
 
 /// Something in a folder: its name, and whether it is a folder too.
@@ -93,13 +93,13 @@ impl Dialog {
             text.push(MAIN_SEPARATOR);
         }
         let (listed, listing, system, error) = (None, None, None, None);
-        let replacing = Replacing::default();
+        let replacing = ReplacedFile::default();
         let folder = if start.is_dir() { Some(start) } else { start.parent() };
         let folder = folder.unwrap_or(Path::new("")).to_owned();
         Self { purpose, folder, text, chosen: None, listed, listing, system, error, replacing }
     }
 
-    /// What the file is chosen for.
+    /// Returns the purpose of the file.
     #[must_use]
     pub fn purpose(&self) -> &Purpose {
         &self.purpose
@@ -191,7 +191,7 @@ impl Dialog {
                 self.browse(ui);
             }
             let word = match (self.error.as_deref(), self.purpose.is_open()) {
-                (Some(replacing::ASK), _) => "Replace it",
+                (Some(replaced_file::ASK), _) => "Replace it",
                 (_, true) => "Open",
                 (_, false) => "Save",
             };
@@ -232,14 +232,14 @@ impl Dialog {
             false if !has_extension(&path, ends) => {
                 Some(format!("the name of this file ends with .{}", ends.join(" or .")))
             }
-            false if !self.replacing.allows(&path) => Some(replacing::ASK.to_owned()),
+            false if !self.replacing.allows(&path) => Some(replaced_file::ASK.to_owned()),
             false => ppum_file::check(&path).err().map(|e| format!("it cannot be written: {e}")),
         };
         self.error = error;
         self.error.is_none().then_some(path)
     }
 
-    /// What is in the folder and goes on as the text does; files only if they fit.
+    /// Returns the entries of the folder that begin with the text; files only if they fit.
     fn fitting(&self) -> Vec<FolderEntry> {
         let name =
             Path::new(&self.text).file_name().filter(|_| !self.text.ends_with(MAIN_SEPARATOR));
@@ -279,9 +279,9 @@ impl Dialog {
         if self.listing.is_none() && self.listed.as_ref().is_none_or(|(listed, _)| *listed != here)
         {
             let folder = here.clone();
-            self.listing = Some((here, Job::start(ui.ctx(), move |_| entries(&folder))));
+            self.listing = Some((here, BackgroundJob::start(ui.ctx(), move |_| entries(&folder))));
         }
-        if let Some(outcome) = self.system.as_ref().and_then(Job::poll) {
+        if let Some(outcome) = self.system.as_ref().and_then(BackgroundJob::poll) {
             self.system = None;
             match outcome {
                 Ok(Some(path)) => self.text = path.display().to_string(),
@@ -297,7 +297,7 @@ impl Dialog {
         }
         let (title, is_open) = (self.purpose.title(), self.purpose.is_open());
         let (ends, folder) = (self.purpose.extensions(), self.shown_folder());
-        self.system = Some(Job::start(ui.ctx(), move |_| {
+        self.system = Some(BackgroundJob::start(ui.ctx(), move |_| {
             let dialog = rfd::FileDialog::new().set_title(title).set_directory(folder);
             let dialog = dialog.add_filter(ends.join(", "), ends);
             if is_open { dialog.pick_file() } else { dialog.save_file() }
@@ -313,7 +313,7 @@ fn home(text: &str) -> PathBuf {
     }
 }
 
-/// What is in a folder, folders first.
+/// Returns the entries of a folder, folders first.
 fn entries(folder: &Path) -> Vec<FolderEntry> {
     let entry = |entry: fs::DirEntry| {
         let name = entry.file_name().into_string().ok()?;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use ppum_problem::Problem;
 
-use crate::job::Job;
+use crate::job::BackgroundJob;
 use crate::solving::preview::Preview;
 
 /// An example.
@@ -13,7 +13,7 @@ use crate::solving::preview::Preview;
 pub struct Example {
     /// The name of its file.
     pub name: &'static str,
-    /// What it shows, on one line.
+    /// Its subject, on one line.
     pub about: &'static str,
     /// The problem.
     pub text: &'static str,
@@ -97,8 +97,8 @@ impl Example {
         crate::session::title(self.text).unwrap_or(self.name)
     }
 
-    /// What its problem describes: plate, holes, cracks, supports and loads. A file of numbers is
-    /// put into `own`, the window's folder; none where it cannot be.
+    /// Returns the geometry of its problem: body, holes, cracks, supports and loads. A file of
+    /// numbers is put into `own`, the window's folder; none where it cannot be.
     #[must_use]
     pub fn preview(&self, own: Option<&Path>) -> Option<Preview> {
         let folder = match own {
@@ -117,28 +117,28 @@ impl Example {
         let Some((name, text)) = self.numbers else { return Ok(None) };
         let folder = folder.join("examples");
         std::fs::create_dir_all(&folder)?;
-        super::kept::replace(&folder.join(name), text)?;
+        super::window_state::replace(&folder.join(name), text)?;
         Ok(Some(folder))
     }
 }
 
-/// What the problems of all examples describe, found in the background.
+/// The geometries of the problems of all examples, found in the background.
 #[derive(Debug, Default)]
 pub struct Previews {
-    job: Option<Job<Vec<Option<Preview>>>>,
+    job: Option<BackgroundJob<Vec<Option<Preview>>>>,
     known: Vec<Option<Preview>>,
 }
 
 impl Previews {
     /// Begins to find them, if they are not known yet, with the window's folder.
     pub fn find(&mut self, ctx: &egui::Context, own: Option<&Path>) {
-        if let Some(found) = self.job.as_ref().and_then(Job::poll) {
+        if let Some(found) = self.job.as_ref().and_then(BackgroundJob::poll) {
             self.job = None;
             self.known = found.unwrap_or_else(|_| vec![None; ALL.len()]);
         } else if self.job.is_none() && self.known.is_empty() {
             let own = own.map(Path::to_owned);
             let all = move |_: &_| ALL.iter().map(|one| one.preview(own.as_deref())).collect();
-            self.job = Some(Job::start(ctx, all));
+            self.job = Some(BackgroundJob::start(ctx, all));
         }
     }
 

@@ -2,11 +2,11 @@
 
 pub mod dialog;
 pub mod examples;
-pub mod kept;
 pub mod read;
 pub mod session_file;
 mod texts;
 pub mod watch;
+pub mod window_state;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -15,20 +15,20 @@ use std::time::{Duration, Instant};
 use egui::Ui;
 use ppum::dataset::Dataset;
 
-use crate::job::Job;
+use crate::job::BackgroundJob;
 use crate::session::{ProblemDraft, Session};
 use dialog::{Dialog, Purpose};
-use kept::WindowState;
-use read::{Arrived, Reading, Why};
-use texts::Texts;
+use read::{FileRead, ReadFile, Why};
+use texts::StoredTexts;
 use watch::{Stamp, Watch};
+use window_state::WindowState;
 
 /// Something that is told about a file until it is closed or no longer true.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
     /// The file.
     pub path: PathBuf,
-    /// What is told.
+    /// The text of the note.
     pub text: String,
     /// True if something could not be done.
     pub is_error: bool,
@@ -38,22 +38,22 @@ pub struct Note {
 
 /// The files of a window.
 #[derive(Debug)]
-pub struct Files {
-    /// What is told of files, the newest last.
+pub struct WindowFiles {
+    /// The notes about files, the newest last.
     pub notes: Vec<Note>,
-    /// What is remembered.
+    /// The stored state.
     pub kept: WindowState,
-    /// What the examples are problems of.
+    /// The previews of the examples.
     pub previews: examples::Previews,
     /// The file of the session, once it has one.
     pub session: Option<PathBuf>,
     /// Changed texts that have made place for others.
-    texts: Texts,
+    texts: StoredTexts,
     folder: Option<PathBuf>,
-    readings: Vec<Reading>,
-    writings: Vec<Writing>,
-    /// What is remembered, on its way to its file; true if all of it is on the way.
-    keeping: Option<Job<std::io::Result<()>>>,
+    readings: Vec<FileRead>,
+    writings: Vec<FileWrite>,
+    /// The stored state, on its way to its file; true if all of it is on the way.
+    keeping: Option<BackgroundJob<std::io::Result<()>>>,
     is_kept: bool,
     /// True once it was told that nothing can be kept: once is enough.
     is_forgetful: bool,
@@ -67,10 +67,10 @@ pub struct Files {
 
 /// A file that is being written.
 #[derive(Debug)]
-struct Writing {
+struct FileWrite {
     path: PathBuf,
     what: SavedFile,
-    job: Job<Result<Stamp, String>>,
+    job: BackgroundJob<Result<Stamp, String>>,
 }
 
 /// The contents of a file that is saved.
@@ -88,26 +88,26 @@ pub enum SavedFile {
 
 /// A file that was written.
 #[derive(Clone, Debug)]
-pub struct Written {
+pub struct WrittenFile {
     /// The file.
     pub path: PathBuf,
-    /// What is in it.
+    /// The content of the file.
     pub what: SavedFile,
 }
 
 /// The least time between two writings of a session that changes.
 const PAUSE: Duration = Duration::from_secs(5);
 
-impl Files {
+impl WindowFiles {
     /// Files of a window that remembers in a folder, if it has one.
     #[must_use]
     pub fn new(ctx: &egui::Context, folder: Option<PathBuf>) -> Self {
         let kept = folder.as_deref().map(WindowState::read).unwrap_or_default();
-        let texts = folder.as_deref().map_or_else(|| Ok(Texts::default()), Texts::read);
+        let texts = folder.as_deref().map_or_else(|| Ok(StoredTexts::default()), StoredTexts::read);
         let mut files = Self {
             notes: Vec::new(),
             kept,
-            texts: Texts::default(),
+            texts: StoredTexts::default(),
             previews: examples::Previews::default(),
             session: None,
             folder,
@@ -160,11 +160,11 @@ impl Files {
     pub fn open(&mut self, path: &Path, pane: usize, why: Why) {
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
         self.readings.retain(|reading| reading.pane != pane || reading.path != path);
-        self.readings.push(Reading::new(&self.ctx, path, pane, why));
+        self.readings.push(FileRead::new(&self.ctx, path, pane, why));
     }
 
-    /// What was read since.
-    pub fn arrived(&mut self) -> Vec<Arrived> {
+    /// Returns the files that were read since.
+    pub fn arrived(&mut self) -> Vec<ReadFile> {
         let mut arrived = Vec::new();
         self.readings.retain(|reading| match reading.poll() {
             Some(news) => {
@@ -178,7 +178,7 @@ impl Files {
 
     /// The files that are being read.
     #[must_use]
-    pub fn readings(&self) -> &[Reading] {
+    pub fn readings(&self) -> &[FileRead] {
         &self.readings
     }
 
@@ -194,7 +194,7 @@ impl Files {
         !self.readings.is_empty() || !self.writings.is_empty() || is_keeping
     }
 
-    /// Remembers nothing from now on: what is shown is for a picture only.
+    /// Remembers nothing from now on: what is shown is for an image only.
     pub fn leave_no_trace(&mut self) {
         self.folder = None;
     }
@@ -208,7 +208,7 @@ impl Files {
     /// Keeps what is remembered, in the background and one writing after the other: recent files at
     /// once, the session a while after it has changed. A disk that is full is told once.
     pub fn keep(&mut self, session: &Session) {
-        if let Some(outcome) = self.keeping.as_ref().and_then(Job::poll) {
+        if let Some(outcome) = self.keeping.as_ref().and_then(BackgroundJob::poll) {
             self.keeping = None;
             let outcome = outcome.and_then(|kept| kept.map_err(|error| error.to_string()));
             self.tell_forgetful(outcome.err());
@@ -227,10 +227,10 @@ impl Files {
         let Some(folder) = self.folder.clone() else { return };
         (self.is_kept, self.last, self.since) = (true, Some(session.clone()), Instant::now());
         let (kept, session, texts) = (self.kept.clone(), session.clone(), self.texts.update());
-        self.keeping = Some(Job::start(&self.ctx, move |_| {
+        self.keeping = Some(BackgroundJob::start(&self.ctx, move |_| {
             kept.write(&folder)?;
             texts.write(&folder)?;
-            kept::keep_session(&session, &folder)
+            window_state::keep_session(&session, &folder)
         }));
     }
 
@@ -357,16 +357,18 @@ impl Files {
         write: impl FnOnce(&Path) -> Result<(), String> + Send + 'static,
     ) {
         let target = path.clone();
-        let job = Job::start(&self.ctx, move |_| {
+        let job = BackgroundJob::start(&self.ctx, move |_| {
             write(&target)?;
             Ok(watch::stamp(&target))
         });
-        self.writings.push(Writing { path, what, job });
+        self.writings.push(FileWrite { path, what, job });
     }
 
     /// Writes a text in the background.
     pub fn write_text(&mut self, path: PathBuf, what: SavedFile, text: String) {
-        self.write(path, what, move |path| kept::replace(path, &text).map_err(|e| e.to_string()));
+        self.write(path, what, move |path| {
+            window_state::replace(path, &text).map_err(|e| e.to_string())
+        });
     }
 
     /// Writes a dataset in the background.
@@ -376,8 +378,8 @@ impl Files {
         });
     }
 
-    /// What was written since; what could not be written is told.
-    pub fn written(&mut self) -> Vec<Written> {
+    /// Returns the files that were written since; what could not be written is told.
+    pub fn written(&mut self) -> Vec<WrittenFile> {
         let mut done = Vec::new();
         self.writings.retain(|writing| match writing.job.poll() {
             Some(outcome) => {
@@ -393,7 +395,7 @@ impl Files {
                     // what the window itself has written is no news to it
                     self.follow(&path, stamp);
                     self.tell(&path, format!("{} is written", path.display()), false);
-                    written.push(Written { path, what });
+                    written.push(WrittenFile { path, what });
                 }
                 Err(error) => {
                     self.tell(&path, format!("{} cannot be written: {error}", name(&path)), true);

@@ -1,4 +1,4 @@
-//! What is in a file, found in the background.
+//! The content of a file, found in the background.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -12,17 +12,17 @@ use ppum_problem::MAX_LENGTH as MAX_PROBLEM;
 
 use super::session_file;
 use super::watch::{Stamp, stamp};
-use crate::job::{CancelToken, Job};
+use crate::job::{BackgroundJob, CancelToken};
 use crate::session::Session;
 
-/// What a file holds.
+/// The content of a file.
 #[derive(Clone, Debug)]
-pub enum Content {
+pub enum FileContent {
     /// A dataset.
     Dataset(Arc<Dataset>),
     /// The text of a problem.
     Problem(String),
-    /// What was chosen in a window.
+    /// The session of a window.
     Session(Box<Session>),
 }
 
@@ -39,7 +39,7 @@ pub enum Why {
 
 /// A file that was read.
 #[derive(Clone, Debug)]
-pub struct Arrived {
+pub struct ReadFile {
     /// The file.
     pub path: PathBuf,
     /// The pane that it is for.
@@ -48,13 +48,13 @@ pub struct Arrived {
     pub why: Why,
     /// Its stamp before it was read.
     pub stamp: Stamp,
-    /// What is in it, or the reason why that cannot be said.
-    pub content: Result<Content, String>,
+    /// The content, or the reason why it cannot be read.
+    pub content: Result<FileContent, String>,
 }
 
 /// A file that is being read.
 #[derive(Debug)]
-pub struct Reading {
+pub struct FileRead {
     /// The file.
     pub path: PathBuf,
     /// The pane that it is for.
@@ -64,18 +64,18 @@ pub struct Reading {
     /// The time when it was begun.
     pub since: Instant,
     stamp: Stamp,
-    job: Job<Result<Content, String>>,
+    job: BackgroundJob<Result<FileContent, String>>,
     bytes: Arc<AtomicU64>,
 }
 
-impl Reading {
+impl FileRead {
     /// Begins to read a file.
     #[must_use]
     pub fn new(ctx: &egui::Context, path: PathBuf, pane: usize, why: Why) -> Self {
         let (file, bytes) = (path.clone(), Arc::new(AtomicU64::new(0)));
         let stamp = stamp(&path);
         let counted = Arc::clone(&bytes);
-        let job = Job::start(ctx, move |stop| read(&file, &counted, stop));
+        let job = BackgroundJob::start(ctx, move |stop| read(&file, &counted, stop));
         Self { path, pane, why, since: Instant::now(), stamp, job, bytes }
     }
 
@@ -87,23 +87,23 @@ impl Reading {
         Some(self.bytes.load(Ordering::Relaxed) as f32 / length.max(1) as f32)
     }
 
-    /// What was read, once.
+    /// Returns the file that was read, once.
     #[must_use]
-    pub fn poll(&self) -> Option<Arrived> {
+    pub fn poll(&self) -> Option<ReadFile> {
         let content = self.job.poll()?.flatten();
         let Self { path, pane, why, stamp, .. } = self;
-        Some(Arrived { path: path.clone(), pane: *pane, why: *why, stamp: *stamp, content })
+        Some(ReadFile { path: path.clone(), pane: *pane, why: *why, stamp: *stamp, content })
     }
 }
 
 /// Signature at the start of an HDF5 file; a block of the user's may stand before it.
 const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
 
-fn read(path: &Path, counted: &AtomicU64, stop: &CancelToken) -> Result<Content, String> {
+fn read(path: &Path, counted: &AtomicU64, stop: &CancelToken) -> Result<FileContent, String> {
     match is_text(path) {
         Err(error) => Err(error.to_string()),
         Ok(true) => text(path),
-        Ok(false) => dataset(path, counted, stop).map(Arc::new).map(Content::Dataset),
+        Ok(false) => dataset(path, counted, stop).map(Arc::new).map(FileContent::Dataset),
     }
 }
 
@@ -128,26 +128,26 @@ pub fn has_extension(path: &Path, known: &[&str]) -> bool {
 }
 
 /// A session or a problem.
-fn text(path: &Path) -> Result<Content, String> {
+fn text(path: &Path) -> Result<FileContent, String> {
     let text = ppum_file::text(path, MAX_PROBLEM).map_err(|error| error.to_string())?;
     let is_session =
         has_extension(path, &[session_file::EXTENSION]) || text.trim_start().starts_with('{');
     if !is_session {
-        return Ok(Content::Problem(text));
+        return Ok(FileContent::Problem(text));
     }
     let folder = path.parent().unwrap_or(Path::new(""));
     let session = session_file::parse(&text, folder).map_err(|error| error.to_string())?;
-    Ok(Content::Session(Box::new(session)))
+    Ok(FileContent::Session(Box::new(session)))
 }
 
 /// A file that counts what was read of it, and ends where nobody wants it.
-struct Counted<'a> {
+struct CountingReader<'a> {
     file: File,
     bytes: &'a AtomicU64,
     stop: &'a CancelToken,
 }
 
-impl Read for Counted<'_> {
+impl Read for CountingReader<'_> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         if self.stop.is_set() {
             return Err(io::Error::other("cancelled"));
@@ -161,7 +161,7 @@ impl Read for Counted<'_> {
 fn dataset(path: &Path, bytes: &AtomicU64, stop: &CancelToken) -> Result<Dataset, String> {
     let whole = || {
         let file = ppum_file::open(path, ppum_format::MAX_LENGTH)?;
-        ppum_file::within(Counted { file, bytes, stop }, ppum_format::MAX_LENGTH)
+        ppum_file::within(CountingReader { file, bytes, stop }, ppum_format::MAX_LENGTH)
     };
     let bytes = whole().map_err(|error| error.to_string())?;
     ppum_format::from_bytes(bytes).map_err(|error| error.to_string())

@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use ppum_scene::colors::Colors;
-use ppum_scene::scene::Scene;
+use ppum_scene::colors::ColorOptions;
+use ppum_scene::scene::SceneRequest;
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
@@ -15,7 +15,7 @@ pub const EXTENSION: &str = "ppum-session";
 const VERSION: u32 = 1;
 
 #[derive(Serialize, Deserialize)]
-struct Written {
+struct StoredSession {
     #[serde(rename = "ppum-session")]
     version: u32,
     #[serde(flatten)]
@@ -47,7 +47,7 @@ pub fn text(session: &Session, folder: &Path) -> Result<String, SessionError> {
         Ok(inside) => inside.to_owned(),
         Err(_) => path.to_owned(),
     });
-    let mut text = serde_json::to_string_pretty(&Written { version: VERSION, session })?;
+    let mut text = serde_json::to_string_pretty(&StoredSession { version: VERSION, session })?;
     text.push('\n');
     Ok(text)
 }
@@ -62,9 +62,9 @@ pub fn parse(text: &str, folder: &Path) -> Result<Session, SessionError> {
     if let Some(version) = version.filter(|version| *version > u64::from(VERSION)) {
         return Err(SessionError::Newer(u32::try_from(version).unwrap_or(u32::MAX)));
     }
-    let Written { mut session, .. } = serde_json::from_value(value)?;
+    let StoredSession { mut session, .. } = serde_json::from_value(value)?;
     each_path(&mut session, |path| folder.join(path));
-    session.mend();
+    session.repair();
     Ok(session)
 }
 
@@ -75,10 +75,10 @@ fn make_readable(pane: &mut Pane) {
         |place: &VisibleRegion| place.center.iter().chain([&place.width]).all(|v| v.is_finite());
     pane.place = pane.place.filter(is_finite);
     if !is_readable(&pane.scene) {
-        pane.scene.colors = Colors::default();
+        pane.scene.colors = ColorOptions::default();
     }
     if !is_readable(&pane.scene) {
-        pane.scene = Scene::default();
+        pane.scene = SceneRequest::default();
     }
     if !is_readable(pane) {
         let Pane { file, scene, place, .. } = std::mem::take(pane);

@@ -3,14 +3,14 @@
 
 use std::path::Path;
 
-use super::kept::{read_kept, replace};
+use super::window_state::{read_kept, replace};
 use crate::session::ProblemDraft;
 
 const FILE: &str = "texts.json";
 
 /// The texts that a window has put aside.
 #[derive(Debug, Default)]
-pub(super) struct Texts {
+pub(super) struct StoredTexts {
     /// All of them, the newest last.
     pub(super) all: Vec<ProblemDraft>,
     /// Those that the file had from this window.
@@ -23,7 +23,7 @@ pub(super) struct TextsUpdate {
     before: Vec<ProblemDraft>,
 }
 
-impl Texts {
+impl StoredTexts {
     /// The texts that are kept in a folder.
     ///
     /// # Errors
@@ -36,7 +36,7 @@ impl Texts {
         Ok(Self { written: all.clone(), all })
     }
 
-    /// What is to be written.
+    /// Returns the texts to be written.
     pub(super) fn update(&mut self) -> TextsUpdate {
         let before = std::mem::replace(&mut self.written, self.all.clone());
         TextsUpdate { all: self.all.clone(), before }
@@ -46,7 +46,7 @@ impl Texts {
 impl TextsUpdate {
     /// Writes the texts into a folder. Those that another window has put there stay.
     pub(super) fn write(self, folder: &Path) -> std::io::Result<()> {
-        let there = Texts::read(folder).unwrap_or_default().all;
+        let there = StoredTexts::read(folder).unwrap_or_default().all;
         let foreign = there.into_iter().filter(|text| !self.before.contains(text));
         let mut all: Vec<_> = foreign.filter(|text| !self.all.contains(text)).collect();
         all.extend(self.all);
@@ -64,8 +64,8 @@ mod tests {
     fn windows_keep_each_others_texts() {
         let folder = tempfile::tempdir().expect("a folder");
         let draft = |text: &str| ProblemDraft { text: text.into(), ..ProblemDraft::default() };
-        let read = || Texts::read(folder.path()).expect("readable");
-        let write = |texts: &mut Texts| texts.update().write(folder.path()).expect("written");
+        let read = || StoredTexts::read(folder.path()).expect("readable");
+        let write = |texts: &mut StoredTexts| texts.update().write(folder.path()).expect("written");
         let [mut one, mut other] = [read(), read()];
         one.all.push(draft("one"));
         write(&mut one);

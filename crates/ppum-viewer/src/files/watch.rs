@@ -1,4 +1,4 @@
-//! Files that are open, looked at once a second: who computes them anew sees the new ones.
+//! Files that are open, looked at once a second: who computes them again sees the new ones.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -27,13 +27,13 @@ pub struct Watch {
 
 #[derive(Debug, Default)]
 struct WatchState {
-    followed: Vec<Followed>,
+    followed: Vec<WatchedFile>,
     changed: Vec<PathBuf>,
 }
 
 /// A file with the stamp that the window knows, and another one that was seen last.
 #[derive(Debug)]
-struct Followed {
+struct WatchedFile {
     path: PathBuf,
     known: Stamp,
     seen: Stamp,
@@ -53,7 +53,7 @@ impl Watch {
     pub fn follow(&self, path: &Path, known: Stamp) {
         let mut state = lock(&self.shared);
         state.followed.retain(|file| file.path != path);
-        state.followed.push(Followed { path: path.to_owned(), known, seen: known });
+        state.followed.push(WatchedFile { path: path.to_owned(), known, seen: known });
     }
 
     /// Leaves all files but those that are still open.
@@ -94,7 +94,7 @@ fn look(shared: &Weak<Mutex<WatchState>>, ctx: &egui::Context) {
     }
 }
 
-impl Followed {
+impl WatchedFile {
     /// True if the file is another one, twice in a row: one that is being written is waited for.
     fn note(&mut self, now: Stamp) -> bool {
         let is_at_rest = self.seen == now;
@@ -117,7 +117,7 @@ mod tests {
 
     #[test]
     fn a_change_is_told_once_and_when_it_is_over() {
-        let mut file = Followed { path: "a".into(), known: at(1), seen: at(1) };
+        let mut file = WatchedFile { path: "a".into(), known: at(1), seen: at(1) };
         let told = [1, 2, 3, 3, 3].map(|seconds| file.note(at(seconds)));
         assert_eq!(told, [false, false, false, true, false]);
         let gone = [None, None, None].map(|now| file.note(now));

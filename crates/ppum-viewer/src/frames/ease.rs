@@ -2,21 +2,21 @@
 
 use std::time::{Duration, Instant};
 
-use ppum_render::range::ValueSpan;
+use ppum_render::range::ColorRange;
 use ppum_render::scale::Scale;
 
-/// What a range glides for.
+/// The duration of a transition between ranges.
 const TAKES: Duration = Duration::from_millis(200);
 /// A change of less than this part of the range is not seen.
 const UNSEEN: f64 = 0.004;
 
-/// What a range belongs to: others begin anew.
-pub(super) type About<K> = (K, Scale);
+/// The subject of a range: a range of another subject appears without a transition.
+pub(super) type RangeSubject<K> = (K, Scale);
 
 /// The range that is shown.
 #[derive(Debug)]
-pub(super) struct Eased<K> {
-    shown: Option<(About<K>, ValueSpan)>,
+pub(super) struct EasedRange<K> {
+    shown: Option<(RangeSubject<K>, ColorRange)>,
     glide: Option<Glide>,
 }
 
@@ -24,34 +24,34 @@ pub(super) struct Eased<K> {
 #[derive(Debug)]
 struct Glide {
     from: [f64; 2],
-    to: ValueSpan,
+    to: ColorRange,
     began: Instant,
 }
 
-impl<K> Default for Eased<K> {
+impl<K> Default for EasedRange<K> {
     fn default() -> Self {
         Self { shown: None, glide: None }
     }
 }
 
-impl<K: PartialEq> Eased<K> {
+impl<K: PartialEq> EasedRange<K> {
     /// The range that is shown of this, if one is.
-    pub(super) fn shown(&self, about: &About<K>) -> Option<&ValueSpan> {
+    pub(super) fn shown(&self, about: &RangeSubject<K>) -> Option<&ColorRange> {
         self.shown.as_ref().filter(|(known, _)| known == about).map(|(_, span)| span)
     }
 
     /// Shows a range at once.
-    pub(super) fn set(&mut self, about: About<K>, span: ValueSpan) {
+    pub(super) fn set(&mut self, about: RangeSubject<K>, span: ColorRange) {
         (self.shown, self.glide) = (Some((about, span)), None);
     }
 
     /// The range on its way to another one; true once it is there.
     pub(super) fn toward(
         &mut self,
-        about: About<K>,
-        to: ValueSpan,
+        about: RangeSubject<K>,
+        to: ColorRange,
         now: Instant,
-    ) -> (ValueSpan, bool) {
+    ) -> (ColorRange, bool) {
         let Some(shown) = self.shown(&about) else {
             self.set(about, to.clone());
             return (to, true);
@@ -78,7 +78,7 @@ impl<K: PartialEq> Eased<K> {
 
 impl Glide {
     /// The range after a part of the time, 0 to 1.
-    fn at(&self, part: f64, scale: Scale) -> ValueSpan {
+    fn at(&self, part: f64, scale: Scale) -> ColorRange {
         // slow at both ends
         let t = part * part * (3.0 - 2.0 * part);
         let mix = |a: f64, b: f64| match scale {
@@ -86,11 +86,11 @@ impl Glide {
             _ => a + t * (b - a),
         };
         let ends = [mix(self.from[0], self.to.min), mix(self.from[1], self.to.max)];
-        ValueSpan { min: ends[0], max: ends[1], ..self.to.clone() }
+        ColorRange { min: ends[0], max: ends[1], ..self.to.clone() }
     }
 }
 
-fn is_near(a: &ValueSpan, b: &ValueSpan) -> bool {
+fn is_near(a: &ColorRange, b: &ColorRange) -> bool {
     let size = UNSEEN * (b.max - b.min);
     (a.min - b.min).abs() <= size && (a.max - b.max).abs() <= size
 }

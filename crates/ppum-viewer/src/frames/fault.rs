@@ -1,15 +1,15 @@
-//! The reasons why there are no pictures.
+//! The reasons why there are no images.
 
-/// Where a mistake lies that keeps a picture from being made.
+/// Where an error lies that keeps an image from being made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fault {
+pub enum FaultOrigin {
     /// The step, the part, the functions or the weight.
     Subject,
     /// The quantity.
     Quantity,
     /// The deformation.
     Deformed,
-    /// The lines at which the plate is mirrored.
+    /// The lines at which the body is mirrored.
     Mirror,
     /// Range, scale or map of the colours.
     Colors,
@@ -17,36 +17,36 @@ pub enum Fault {
     Overlays,
     /// The comparison with resampling.
     Compare,
-    /// What is subtracted.
+    /// The subtrahend.
     Minus,
     /// The program itself.
     Program,
 }
 
-impl Fault {
-    /// True if there is a picture all the same.
+impl FaultOrigin {
+    /// True if there is an image all the same.
     pub(super) fn leaves_picture(self) -> bool {
         matches!(self, Self::Overlays | Self::Compare)
     }
 }
 
-/// The reason why there is no picture of what is wanted.
+/// The reason why there is no image of what is wanted.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Failure {
+pub struct ImageFailure {
     /// Where it arose.
-    pub fault: Fault,
+    pub fault: FaultOrigin,
     /// The reason, with the remedy.
     pub message: String,
 }
 
-impl Failure {
+impl ImageFailure {
     /// A failure of a stage, in words.
-    pub(super) fn new(fault: Fault, message: impl Into<String>) -> Self {
+    pub(super) fn new(fault: FaultOrigin, message: impl Into<String>) -> Self {
         Self { fault, message: message.into() }
     }
 
-    /// What an error means that arose in some place.
-    pub(super) fn at<E: std::error::Error>(fault: Fault) -> impl Fn(E) -> Self {
+    /// Makes a failure of an error with this origin.
+    pub(super) fn at<E: std::error::Error>(fault: FaultOrigin) -> impl Fn(E) -> Self {
         move |error| Self::new(fault, error.to_string())
     }
 }

@@ -1,68 +1,71 @@
-//! Pictures with what they were made of.
+//! Images with what they were made of.
 
 use std::sync::Arc;
 
 use ppum_render::view::View;
-use ppum_scene::drawing::{Drawn, Shown};
-use ppum_scene::minus::{self, Side};
+use ppum_scene::difference::{self, DifferenceSide};
+use ppum_scene::drawing::{DisplayedQuantity, PixelValues};
 use ppum_scene::mirror::MirrorLines;
 
-use super::fault::Failure;
-use super::laid::Laid;
-use super::minus::Subtracted;
-use super::paint::Painted;
-use super::resampled::Other;
-use super::wanted::Wanted;
+use super::fault::ImageFailure;
+use super::overlay_shapes::OverlayShapes;
+use super::paint::ColoredImage;
+use super::resampled::ResampledView;
+use super::subtrahend::SubtractedValues;
+use super::wanted::FrameRequest;
 use crate::field::OwnedField;
 
-/// A picture with all that it was made of.
+/// An image with all that it was made of.
 #[derive(Clone, Debug)]
-pub struct Frame {
-    /// What was wanted.
-    pub wanted: Wanted,
+pub struct RenderedFrame {
+    /// The request.
+    pub wanted: FrameRequest,
     /// The field, with what is replaced in it.
     pub field: Arc<OwnedField>,
-    /// What is shown.
-    pub shown: Arc<Shown>,
-    /// What was subtracted from it.
-    pub subtracted: Option<Subtracted>,
-    /// Its values; of a rough picture those of its own view.
-    pub drawn: Arc<Drawn>,
+    /// The displayed quantity.
+    pub shown: Arc<DisplayedQuantity>,
+    /// The subtrahend.
+    pub subtracted: Option<SubtractedValues>,
+    /// Its values; of a rough image those of its own view.
+    pub drawn: Arc<PixelValues>,
     /// Their colours, and the view that they are of.
-    pub picture: Arc<Painted>,
-    /// What lies over them; of an older view until it is drawn anew.
-    pub layers: Arc<Laid>,
+    pub picture: Arc<ColoredImage>,
+    /// The layers over them; of an older view until it is drawn again.
+    pub layers: Arc<OverlayShapes>,
     /// The view in whose pixels the layers are.
     pub layers_view: View,
-    /// How many times its displacement the plate is drawn with, if it is deformed.
+    /// How many times its displacement the body is drawn with, if it is deformed.
     pub factor: Option<f64>,
     /// The lines at which it is mirrored.
     pub lines: MirrorLines,
-    /// What resampling gives, if that was asked for; of an older view until it is there.
-    pub other: Option<Arc<Other>>,
+    /// The resampled image, if that was requested; of an older view until it is there.
+    pub other: Option<Arc<ResampledView>>,
     /// True if nothing better will come.
     pub is_final: bool,
     /// The reason why the processor draws in place of the graphics card that was to.
     pub note: Option<String>,
-    /// What its values took \[s\].
+    /// The time that its values took \[s\].
     pub seconds: f64,
 }
 
-/// A picture, or why there is none.
-pub(super) type Outcome = Result<Arc<Frame>, Failure>;
+/// An image, or why there is none.
+pub(super) type FrameResult = Result<Arc<RenderedFrame>, ImageFailure>;
 
-impl Frame {
+impl RenderedFrame {
     /// The two sides of a difference, if it is one.
     #[must_use]
-    pub fn minus(&self) -> Option<minus::Minus<'_>> {
+    pub fn minus(&self) -> Option<difference::FieldDifference<'_>> {
         let left = self.subtracted.as_ref()?;
-        let right = Side { field: self.field.field(), shown: &self.shown };
-        Some(minus::Minus { right, left: Side { field: left.field.field(), shown: &left.shown } })
+        let right = DifferenceSide { field: self.field.field(), shown: &self.shown };
+        Some(difference::FieldDifference {
+            right,
+            left: DifferenceSide { field: left.field.field(), shown: &left.shown },
+        })
     }
 
-    /// What was subtracted: a field, and what is shown of it.
+    /// Returns the subtrahend: a field, and what is shown of it.
     #[must_use]
-    pub fn left(&self) -> Option<(Arc<OwnedField>, Arc<Shown>)> {
+    pub fn left(&self) -> Option<(Arc<OwnedField>, Arc<DisplayedQuantity>)> {
         let left = self.subtracted.as_ref()?;
         Some((Arc::clone(&left.field), Arc::clone(&left.shown)))
     }
@@ -78,8 +81,8 @@ impl Frame {
     #[must_use]
     pub fn default_map(&self) -> &'static str {
         match self.subtracted {
-            Some(_) => minus::MAP,
-            None => ppum_scene::colors::Colors::default_map(self.shown.quantity()),
+            Some(_) => difference::MAP,
+            None => ppum_scene::colors::ColorOptions::default_map(self.shown.quantity()),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Makes pictures step by step, each step from what those before have kept.
+//! Makes images step by step, each step from what those before have kept.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -6,31 +6,33 @@ use std::time::{Duration, Instant};
 use ppum::dataset::Dataset;
 use ppum::progress::{Progress, Verdict, Watcher};
 use ppum_render::picture::Style;
-use ppum_render::range::ValueSpan;
+use ppum_render::range::ColorRange;
 use ppum_render::scale::Scale;
-use ppum_scene::drawing::{Drawn, RasterValues as Pixels, single_precision_warning};
+use ppum_scene::drawing::{PixelValues, RasterValues as Pixels, single_precision_warning};
 
-use super::ease::Eased;
-use super::laid::Laid;
-use super::memo::{Memo, Same};
+use super::ease::EasedRange;
+use super::memo::{Memo, SameArc};
 use super::over::LayerCache;
-use super::paint::Painted;
-use super::renderer::{Backend, Renderer};
-use super::resampled::{Other, Resampling};
-use super::stop::{Ask, Claim, StageEnd};
-use super::subject::{FrameSubject, Left, SubjectView, Subjects};
+use super::overlay_shapes::OverlayShapes;
+use super::paint::ColoredImage;
+use super::renderer::{Backend, ValueRenderer};
+use super::resampled::{ResampledView, Resampler};
+use super::stop::{Ask, FrameClaim, FrameStop};
+use super::subject::{FrameSubject, SubjectView, Subjects, SubtrahendSubject};
 use super::values::ValueCache;
-use super::{Failure, Fault, Frame, Minus, Subtracted, Wanted};
+use super::{
+    FaultOrigin, FrameRequest, ImageFailure, RenderedFrame, SubtractedImage, SubtractedValues,
+};
 
-/// What is wanted, and when one who moves will be at rest.
+/// The request, and the time when the moving view will be at rest.
 #[derive(Clone, Debug)]
-pub(super) struct Wish {
-    pub(super) wanted: Wanted,
+pub(super) struct LatestRequest {
+    pub(super) wanted: FrameRequest,
     /// None if one does not move.
     pub(super) rests_at: Option<Instant>,
 }
 
-impl Wish {
+impl LatestRequest {
     /// How long it takes until one is at rest; none if one is.
     fn moves_for(&self, now: Instant) -> Option<Duration> {
         let rest = self.rests_at?.checked_duration_since(now);
@@ -38,15 +40,15 @@ impl Wish {
     }
 }
 
-/// What a step has made, and when the next one is due.
+/// The result of a step, and the time of the next one.
 pub(super) struct StepResult {
-    pub(super) frame: Option<Arc<Frame>>,
-    pub(super) next: Next,
+    pub(super) frame: Option<Arc<RenderedFrame>>,
+    pub(super) next: NextStep,
 }
 
 /// When the next step is due.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Next {
+pub(super) enum NextStep {
     /// Now.
     More,
     /// Later.
@@ -55,28 +57,28 @@ pub(super) enum Next {
     Rest,
 }
 
-/// Time between pictures whose range glides.
+/// Time between images whose range glides.
 const GLIDE: Duration = Duration::from_millis(16);
 /// Time between looks at a card that is prepared meanwhile: should there be none after all, that
 /// is told.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// What a range is found from.
-type Ranged = (Same<Drawn>, Scale, String, bool);
-/// What an eased range belongs to: a quantity of a dataset, and what is subtracted from it.
-type Quantity = (Same<Dataset>, Option<String>, Option<Minus>);
+/// The input that a range is computed from.
+type RangeKey = (SameArc<PixelValues>, Scale, String, bool);
+/// The subject of an eased range: a quantity of a dataset, and what is subtracted from it.
+type EasedQuantity = (SameArc<Dataset>, Option<String>, Option<SubtractedImage>);
 
-/// Makes the pictures of one pane.
+/// Makes the images of one pane.
 pub(super) struct FrameMaker {
     pub(super) subjects: Subjects,
     pub(super) values: ValueCache,
-    pub(super) ranges: Memo<Ranged, ValueSpan>,
-    eased: Eased<Quantity>,
-    styles: Memo<(Same<Drawn>, ppum_scene::colors::Colors), Style>,
-    pub(super) painted: Memo<(Same<Drawn>, Style, ValueSpan), Arc<Painted>>,
+    pub(super) ranges: Memo<RangeKey, ColorRange>,
+    eased: EasedRange<EasedQuantity>,
+    styles: Memo<(SameArc<PixelValues>, ppum_scene::colors::ColorOptions), Style>,
+    pub(super) painted: Memo<(SameArc<PixelValues>, Style, ColorRange), Arc<ColoredImage>>,
     pub(super) over: LayerCache,
-    pub(super) resampling: Resampling,
-    newest: Option<Arc<Frame>>,
+    pub(super) resampling: Resampler,
+    newest: Option<Arc<RenderedFrame>>,
     pub(super) patience: Patience,
     seconds: f64,
 }
@@ -85,13 +87,13 @@ impl FrameMaker {
     pub(super) fn new(backend: Backend) -> Self {
         Self {
             subjects: Subjects::default(),
-            values: ValueCache::new(Renderer::new(backend)),
+            values: ValueCache::new(ValueRenderer::new(backend)),
             ranges: Memo::default(),
-            eased: Eased::default(),
+            eased: EasedRange::default(),
             styles: Memo::default(),
             painted: Memo::default(),
             over: LayerCache::default(),
-            resampling: Resampling::default(),
+            resampling: Resampler::default(),
             newest: None,
             patience: Patience::default(),
             seconds: 0.0,
@@ -101,47 +103,47 @@ impl FrameMaker {
     /// Does the first thing that is left to do. `claim` says whether it is still wanted.
     pub(super) fn step(
         &mut self,
-        wish: &Wish,
+        wish: &LatestRequest,
         now: Instant,
         claim: Ask<'_>,
-    ) -> Result<StepResult, StageEnd> {
+    ) -> Result<StepResult, FrameStop> {
         self.next_stage(wish, now, claim).map_err(|failure| match claim() {
-            Claim::Wanted => StageEnd::Failed(failure),
+            FrameClaim::Wanted => FrameStop::Failed(failure),
             // the work was stopped, or why it failed is no news
-            Claim::Replaced | Claim::Gone => StageEnd::Cancelled,
+            FrameClaim::Replaced | FrameClaim::Gone => FrameStop::Cancelled,
         })
     }
 
     fn next_stage(
         &mut self,
-        wish: &Wish,
+        wish: &LatestRequest,
         now: Instant,
         claim: Ask<'_>,
-    ) -> Result<StepResult, Failure> {
+    ) -> Result<StepResult, ImageFailure> {
         let wanted = &wish.wanted;
         self.values.renderer.look();
         let target = SubjectView { subject: self.subjects.find(wanted)?, view: wanted.view };
-        let watcher = |_: Progress| Verdict::go_on_unless(claim() != Claim::Wanted);
+        let watcher = |_: Progress| Verdict::go_on_unless(claim() != FrameClaim::Wanted);
         let (drawn, is_whole) = self.drawn(wish, &target, claim)?;
         let style = self.style(wanted, &target, &drawn)?;
         let goal = self.goal(&target, (&drawn, is_whole), &style);
         if let Some(goal) = &goal {
             // what cannot be used is refused before it is shown, or anything glides there
-            goal.normalization(style.scale).map_err(Failure::at(Fault::Colors))?;
+            goal.normalization(style.scale).map_err(ImageFailure::at(FaultOrigin::Colors))?;
         }
         let (span, is_there) =
             self.span(wanted, (&target.subject, &drawn), &style, goal.as_ref(), now);
         let painted = self.paint(&drawn, &style, span)?;
         let note = self.note(&target.subject, &drawn);
-        let is_shown = |frame: &Arc<Frame>| {
+        let is_shown = |frame: &Arc<RenderedFrame>| {
             Arc::ptr_eq(&frame.picture, &painted) && frame.wanted == *wanted && frame.note == note
         };
         if !self.newest.as_ref().is_some_and(is_shown) {
-            let next = if is_there { Next::More } else { Next::After(GLIDE) };
+            let next = if is_there { NextStep::More } else { NextStep::After(GLIDE) };
             return Ok(self.show(wanted, &target, (drawn, painted), next));
         }
         if let Some(rest) = wish.moves_for(now) {
-            return Ok(StepResult { frame: None, next: Next::After(rest) });
+            return Ok(StepResult { frame: None, next: NextStep::After(rest) });
         }
         if !is_whole {
             self.draw_whole(&target, &watcher)?;
@@ -150,16 +152,16 @@ impl FrameMaker {
         } else if is_there {
             return self.finish(wanted, &target, (drawn, painted, &style), &watcher);
         }
-        Ok(StepResult { frame: None, next: Next::More })
+        Ok(StepResult { frame: None, next: NextStep::More })
     }
 
     /// The values: the whole ones if they are there or soon done, else rough ones.
     fn drawn(
         &mut self,
-        wish: &Wish,
+        wish: &LatestRequest,
         target: &SubjectView,
         claim: Ask<'_>,
-    ) -> Result<(Arc<Drawn>, bool), Failure> {
+    ) -> Result<(Arc<PixelValues>, bool), ImageFailure> {
         if let Some(whole) = self.values.whole.get(target) {
             return Ok((whole, true));
         }
@@ -178,7 +180,11 @@ impl FrameMaker {
         Ok((drawn, !is_rough))
     }
 
-    fn draw_whole(&mut self, target: &SubjectView, watcher: &dyn Watcher) -> Result<(), Failure> {
+    fn draw_whole(
+        &mut self,
+        target: &SubjectView,
+        watcher: &dyn Watcher,
+    ) -> Result<(), ImageFailure> {
         let start = Instant::now();
         self.values.draw_whole(target, watcher)?;
         self.seconds = start.elapsed().as_secs_f64();
@@ -188,25 +194,25 @@ impl FrameMaker {
     /// The way in which values become colours.
     fn style(
         &mut self,
-        wanted: &Wanted,
+        wanted: &FrameRequest,
         target: &SubjectView,
-        drawn: &Arc<Drawn>,
-    ) -> Result<Style, Failure> {
+        drawn: &Arc<PixelValues>,
+    ) -> Result<Style, ImageFailure> {
         let (colors, subject) = (&wanted.scene.colors, &target.subject);
-        self.styles.get_or((Same::of(drawn), colors.clone()), || {
+        self.styles.get_or((SameArc::of(drawn), colors.clone()), || {
             let style = subject.source().style(&subject.shown.0, colors, drawn);
-            style.map_err(Failure::at(Fault::Colors))
+            style.map_err(ImageFailure::at(FaultOrigin::Colors))
         })
     }
 
-    /// The range that belongs to the picture, if it is known: one that is found has to be looked
+    /// The range that belongs to the image, if it is known: one that is found has to be looked
     /// for, at rest.
     fn goal(
         &self,
         target: &SubjectView,
-        (drawn, is_whole): (&Arc<Drawn>, bool),
+        (drawn, is_whole): (&Arc<PixelValues>, bool),
         style: &Style,
-    ) -> Option<ValueSpan> {
+    ) -> Option<ColorRange> {
         let subject = &target.subject;
         // the pixels are all that is known of a difference
         let is_of_pixels = match subject.minus {
@@ -222,12 +228,12 @@ impl FrameMaker {
     /// The range that is shown now; true if it is the one that belongs there, or stands for it.
     fn span(
         &mut self,
-        wanted: &Wanted,
-        (subject, drawn): (&FrameSubject, &Drawn),
+        wanted: &FrameRequest,
+        (subject, drawn): (&FrameSubject, &PixelValues),
         style: &Style,
-        goal: Option<&ValueSpan>,
+        goal: Option<&ColorRange>,
         now: Instant,
-    ) -> (ValueSpan, bool) {
+    ) -> (ColorRange, bool) {
         let about = about(wanted, style);
         match goal {
             Some(goal) if style.range.is_found() => self.eased.toward(about, goal.clone(), now),
@@ -250,18 +256,18 @@ impl FrameMaker {
     fn find_range(
         &mut self,
         target: &SubjectView,
-        (drawn, style): (&Arc<Drawn>, &Style),
+        (drawn, style): (&Arc<PixelValues>, &Style),
         watcher: &dyn Watcher,
-    ) -> Result<(), Failure> {
+    ) -> Result<(), ImageFailure> {
         let seen = self.values.seen(target, watcher)?;
         let found = target.subject.input(seen.seen()).span(drawn, style, watcher);
-        let found = found.map_err(Failure::at(Fault::Colors))?;
+        let found = found.map_err(ImageFailure::at(FaultOrigin::Colors))?;
         self.ranges.set(ranged(drawn, style), found);
         Ok(())
     }
 
-    /// The reason why no card draws, or what is wrong with the pictures of the card.
-    fn note(&self, subject: &FrameSubject, drawn: &Drawn) -> Option<String> {
+    /// The reason why no card draws, or what is wrong with the images of the card.
+    fn note(&self, subject: &FrameSubject, drawn: &PixelValues) -> Option<String> {
         let note = self.values.renderer.note().map(str::to_owned);
         let is_single = matches!(drawn.values, Pixels::Single(_));
         let warning = || single_precision_warning(subject.field.0.field().step);
@@ -270,28 +276,29 @@ impl FrameMaker {
 
     fn paint(
         &mut self,
-        drawn: &Arc<Drawn>,
+        drawn: &Arc<PixelValues>,
         style: &Style,
-        span: ValueSpan,
-    ) -> Result<Arc<Painted>, Failure> {
-        let key = (Same::of(drawn), style.clone(), span.clone());
-        let paint = || Painted::of(drawn, style, span).map(Arc::new);
-        self.painted.get_or(key, || paint().map_err(Failure::at(Fault::Colors)))
+        span: ColorRange,
+    ) -> Result<Arc<ColoredImage>, ImageFailure> {
+        let key = (SameArc::of(drawn), style.clone(), span.clone());
+        let paint = || ColoredImage::of(drawn, style, span).map(Arc::new);
+        self.painted.get_or(key, || paint().map_err(ImageFailure::at(FaultOrigin::Colors)))
     }
 
-    /// What is left when the picture is there: layers, then the comparison.
+    /// Completes the frame when the image is there: layers, then the comparison.
     fn finish(
         &mut self,
-        wanted: &Wanted,
+        wanted: &FrameRequest,
         target: &SubjectView,
-        (drawn, painted, style): (Arc<Drawn>, Arc<Painted>, &Style),
+        (drawn, painted, style): (Arc<PixelValues>, Arc<ColoredImage>, &Style),
         watcher: &dyn Watcher,
-    ) -> Result<StepResult, Failure> {
+    ) -> Result<StepResult, ImageFailure> {
         let Some(newest) = self.newest.clone() else {
-            return Ok(self.show(wanted, target, (drawn, painted), Next::More));
+            return Ok(self.show(wanted, target, (drawn, painted), NextStep::More));
         };
-        let next = if self.values.renderer.is_away() { Next::After(LOOK) } else { Next::Rest };
-        let mut frame = Frame::clone(&newest);
+        let next =
+            if self.values.renderer.is_away() { NextStep::After(LOOK) } else { NextStep::Rest };
+        let mut frame = RenderedFrame::clone(&newest);
         let seen = self.values.seen(target, watcher)?;
         let below = (&*drawn, &painted, seen.seen());
         frame.layers = self.over.draw(wanted, target, below, watcher)?;
@@ -299,7 +306,7 @@ impl FrameMaker {
         let has_news =
             !Arc::ptr_eq(&frame.layers, &newest.layers) || newest.layers_view != wanted.view;
         if let (Some(_), true) = (wanted.compare, has_news) {
-            return Ok(self.publish(frame, Next::More));
+            return Ok(self.publish(frame, NextStep::More));
         }
         if let Some(compare) = wanted.compare {
             let direct = (&drawn, &painted, style);
@@ -309,18 +316,18 @@ impl FrameMaker {
         Ok(self.publish(frame, next))
     }
 
-    /// A frame of a picture, with what lay over the one before until that is drawn anew.
+    /// A frame of an image, with what lay over the one before until that is drawn again.
     fn show(
         &mut self,
-        wanted: &Wanted,
+        wanted: &FrameRequest,
         target: &SubjectView,
-        (drawn, picture): (Arc<Drawn>, Arc<Painted>),
-        next: Next,
+        (drawn, picture): (Arc<PixelValues>, Arc<ColoredImage>),
+        next: NextStep,
     ) -> StepResult {
         let (layers, layers_view, other) = self.carried(wanted, target);
         let subject = &target.subject;
         let note = self.note(subject, &drawn);
-        let frame = Frame {
+        let frame = RenderedFrame {
             wanted: wanted.clone(),
             field: Arc::clone(&subject.field.0),
             shown: Arc::clone(&subject.shown.0),
@@ -339,20 +346,20 @@ impl FrameMaker {
         self.publish(frame, next)
     }
 
-    fn subtracted(&self, subject: &FrameSubject) -> Option<Subtracted> {
-        let Left { field, shown } = subject.minus.as_ref()?;
+    fn subtracted(&self, subject: &FrameSubject) -> Option<SubtractedValues> {
+        let SubtrahendSubject { field, shown } = subject.minus.as_ref()?;
         let (field, shown) = (Arc::clone(&field.0), Arc::clone(&shown.0));
-        Some(Subtracted { field, shown, norms: self.values.norms(subject) })
+        Some(SubtractedValues { field, shown, norms: self.values.norms(subject) })
     }
 
-    /// What lies over the picture of before, and beside it, if that is of the same plate.
+    /// Returns the layers over the previous image, and beside it, if that is of the same body.
     fn carried(
         &self,
-        wanted: &Wanted,
+        wanted: &FrameRequest,
         target: &SubjectView,
-    ) -> (Arc<Laid>, ppum_render::view::View, Option<Arc<Other>>) {
+    ) -> (Arc<OverlayShapes>, ppum_render::view::View, Option<Arc<ResampledView>>) {
         let subject = &target.subject;
-        let is_same = |frame: &&Arc<Frame>| {
+        let is_same = |frame: &&Arc<RenderedFrame>| {
             let is_as_before = frame.factor == subject.factor && frame.lines == subject.lines;
             Arc::ptr_eq(&frame.field, &subject.field.0) && is_as_before
         };
@@ -364,24 +371,24 @@ impl FrameMaker {
         (Arc::clone(&newest.layers), newest.layers_view, other)
     }
 
-    fn publish(&mut self, frame: Frame, next: Next) -> StepResult {
+    fn publish(&mut self, frame: RenderedFrame, next: NextStep) -> StepResult {
         let frame = Arc::new(frame);
         self.newest = Some(Arc::clone(&frame));
         StepResult { frame: Some(frame), next }
     }
 }
 
-fn about(wanted: &Wanted, style: &Style) -> (Quantity, Scale) {
+fn about(wanted: &FrameRequest, style: &Style) -> (EasedQuantity, Scale) {
     let quantity = wanted.scene.quantity.clone();
-    ((Same::of(&wanted.dataset), quantity, wanted.minus.clone()), style.scale)
+    ((SameArc::of(&wanted.dataset), quantity, wanted.minus.clone()), style.scale)
 }
 
-fn ranged(drawn: &Arc<Drawn>, style: &Style) -> Ranged {
-    (Same::of(drawn), style.scale, style.range.to_string(), style.colormap.diverging)
+fn ranged(drawn: &Arc<PixelValues>, style: &Style) -> RangeKey {
+    (SameArc::of(drawn), style.scale, style.range.to_string(), style.colormap.diverging)
 }
 
-/// How long a picture that is nearly there is made on, although something else is wanted: someone
-/// who moves all the time sees pictures all the same. It grows with each picture that was given up.
+/// How long an image that is nearly there is made on, although something else is wanted: someone
+/// who moves all the time sees images all the same. It grows with each image that was given up.
 #[derive(Debug)]
 pub(super) struct Patience(pub(super) Duration);
 
@@ -397,13 +404,13 @@ impl Patience {
     fn with<T>(
         &mut self,
         claim: Ask<'_>,
-        work: impl FnOnce(&dyn Watcher) -> Result<T, Failure>,
-    ) -> Result<T, Failure> {
+        work: impl FnOnce(&dyn Watcher) -> Result<T, ImageFailure>,
+    ) -> Result<T, ImageFailure> {
         let (start, most) = (Instant::now(), self.0);
         let is_over = || match claim() {
-            Claim::Wanted => false,
-            Claim::Replaced => start.elapsed() > most,
-            Claim::Gone => true,
+            FrameClaim::Wanted => false,
+            FrameClaim::Replaced => start.elapsed() > most,
+            FrameClaim::Gone => true,
         };
         let done = work(&|_: Progress| Verdict::go_on_unless(is_over()));
         self.0 = match &done {

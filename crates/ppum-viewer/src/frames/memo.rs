@@ -1,8 +1,8 @@
-//! What was made last, and what it was made from.
+//! The last result of a computation, with its input.
 
 use std::sync::Arc;
 
-/// The last of its kind; it is made anew when what it is made from is another one.
+/// The last of its kind; it is made again when what it is made from is another one.
 #[derive(Debug)]
 pub(super) struct Memo<K, V> {
     kept: Option<(K, V)>,
@@ -52,21 +52,21 @@ impl<K: PartialEq, V: Clone> Memo<K, V> {
 
 /// The very same one: compared by its place in memory, which it holds.
 #[derive(Debug)]
-pub(super) struct Same<T>(pub(super) Arc<T>);
+pub(super) struct SameArc<T>(pub(super) Arc<T>);
 
-impl<T> Same<T> {
+impl<T> SameArc<T> {
     pub(super) fn of(value: &Arc<T>) -> Self {
         Self(Arc::clone(value))
     }
 }
 
-impl<T> Clone for Same<T> {
+impl<T> Clone for SameArc<T> {
     fn clone(&self) -> Self {
         Self::of(&self.0)
     }
 }
 
-impl<T> PartialEq for Same<T> {
+impl<T> PartialEq for SameArc<T> {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.0, &other.0)
     }

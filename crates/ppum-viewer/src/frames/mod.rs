@@ -1,27 +1,27 @@
-//! Pictures, computed in the background: the window says what is wanted, and takes the newest
+//! Images, computed in the background: the window says what is wanted, and takes the newest
 //! there is.
 //!
-//! A picture comes about in stages, each of which keeps what it made last: the subject (field,
+//! An image comes about in stages, each of which keeps what it made last: the subject (field,
 //! quantity, deformation), its values, their range, their colours, what lies over them, what
-//! resampling gives. Only what has changed is made anew. Of slow values there is a rough picture
-//! first: in single precision, of the strips that have come into view alone where a picture was
-//! moved by whole pixels, at a quarter of the resolution where all of it would take too long. Once
-//! one rests the picture is that of `ppum render`, to the last bit.
+//! resampling gives. Only what has changed is made again. Slow values are drawn roughly first: in
+//! single precision, only on the strips that have come into view where an image was moved by whole
+//! pixels, at a quarter of the resolution where all of it would take too long. Once the view is at
+//! rest the image is that of `ppum render`, to the last bit.
 
 mod ease;
 mod fault;
 mod frame;
-mod laid;
 mod maker;
 mod memo;
-mod minus;
 mod over;
+mod overlay_shapes;
 mod paint;
 mod renderer;
 mod resampled;
 mod stop;
 mod strips;
 mod subject;
+mod subtrahend;
 #[cfg(test)]
 mod tests;
 mod values;
@@ -31,47 +31,47 @@ mod worker;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-pub use fault::{Failure, Fault};
-pub use frame::Frame;
-use frame::Outcome;
-pub use laid::Laid;
-use maker::Wish;
-pub use minus::{Minus, Subtracted};
-pub use paint::Painted;
+pub use fault::{FaultOrigin, ImageFailure};
+use frame::FrameResult;
+pub use frame::RenderedFrame;
+use maker::LatestRequest;
+pub use overlay_shapes::OverlayShapes;
+pub use paint::ColoredImage;
 pub use renderer::Backend;
-pub use resampled::Other;
-pub use wanted::Wanted;
+pub use resampled::ResampledView;
+pub use subtrahend::{SubtractedImage, SubtractedValues};
+pub use wanted::FrameRequest;
 use worker::Worker;
 
-/// The pictures of one pane.
-pub struct Frames {
+/// The images of one pane.
+pub struct PaneFrames {
     worker: Worker,
-    asked: Option<(Wanted, Instant)>,
-    newest: Option<Arc<Frame>>,
-    failure: Option<Failure>,
+    asked: Option<(FrameRequest, Instant)>,
+    newest: Option<Arc<RenderedFrame>>,
+    failure: Option<ImageFailure>,
 }
 
 /// Views that follow each other faster than this are those of someone who moves.
 const MOVING: Duration = Duration::from_millis(500);
-/// Who moved and has wanted nothing else for so long is at rest; longer where the window is slow.
+/// A view that has not moved for so long is at rest; longer where the window is slow.
 const REST: Duration = Duration::from_millis(100);
 
-impl Frames {
-    /// Begins to make pictures; calls `wake` whenever there is something new.
+impl PaneFrames {
+    /// Begins to make images; calls `wake` whenever there is something new.
     #[must_use]
     pub fn new(wake: impl Fn() + Send + 'static) -> Self {
         Self::with_backend(Backend::default(), wake)
     }
 
-    /// The same with something else that computes the values.
+    /// Begins to make images with a given backend.
     #[must_use]
     pub fn with_backend(backend: Backend, wake: impl Fn() + Send + 'static) -> Self {
         let worker = Worker::new(backend, Box::new(wake));
         Self { worker, asked: None, newest: None, failure: None }
     }
 
-    /// Says what is wanted now. What was wanted before is stopped, unless it is nearly there.
-    pub fn want(&mut self, wanted: Wanted) {
+    /// Sets the present request. The previous one is stopped, unless it is nearly done.
+    pub fn want(&mut self, wanted: FrameRequest) {
         let (at, mut rests_at) = (Instant::now(), None);
         if let Some((before, then)) = &self.asked {
             if *before == wanted {
@@ -86,7 +86,7 @@ impl Frames {
         }
         self.asked = Some((wanted.clone(), at));
         self.drop_foreign();
-        self.worker.want(Wish { wanted, rests_at });
+        self.worker.want(LatestRequest { wanted, rests_at });
     }
 
     /// Takes what has been made since; true if that is something new.
@@ -96,7 +96,7 @@ impl Frames {
         for outcome in outcomes {
             match outcome {
                 Ok(frame) => {
-                    let stays = |failure: &Failure| failure.fault.leaves_picture();
+                    let stays = |failure: &ImageFailure| failure.fault.leaves_picture();
                     self.failure = self.failure.take().filter(|f| stays(f) && !frame.is_final);
                     self.newest = Some(frame);
                 }
@@ -107,8 +107,8 @@ impl Frames {
         is_new
     }
 
-    /// Forgets a picture of another dataset where it would stand for the one that is wanted: once
-    /// that has none, or at once if the plate is another one.
+    /// Forgets an image of another dataset where it would stand for the one that is wanted: once
+    /// that has none, or at once if the body is another one.
     fn drop_foreign(&mut self) {
         let (Some((asked, _)), Some(newest)) = (&self.asked, &self.newest) else { return };
         let is_without =
@@ -119,19 +119,19 @@ impl Frames {
         }
     }
 
-    /// The newest picture, of whatever was wanted then.
+    /// The newest image, of whatever was wanted then.
     #[must_use]
-    pub fn newest(&self) -> Option<&Arc<Frame>> {
+    pub fn newest(&self) -> Option<&Arc<RenderedFrame>> {
         self.newest.as_ref()
     }
 
-    /// The reason why there is no picture of what is wanted now.
+    /// The reason why there is no image of what is wanted now.
     #[must_use]
-    pub fn failure(&self) -> Option<&Failure> {
+    pub fn failure(&self) -> Option<&ImageFailure> {
         self.failure.as_ref()
     }
 
-    /// True while something better than the newest picture is being made.
+    /// True while something better than the newest image is being made.
     #[must_use]
     pub fn is_working(&self) -> bool {
         self.worker.is_working()

@@ -1,26 +1,26 @@
-//! Colours, as pixels of a picture and as those that egui shows.
+//! Colours, as pixels of an image and as those that egui shows.
 
 use std::ops::Deref;
 use std::sync::{Arc, OnceLock};
 
 use egui::{Color32, ColorImage};
 use ppum_render::image::Image;
-use ppum_render::picture::{Picture, Style};
-use ppum_render::range::{RangeError, ValueSpan};
-use ppum_scene::drawing::Drawn;
+use ppum_render::picture::{ColoredRaster, Style};
+use ppum_render::range::{ColorRange, RangeError};
+use ppum_scene::drawing::PixelValues;
 
-/// A picture, and its pixels as egui takes them.
+/// An image, and its pixels as egui takes them.
 #[derive(Debug)]
-pub struct Painted {
-    /// The picture.
-    pub picture: Picture,
+pub struct ColoredImage {
+    /// The image.
+    pub picture: ColoredRaster,
     texture: OnceLock<Arc<ColorImage>>,
 }
 
-impl Painted {
-    /// A picture.
+impl ColoredImage {
+    /// An image.
     #[must_use]
-    pub fn new(picture: Picture) -> Self {
+    pub fn new(picture: ColoredRaster) -> Self {
         Self { picture, texture: OnceLock::new() }
     }
 
@@ -30,15 +30,19 @@ impl Painted {
     }
 
     /// Values in the colours of a range.
-    pub(super) fn of(drawn: &Drawn, style: &Style, span: ValueSpan) -> Result<Self, RangeError> {
+    pub(super) fn of(
+        drawn: &PixelValues,
+        style: &Style,
+        span: ColorRange,
+    ) -> Result<Self, RangeError> {
         drawn.picture(style, span).map(Self::new)
     }
 }
 
-impl Deref for Painted {
-    type Target = Picture;
+impl Deref for ColoredImage {
+    type Target = ColoredRaster;
 
-    fn deref(&self) -> &Picture {
+    fn deref(&self) -> &ColoredRaster {
         &self.picture
     }
 }

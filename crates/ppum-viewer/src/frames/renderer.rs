@@ -1,24 +1,24 @@
-//! What computes the values: the processor or a graphics card, as `ppum render --backend` has it.
+//! Computation of the values by the processor or a graphics card, as with `ppum render --backend`.
 
 use ppum::progress::Watcher;
-use ppum_render::RenderError;
+use ppum_render::RasterError;
 use ppum_render::scatter::render;
-use ppum_scene::drawing::{DrawingInput, Drawn, PROCESSOR};
+use ppum_scene::drawing::{DrawingInput, PROCESSOR, PixelValues};
 pub use ppum_scene::engine::Backend;
 
 use super::subject::FrameSubject;
 
 /// Draws values by a backend.
-pub(super) struct Renderer {
-    cards: cards::Cards,
+pub(super) struct ValueRenderer {
+    cards: cards::GraphicsCard,
 }
 
-impl Renderer {
+impl ValueRenderer {
     pub(super) fn new(backend: Backend) -> Self {
-        Self { cards: cards::Cards::new(backend) }
+        Self { cards: cards::GraphicsCard::new(backend) }
     }
 
-    /// True if a card draws, which needs no rough pictures.
+    /// True if a card draws, which needs no rough images.
     pub(super) fn has_card(&self) -> bool {
         self.cards.is_open()
     }
@@ -44,12 +44,12 @@ impl Renderer {
         subject: &FrameSubject,
         job: DrawingInput<'_>,
         watcher: &dyn Watcher,
-    ) -> Result<Drawn, RenderError> {
+    ) -> Result<PixelValues, RasterError> {
         let DrawingInput { field, view, quantity } = job;
         if let Some((raster, by)) = self.cards.draw(subject, job) {
-            return Ok(Drawn::new(raster, field, view, &by));
+            return Ok(PixelValues::new(raster, field, view, &by));
         }
-        Ok(Drawn::new(render::<f64>(field, view, quantity, watcher)?, field, view, PROCESSOR))
+        Ok(PixelValues::new(render::<f64>(field, view, quantity, watcher)?, field, view, PROCESSOR))
     }
 }
 
@@ -72,7 +72,7 @@ mod cards {
     type Pictures<'f> = Program<'f, Values>;
 
     self_cell!(
-        struct Compiled {
+        struct CompiledSubject {
             owner: Arc<OwnedField>,
             #[not_covariant]
             dependent: Pictures,
@@ -81,11 +81,11 @@ mod cards {
 
     /// A graphics card, opened when it is needed first. Opening it, uploading and compiling take
     /// their time: a thread sees to them, and until it is done the processor draws.
-    pub(super) struct Cards {
+    pub(super) struct GraphicsCard {
         backend: Backend,
         card: CardState,
         /// The last subject, compiled; none if it cannot be.
-        compiled: Option<(FrameSubject, Option<Compiled>)>,
+        compiled: Option<(FrameSubject, Option<CompiledSubject>)>,
         /// The reason why the processor draws in its place.
         pub(super) note: Option<String>,
     }
@@ -94,18 +94,18 @@ mod cards {
         Unopened,
         Open(Box<Renderer>),
         /// Prepared for a subject by a thread.
-        Away(FrameSubject, JoinHandle<Prepared>),
+        Away(FrameSubject, JoinHandle<OpenCard>),
         None,
     }
 
     /// The card, if it is open, and the subject compiled on it.
-    type Prepared = (Option<Box<Renderer>>, Result<Compiled, RenderError>);
+    type OpenCard = (Option<Box<Renderer>>, Result<CompiledSubject, RenderError>);
 
     /// True once it is known that this machine has no card: each look for one keeps some megabytes
     /// of the drivers for good.
     static HAS_NO_CARD: AtomicBool = AtomicBool::new(false);
 
-    impl Cards {
+    impl GraphicsCard {
         pub(super) fn new(backend: Backend) -> Self {
             let none = match backend {
                 Backend::Cpu => true,
@@ -241,8 +241,8 @@ mod cards {
         quantity: &Quantity,
         method: Method,
         view: &View,
-    ) -> Result<Compiled, RenderError> {
-        Compiled::try_new(field, |field| {
+    ) -> Result<CompiledSubject, RenderError> {
+        CompiledSubject::try_new(field, |field| {
             let scene = renderer.upload(field.field())?;
             let mut program = renderer.compile(&scene, Values(quantity.clone()), method)?;
             renderer.prepare(&mut program, view)?;

@@ -1,73 +1,74 @@
-//! What resampling gives in a view.
+//! Resampling in a view.
 
 use std::sync::Arc;
 use std::time::Instant;
 
 use ppum::progress::Watcher;
-use ppum_render::picture::{Picture, Style};
-use ppum_render::range::Range;
+use ppum_render::picture::{ColoredRaster, Style};
+use ppum_render::range::RangeChoice;
 use ppum_render::raster::Raster;
-use ppum_render::resample::norms::{Norms, difference};
-use ppum_render::resample::{Samples, representation_bytes};
+use ppum_render::resample::norms::{DifferenceNorms, difference};
+use ppum_render::resample::{GridSamples, representation_bytes};
 use ppum_render::view::View;
-use ppum_scene::compare::{Compare, Resampled, signed};
-use ppum_scene::drawing::{Drawn, RasterValues};
+use ppum_scene::compare::{Compare, ResampledImage, signed};
+use ppum_scene::drawing::{PixelValues, RasterValues};
 
-use super::memo::{Memo, Same};
-use super::paint::Painted;
+use super::memo::{Memo, SameArc};
+use super::paint::ColoredImage;
 use super::subject::{FrameSubject, SubjectView};
-use super::{Failure, Fault};
+use super::{FaultOrigin, ImageFailure};
 
-/// What resampling gives in a view, beside the direct picture.
+/// The resampled image in a view, beside the direct one.
 #[derive(Debug)]
-pub struct Other {
+pub struct ResampledView {
     /// The way of resampling.
     pub compare: Compare,
-    /// What was resampled, in the colours of the direct picture.
-    pub picture: Arc<Painted>,
+    /// The resampled image, in the colours of the direct one.
+    pub picture: Arc<ColoredImage>,
     /// The difference, resampled − direct: blue, white, red.
-    pub difference: Arc<Painted>,
+    pub difference: Arc<ColoredImage>,
     /// The errors over the pixels of the view.
-    pub norms: Norms,
+    pub norms: DifferenceNorms,
     /// Memory of the samples.
     pub bytes: u64,
     /// Memory of what the field is evaluated from.
     pub direct_bytes: u64,
-    /// What sampling and drawing took \[s\].
+    /// The time of sampling and drawing \[s\].
     pub seconds: [f64; 2],
 }
 
 /// Resamples, and keeps what the last comparison was made of.
 #[derive(Default)]
-pub(super) struct Resampling {
-    pub(super) samples: Memo<(FrameSubject, u32), Sampled>,
-    found: Memo<(Same<Drawn>, Compare), ResampledFrame>,
-    pub(super) others: Memo<(Same<Painted>, Compare), Arc<Other>>,
+pub(super) struct Resampler {
+    pub(super) samples: Memo<(FrameSubject, u32), SamplesInTime>,
+    found: Memo<(SameArc<PixelValues>, Compare), ResampledFrame>,
+    pub(super) others: Memo<(SameArc<ColoredImage>, Compare), Arc<ResampledView>>,
 }
 
-type Sampled = (Arc<Samples>, f64);
+type SamplesInTime = (Arc<GridSamples>, f64);
 
 /// The values, their difference from the direct ones, and the seconds that they took.
-type ResampledFrame = (Arc<Resampled>, Arc<Painted>, f64);
+type ResampledFrame = (Arc<ResampledImage>, Arc<ColoredImage>, f64);
 
-impl Resampling {
-    /// What one way of resampling gives.
+impl Resampler {
+    /// Resamples in one way.
     pub(super) fn compare(
         &mut self,
         compare: Compare,
         target: &SubjectView,
-        (drawn, picture, style): (&Arc<Drawn>, &Arc<Painted>, &Style),
+        (drawn, picture, style): (&Arc<PixelValues>, &Arc<ColoredImage>, &Style),
         watcher: &dyn Watcher,
-    ) -> Result<Arc<Other>, Failure> {
-        let key = (Same::of(picture), compare);
+    ) -> Result<Arc<ResampledView>, ImageFailure> {
+        let key = (SameArc::of(picture), compare);
         if let Some(known) = self.others.get(&key) {
             return Ok(known);
         }
         let (samples, sampling) = self.sample(compare, &target.subject, watcher)?;
         let found = || find(compare, &samples, drawn);
-        let (resampled, apart, drawing) = self.found.get_or((Same::of(drawn), compare), found)?;
+        let (resampled, apart, drawing) =
+            self.found.get_or((SameArc::of(drawn), compare), found)?;
         let painted = in_colors_of(picture, style, &resampled.raster, &drawn.view)?;
-        let other = Arc::new(Other {
+        let other = Arc::new(ResampledView {
             compare,
             picture: Arc::new(painted),
             difference: apart,
@@ -80,13 +81,13 @@ impl Resampling {
         Ok(other)
     }
 
-    /// Samples over the whole plate, which serve any view and method.
+    /// Samples over the whole body, which serve any view and method.
     fn sample(
         &mut self,
         compare: Compare,
         subject: &FrameSubject,
         watcher: &dyn Watcher,
-    ) -> Result<Sampled, Failure> {
+    ) -> Result<SamplesInTime, ImageFailure> {
         let Some(quantity) = subject.shown.0.quantity() else { return Err(refused(OF_CELLS)) };
         if subject.factor.is_some() {
             return Err(refused(DEFORMED));
@@ -97,9 +98,10 @@ impl Resampling {
         let field = subject.field.0.field();
         self.samples.get_or((subject.clone(), compare.grid), || {
             let start = Instant::now();
-            let grid = compare.grid_over(field).map_err(Failure::at(Fault::Compare))?;
-            let samples =
-                grid.sample(field, quantity, watcher).map_err(Failure::at(Fault::Compare))?;
+            let grid = compare.grid_over(field).map_err(ImageFailure::at(FaultOrigin::Compare))?;
+            let samples = grid
+                .sample(field, quantity, watcher)
+                .map_err(ImageFailure::at(FaultOrigin::Compare))?;
             Ok((Arc::new(samples), start.elapsed().as_secs_f64()))
         })
     }
@@ -109,11 +111,15 @@ const OF_CELLS: &str = "values of cells are not resampled; choose a quantity to 
 const DEFORMED: &str = "the deformed plate is not resampled; compare without the deformation";
 const MINUS: &str = "the difference of two views is not resampled; compare each of them";
 
-fn refused(message: &str) -> Failure {
-    Failure::new(Fault::Compare, message)
+fn refused(message: &str) -> ImageFailure {
+    ImageFailure::new(FaultOrigin::Compare, message)
 }
 
-fn find(compare: Compare, samples: &Samples, drawn: &Drawn) -> Result<ResampledFrame, Failure> {
+fn find(
+    compare: Compare,
+    samples: &GridSamples,
+    drawn: &PixelValues,
+) -> Result<ResampledFrame, ImageFailure> {
     let (start, view) = (Instant::now(), &drawn.view);
     let narrow;
     let direct = match &drawn.values {
@@ -124,22 +130,22 @@ fn find(compare: Compare, samples: &Samples, drawn: &Drawn) -> Result<ResampledF
             &narrow
         }
     };
-    let resampled = Resampled::on_grid(samples, compare.method, view, direct);
+    let resampled = ResampledImage::on_grid(samples, compare.method, view, direct);
     let seconds = start.elapsed().as_secs_f64();
     let apart = signed(&difference(direct, &resampled.raster), view);
-    let apart = apart.map_err(Failure::at(Fault::Compare))?;
-    Ok((Arc::new(resampled), Arc::new(Painted::new(apart)), seconds))
+    let apart = apart.map_err(ImageFailure::at(FaultOrigin::Compare))?;
+    Ok((Arc::new(resampled), Arc::new(ColoredImage::new(apart)), seconds))
 }
 
-/// Values in the colours of a picture.
+/// Values in the colours of an image.
 fn in_colors_of(
-    picture: &Picture,
+    picture: &ColoredRaster,
     style: &Style,
     raster: &Raster,
     view: &View,
-) -> Result<Painted, Failure> {
+) -> Result<ColoredImage, ImageFailure> {
     let norm = &picture.normalization;
-    let fixed = Style { range: Range::Fixed(norm.min(), norm.max()), ..style.clone() };
-    let painted = Picture::bare(raster, view, &fixed).map(Painted::new);
-    painted.map_err(Failure::at(Fault::Compare))
+    let fixed = Style { range: RangeChoice::Fixed(norm.min(), norm.max()), ..style.clone() };
+    let painted = ColoredRaster::bare(raster, view, &fixed).map(ColoredImage::new);
+    painted.map_err(ImageFailure::at(FaultOrigin::Compare))
 }

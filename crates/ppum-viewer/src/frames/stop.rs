@@ -1,19 +1,19 @@
 //! Whether what is being made is still wanted.
 
-use super::Failure;
+use super::ImageFailure;
 
 /// The end of a step without a result.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum StageEnd {
+pub(super) enum FrameStop {
     /// Something else is wanted.
     Cancelled,
     /// There can be none.
-    Failed(Failure),
+    Failed(ImageFailure),
 }
 
 /// Whether what is being made is still wanted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Claim {
+pub(super) enum FrameClaim {
     Wanted,
     /// Something else is wanted by now.
     Replaced,
@@ -22,4 +22,4 @@ pub(super) enum Claim {
 }
 
 /// Asks for it, from any thread.
-pub(super) type Ask<'a> = &'a (dyn Fn() -> Claim + Sync);
+pub(super) type Ask<'a> = &'a (dyn Fn() -> FrameClaim + Sync);

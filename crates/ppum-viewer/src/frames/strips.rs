@@ -1,12 +1,12 @@
-//! A picture that has moved by whole pixels: what it shares with the new view is kept, the strips
+//! An image that has moved by whole pixels: what it shares with the new view is kept, the strips
 //! that have come into view are drawn.
 
 use ppum::vec2::vec2;
 use ppum_render::raster::Raster;
 use ppum_render::view::View;
-use ppum_scene::drawing::{Drawn, RasterValues};
+use ppum_scene::drawing::{PixelValues, RasterValues};
 
-/// A move of a picture's content, in whole pixels: pixel (i, j) was (i + columns, j + rows) before.
+/// A move of an image's content, in whole pixels: pixel (i, j) was (i + columns, j + rows) before.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Shift {
     columns: i64,
@@ -16,7 +16,7 @@ pub(super) struct Shift {
 /// Pixels whose places doubles know to no better than this part of themselves cannot be put side
 /// by side.
 const BLURRED: f64 = 0.01;
-/// Less than this part of a picture is not worth keeping.
+/// Less than this part of an image is not worth keeping.
 const WORTH: f64 = 0.5;
 
 impl Shift {
@@ -94,20 +94,20 @@ impl PixelRect {
     }
 }
 
-/// The values of a picture that has moved, in single precision; `draw` draws strips.
+/// The values of an image that has moved, in single precision; `draw` draws strips.
 pub(super) fn moved<E>(
-    old: &Drawn,
+    old: &PixelValues,
     shift: Shift,
-    mut draw: impl FnMut(&View) -> Result<Drawn, E>,
-) -> Result<Drawn, E> {
+    mut draw: impl FnMut(&View) -> Result<PixelValues, E>,
+) -> Result<PixelValues, E> {
     let view = shift.of(&old.view);
-    let mut new = Moved::new(old, view, shift);
+    let mut new = ShiftedImage::new(old, view, shift);
     for rect in shift.uncovered(view.pixels).into_iter().filter(|rect| !rect.is_empty()) {
         new.put(rect, &draw(&rect.view(&view))?);
     }
     let values = RasterValues::from(Raster::new(view.pixels, new.values));
     let by = format!("{}, moved", old.by);
-    Ok(Drawn {
+    Ok(PixelValues {
         view,
         values,
         by,
@@ -118,16 +118,16 @@ pub(super) fn moved<E>(
     })
 }
 
-/// A picture while it is put together.
-struct Moved {
+/// An image while it is put together.
+struct ShiftedImage {
     columns: usize,
     values: Vec<f32>,
     without: Vec<u32>,
 }
 
-impl Moved {
-    /// What both views share.
-    fn new(old: &Drawn, view: View, Shift { columns, rows }: Shift) -> Self {
+impl ShiftedImage {
+    /// Copies the part that both views share.
+    fn new(old: &PixelValues, view: View, Shift { columns, rows }: Shift) -> Self {
         let [nx, ny] = view.pixels.map(i64::from);
         let mut new = Self {
             columns: nx as usize,
@@ -147,7 +147,7 @@ impl Moved {
     }
 
     /// A strip.
-    fn put(&mut self, rect: PixelRect, strip: &Drawn) {
+    fn put(&mut self, rect: PixelRect, strip: &PixelValues) {
         let [nx, ny] = rect.size().map(|n| n as usize);
         let [x, y] = [rect.columns[0] as usize, rect.rows[0] as usize];
         for row in 0..ny {
@@ -158,7 +158,7 @@ impl Moved {
         self.without.extend(strip.without.iter().map(|&k| place(k)));
     }
 
-    fn put_row(&mut self, to: usize, from: &Drawn, range: std::ops::Range<usize>) {
+    fn put_row(&mut self, to: usize, from: &PixelValues, range: std::ops::Range<usize>) {
         let row = &mut self.values[to..to + range.len()];
         match &from.values {
             RasterValues::Single(raster) => row.copy_from_slice(&raster.values[range]),

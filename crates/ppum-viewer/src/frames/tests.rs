@@ -13,20 +13,20 @@ use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_scene::body::BodyView;
 use ppum_scene::compare::Compare;
-use ppum_scene::deformed::Factor;
-use ppum_scene::drawing::{Drawn, RasterValues};
+use ppum_scene::deformed::Magnification;
+use ppum_scene::drawing::{PixelValues, RasterValues};
 use ppum_scene::engine::Engine;
 use ppum_scene::mirror::MirrorLines;
-use ppum_scene::overlays::{Levels, Overlay};
+use ppum_scene::overlays::{IsolineLevels, Overlay};
 use ppum_scene::range;
-use ppum_scene::scene::Scene;
+use ppum_scene::scene::SceneRequest;
 use ppum_scene::shot::{FieldSource, shot};
 use ppum_testkit::synthetic::Recipe;
 
-use super::maker::{FrameMaker, Next, Patience, Wish};
-use super::stop::{Ask, Claim, StageEnd};
+use super::maker::{FrameMaker, LatestRequest, NextStep, Patience};
+use super::stop::{Ask, FrameClaim, FrameStop};
 use super::worker;
-use super::{Backend, Frame, Frames, Minus, Wanted};
+use super::{Backend, FrameRequest, PaneFrames, RenderedFrame, SubtractedImage};
 
 const PIXELS: [u32; 2] = [243, 181];
 
@@ -34,15 +34,15 @@ fn dataset() -> Arc<Dataset> {
     Arc::new(Recipe::default().dataset())
 }
 
-fn wanted(dataset: &Arc<Dataset>) -> Wanted {
+fn wanted(dataset: &Arc<Dataset>) -> FrameRequest {
     let view = View::new(dataset.domain.bounds.center(), 1.4, PIXELS).unwrap();
-    Wanted::new(Arc::clone(dataset), Scene::default(), view)
+    FrameRequest::new(Arc::clone(dataset), SceneRequest::default(), view)
 }
 
-/// What is wanted, so many pixels further right and down.
-fn beside(wanted: &Wanted, columns: f64, rows: f64) -> Wanted {
+/// Returns the request, so many pixels further right and down.
+fn beside(wanted: &FrameRequest, columns: f64, rows: f64) -> FrameRequest {
     let by = vec2(columns, -rows) * wanted.view.pixel_size();
-    Wanted { view: View { center: wanted.view.center + by, ..wanted.view }, ..wanted.clone() }
+    FrameRequest { view: View { center: wanted.view.center + by, ..wanted.view }, ..wanted.clone() }
 }
 
 fn maker() -> FrameMaker {
@@ -50,28 +50,30 @@ fn maker() -> FrameMaker {
 }
 
 /// All frames up to the final one; time passes from step to step.
-fn finished(maker: &mut FrameMaker, wanted: &Wanted) -> Vec<Arc<Frame>> {
-    let (wish, mut now) = (Wish { wanted: wanted.clone(), rests_at: None }, Instant::now());
+fn finished(maker: &mut FrameMaker, wanted: &FrameRequest) -> Vec<Arc<RenderedFrame>> {
+    let (wish, mut now) =
+        (LatestRequest { wanted: wanted.clone(), rests_at: None }, Instant::now());
     let mut frames = Vec::new();
     loop {
-        let step = maker.step(&wish, now, &|| Claim::Wanted).unwrap();
+        let step = maker.step(&wish, now, &|| FrameClaim::Wanted).unwrap();
         frames.extend(step.frame);
         match step.next {
-            Next::More => {}
-            Next::After(time) => now += time,
-            Next::Rest => return frames,
+            NextStep::More => {}
+            NextStep::After(time) => now += time,
+            NextStep::Rest => return frames,
         }
     }
 }
 
 /// The first frame for one who moves on.
-fn moving(maker: &mut FrameMaker, wanted: &Wanted) -> Arc<Frame> {
+fn moving(maker: &mut FrameMaker, wanted: &FrameRequest) -> Arc<RenderedFrame> {
     let now = Instant::now();
-    let wish = Wish { wanted: wanted.clone(), rests_at: Some(now + Duration::from_secs(60)) };
-    maker.step(&wish, now, &|| Claim::Wanted).unwrap().frame.expect("a frame comes at once")
+    let wish =
+        LatestRequest { wanted: wanted.clone(), rests_at: Some(now + Duration::from_secs(60)) };
+    maker.step(&wish, now, &|| FrameClaim::Wanted).unwrap().frame.expect("a frame comes at once")
 }
 
-fn values(drawn: &Drawn) -> Raster {
+fn values(drawn: &PixelValues) -> Raster {
     match &drawn.values {
         RasterValues::Double(raster) => raster.clone(),
         RasterValues::Single(raster) => {
@@ -105,7 +107,7 @@ fn the_final_picture_is_that_of_ppum_render() {
     assert!(last.is_final && last.wanted == wanted);
     let (field, view) = (last.field.field(), &wanted.view);
     let raster = render::<f64>(field, view, &Quantity::VonMises, unwatched()).unwrap();
-    let drawn = Drawn::new(raster, field, view, "cpu f64");
+    let drawn = PixelValues::new(raster, field, view, "cpu f64");
     let style =
         wanted.scene.colors.style(Some(&Quantity::VonMises), Colormap::named("viridis").unwrap());
     let seen = BodyView::new(field, *view, MirrorLines::default());
@@ -123,7 +125,7 @@ fn bodies_of_all_kinds_are_those_of_ppum_render() {
     let (dataset, mut maker) = (dataset(), maker());
     for (deformed, mirror) in [(true, false), (false, true), (true, true)] {
         let mut wanted = wanted(&dataset);
-        wanted.scene.deformed = deformed.then_some(Factor::Given(0.05));
+        wanted.scene.deformed = deformed.then_some(Magnification::Given(0.05));
         wanted.scene.mirror = mirror.then(|| "left,bottom:antisymmetric".parse().unwrap());
         wanted.scene.overlays.shown = vec![Overlay::Cracks, Overlay::Cells];
         wanted.view.center = dataset.domain.bounds.min;
@@ -167,7 +169,7 @@ fn only_what_has_changed_is_made_anew() {
     assert_eq!(made(&maker)[..2], [1, 2], "of another quantity the field is the same");
 
     // isolines have levels of the range
-    wanted.scene.overlays.isolines = Some(Levels::Auto);
+    wanted.scene.overlays.isolines = Some(IsolineLevels::Auto);
     finished(&mut maker, &wanted);
     let before = made(&maker);
     wanted.scene.colors.range = "-1,2".parse().unwrap();
@@ -211,13 +213,13 @@ fn who_moves_sees_strips_of_what_was_uncovered() {
 fn who_moves_sees_strips_of_differences() {
     let (dataset, mut maker) = (dataset(), maker());
     let other = Arc::new(Recipe { seed: 7, level: 3, ..Recipe::default() }.dataset());
-    let subtracted = |quantity: Option<&str>| Minus {
+    let subtracted = |quantity: Option<&str>| SubtractedImage {
         dataset: Arc::clone(&other),
         subject: ppum_scene::scene::Subject::default(),
         quantity: quantity.map(str::to_owned),
     };
-    let mut wanted = Wanted { minus: Some(subtracted(None)), ..wanted(&dataset) };
-    let exact = |frame: &Frame, view: &View| {
+    let mut wanted = FrameRequest { minus: Some(subtracted(None)), ..wanted(&dataset) };
+    let exact = |frame: &RenderedFrame, view: &View| {
         let minus = frame.minus().expect("it is a difference");
         minus.draw(view, unwatched()).unwrap()
     };
@@ -286,8 +288,9 @@ fn ranges_stay_while_one_moves_and_glide_to_the_true_one() {
     let mut wanted = wanted(&dataset);
     wanted.scene.quantity = Some("uy".to_owned());
     let first = finished(&mut maker, &wanted);
-    let ends =
-        |frame: &Frame| [frame.picture.normalization.min(), frame.picture.normalization.max()];
+    let ends = |frame: &RenderedFrame| {
+        [frame.picture.normalization.min(), frame.picture.normalization.max()]
+    };
     let before = ends(first.last().unwrap());
     wanted.view = View::new(vec2(0.5, 0.4), 0.3, PIXELS).unwrap();
     assert_eq!(ends(&moving(&mut maker, &wanted)), before, "it stays while one moves");
@@ -303,63 +306,64 @@ fn ranges_stay_while_one_moves_and_glide_to_the_true_one() {
 #[test]
 fn what_is_nearly_there_is_finished_and_the_rest_is_stopped() {
     let (dataset, mut maker) = (dataset(), maker());
-    let wish = Wish { wanted: wanted(&dataset), rests_at: None };
+    let wish = LatestRequest { wanted: wanted(&dataset), rests_at: None };
     // a machine that is busy may take long even for a rough picture
     maker.patience = Patience(Duration::MAX);
-    let gone = maker.step(&wish, Instant::now(), &|| Claim::Gone);
-    assert!(matches!(gone, Err(StageEnd::Cancelled)), "nobody waits for a rough picture either");
+    let gone = maker.step(&wish, Instant::now(), &|| FrameClaim::Gone);
+    assert!(matches!(gone, Err(FrameStop::Cancelled)), "nobody waits for a rough picture either");
     let rough = maker
-        .step(&wish, Instant::now(), &|| Claim::Replaced)
+        .step(&wish, Instant::now(), &|| FrameClaim::Replaced)
         .unwrap()
         .frame
         .expect("a rough picture");
     assert!(rough.drawn.view.pixels[0] < PIXELS[0]);
-    let stopped = maker.step(&wish, Instant::now(), &|| Claim::Replaced);
-    assert!(matches!(stopped, Err(StageEnd::Cancelled)));
+    let stopped = maker.step(&wish, Instant::now(), &|| FrameClaim::Replaced);
+    assert!(matches!(stopped, Err(FrameStop::Cancelled)));
     assert_eq!(maker.values.whole.made, 0);
     assert!(finished(&mut maker, &wish.wanted).last().unwrap().is_final);
 }
 
 #[test]
 fn mistakes_are_told_where_they_are() {
-    use super::Fault;
+    use super::FaultOrigin;
     let (dataset, mut maker) = (dataset(), maker());
-    let fault = |maker: &mut FrameMaker, change: &dyn Fn(&mut Wanted)| {
+    let fault = |maker: &mut FrameMaker, change: &dyn Fn(&mut FrameRequest)| {
         let mut wanted = wanted(&dataset);
         change(&mut wanted);
-        let (wish, mut now) = (Wish { wanted, rests_at: None }, Instant::now());
+        let (wish, mut now) = (LatestRequest { wanted, rests_at: None }, Instant::now());
         loop {
             now += Duration::from_millis(16);
-            match maker.step(&wish, now, &|| Claim::Wanted) {
-                Ok(step) if step.next == Next::Rest => return None,
+            match maker.step(&wish, now, &|| FrameClaim::Wanted) {
+                Ok(step) if step.next == NextStep::Rest => return None,
                 Ok(_) => {}
-                Err(StageEnd::Failed(failure)) => return Some(failure.fault),
-                Err(StageEnd::Cancelled) => panic!("nobody stopped it"),
+                Err(FrameStop::Failed(failure)) => return Some(failure.fault),
+                Err(FrameStop::Cancelled) => panic!("nobody stopped it"),
             }
         }
     };
     assert_eq!(
         fault(&mut maker, &|w| w.scene.quantity = Some("uy +".into())),
-        Some(Fault::Quantity)
+        Some(FaultOrigin::Quantity)
     );
     assert_eq!(
         fault(&mut maker, &|w| w.scene.subject.part = Some("soul".into())),
-        Some(Fault::Subject)
+        Some(FaultOrigin::Subject)
     );
-    assert_eq!(fault(&mut maker, &|w| w.scene.subject.step = Some(9)), Some(Fault::Subject));
+    assert_eq!(fault(&mut maker, &|w| w.scene.subject.step = Some(9)), Some(FaultOrigin::Subject));
     assert_eq!(
         fault(&mut maker, &|w| w.scene.colors.colormap = Some("mud".into())),
-        Some(Fault::Colors)
+        Some(FaultOrigin::Colors)
     );
     assert_eq!(
-        fault(&mut maker, &|w| w.scene.colors.range = ppum_render::range::Range::Fixed(3.0, 2.0)),
-        Some(Fault::Colors)
+        fault(&mut maker, &|w| w.scene.colors.range =
+            ppum_render::range::RangeChoice::Fixed(3.0, 2.0)),
+        Some(FaultOrigin::Colors)
     );
-    let crossed = |w: &mut Wanted| {
-        w.scene.deformed = Some(ppum_scene::deformed::Factor::Auto);
+    let crossed = |w: &mut FrameRequest| {
+        w.scene.deformed = Some(ppum_scene::deformed::Magnification::Auto);
         w.scene.overlays.shown.push(Overlay::Points);
     };
-    assert_eq!(fault(&mut maker, &crossed), Some(Fault::Overlays));
+    assert_eq!(fault(&mut maker, &crossed), Some(FaultOrigin::Overlays));
     assert_eq!(fault(&mut maker, &|_| ()), None, "and then all is well again");
 }
 
@@ -401,7 +405,7 @@ fn a_thread_makes_the_picture_of_its_maker() {
         // nobody listens once the picture is there
         let _ = wake.send(());
     };
-    let mut frames = Frames::with_backend(Backend::Cpu, wake);
+    let mut frames = PaneFrames::with_backend(Backend::Cpu, wake);
     frames.want(wanted);
     while frames.is_working() {
         let is_woken = woken.recv_timeout(Duration::from_secs(300));
@@ -451,16 +455,16 @@ fn a_graphics_device_draws_what_the_processor_draws() {
 #[test]
 fn a_panic_is_told_and_does_no_harm() {
     let (dataset, mut maker) = (dataset(), maker());
-    let wish = Wish { wanted: wanted(&dataset), rests_at: None };
+    let wish = LatestRequest { wanted: wanted(&dataset), rests_at: None };
     let run = |maker: &mut FrameMaker, claim: Ask<'_>| loop {
         match worker::step(maker, Backend::Cpu, &wish, claim) {
             (Some(Err(failure)), next) => return (Some(failure.fault), next),
-            (_, Next::Rest) => return (None, Next::Rest),
+            (_, NextStep::Rest) => return (None, NextStep::Rest),
             _ => {}
         }
     };
     let broken = || panic!("a mistake of the program, made by a test");
-    assert_eq!(run(&mut maker, &broken), (Some(super::Fault::Program), Next::Rest));
-    assert_eq!(run(&mut maker, &|| Claim::Wanted), (None, Next::Rest));
+    assert_eq!(run(&mut maker, &broken), (Some(super::FaultOrigin::Program), NextStep::Rest));
+    assert_eq!(run(&mut maker, &|| FrameClaim::Wanted), (None, NextStep::Rest));
     assert_eq!(maker.values.whole.made, 1);
 }

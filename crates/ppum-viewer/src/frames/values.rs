@@ -1,38 +1,38 @@
-//! Values at the pixels: the whole picture, and a rough one that is there sooner.
+//! Values at the pixels: the whole image, and a rough one that is there sooner.
 
 use std::sync::Arc;
 use std::time::Instant;
 
 use ppum::progress::Watcher;
-use ppum_render::resample::norms::Norms;
+use ppum_render::resample::norms::DifferenceNorms;
 use ppum_render::samples::Samples;
 use ppum_render::view::View;
-use ppum_scene::drawing::{DrawingInput, Drawn};
+use ppum_scene::drawing::{DrawingInput, PixelValues};
 use ppum_scene::engine::{Backend, Engine, Precision};
 
 use super::memo::Memo;
-use super::renderer::Renderer;
+use super::renderer::ValueRenderer;
 use super::strips::{Shift, moved};
-use super::subject::{FrameSubject, OwnedSeen, SubjectView};
-use super::{Failure, Fault};
+use super::subject::{FrameSubject, OwnedSubjectView, SubjectView};
+use super::{FaultOrigin, ImageFailure};
 
-/// What may take longer has a rough picture first \[s\].
+/// Time above which values are drawn roughly first \[s\].
 const QUICK: f64 = 0.02;
-/// Pixels of the view, in each direction, for one of a coarse picture.
+/// Pixels of the view, in each direction, for one of a coarse image.
 const COARSE: u32 = 4;
 
 /// Draws values, and keeps those of the last place.
 pub(super) struct ValueCache {
-    pub(super) renderer: Renderer,
-    pub(super) whole: Memo<SubjectView, Arc<Drawn>>,
-    pub(super) rough: Memo<SubjectView, Arc<Drawn>>,
-    /// Pixels of rough pictures that were drawn.
+    pub(super) renderer: ValueRenderer,
+    pub(super) whole: Memo<SubjectView, Arc<PixelValues>>,
+    pub(super) rough: Memo<SubjectView, Arc<PixelValues>>,
+    /// Pixels of rough images that were drawn.
     pub(super) pixels: usize,
-    seen: Memo<SubjectView, Arc<OwnedSeen>>,
+    seen: Memo<SubjectView, Arc<OwnedSubjectView>>,
     pace: Pace,
 }
 
-/// Seconds a pixel, as the last pictures of a subject took.
+/// Seconds a pixel, as the last images of a subject took.
 #[derive(Debug, Default)]
 struct Pace {
     subject: Option<FrameSubject>,
@@ -41,7 +41,7 @@ struct Pace {
 }
 
 impl ValueCache {
-    pub(super) fn new(renderer: Renderer) -> Self {
+    pub(super) fn new(renderer: ValueRenderer) -> Self {
         Self {
             renderer,
             whole: Memo::default(),
@@ -52,12 +52,12 @@ impl ValueCache {
         }
     }
 
-    /// True if a place needs a rough picture: it may take long, or one moves on before it could
-    /// be done.
+    /// True if a place needs a rough image: it may take long, or one moves on before it could be
+    /// done.
     pub(super) fn needs_rough(&self, target: &SubjectView, is_moving: bool) -> bool {
         let is_quick =
             self.pace.of(&target.subject).whole.is_some_and(|pace| is_quick(pace, &target.view));
-        // differences and mirrored plates are the processor's
+        // differences and mirrored bodies are the processor's
         let is_for_card = target.subject.minus.is_none() && !target.subject.is_mirrored();
         let has_card = self.renderer.has_card() && is_for_card;
         !is_quick || is_moving && !has_card
@@ -68,13 +68,13 @@ impl ValueCache {
         &mut self,
         target: &SubjectView,
         watcher: &dyn Watcher,
-    ) -> Result<Arc<Drawn>, Failure> {
+    ) -> Result<Arc<PixelValues>, ImageFailure> {
         let (start, subject) = (Instant::now(), &target.subject);
         let seen = self.seen(target, watcher)?;
         let renderer = &mut self.renderer;
         let draw = &mut |job: DrawingInput<'_>, _| Ok(renderer.draw(subject, job, watcher)?);
         let drawn = subject.input(seen.seen()).values_by(Samples::CENTER, draw, watcher);
-        let drawn = Arc::new(drawn.map_err(Failure::at(subject.fault()))?);
+        let drawn = Arc::new(drawn.map_err(ImageFailure::at(subject.fault()))?);
         self.pace.of_mut(subject).whole = Some(per_pixel(start, &target.view));
         self.whole.set(target.clone(), Arc::clone(&drawn));
         Ok(drawn)
@@ -82,18 +82,18 @@ impl ValueCache {
 
     /// How far the two sides of a difference are from each other, in the view that was last
     /// drawn whole.
-    pub(super) fn norms(&self, subject: &FrameSubject) -> Option<Norms> {
+    pub(super) fn norms(&self, subject: &FrameSubject) -> Option<DifferenceNorms> {
         let (known, drawn) = self.whole.last()?;
         drawn.norms.filter(|_| known.subject == *subject)
     }
 
     /// Draws what is soon done: strips beside what was seen before, all in single precision, or a
-    /// coarse picture.
+    /// coarse image.
     pub(super) fn draw_rough(
         &mut self,
         target: &SubjectView,
         watcher: &dyn Watcher,
-    ) -> Result<Arc<Drawn>, Failure> {
+    ) -> Result<Arc<PixelValues>, ImageFailure> {
         let subject = &target.subject;
         let is_whole = subject.factor.is_some() || subject.is_mirrored();
         let is_of_cells = subject.minus.is_none() && subject.shown.0.quantity().is_none();
@@ -106,8 +106,12 @@ impl ValueCache {
         Ok(drawn)
     }
 
-    /// Draws strips, all of it or a coarse picture.
-    fn draw_soon(&mut self, target: &SubjectView, watcher: &dyn Watcher) -> Result<Drawn, Failure> {
+    /// Draws strips, all of it or a coarse image.
+    fn draw_soon(
+        &mut self,
+        target: &SubjectView,
+        watcher: &dyn Watcher,
+    ) -> Result<PixelValues, ImageFailure> {
         let mut pixels = 0;
         let mut draw = |view: &View| {
             pixels += view.pixels.iter().map(|&n| n as usize).product::<usize>();
@@ -127,8 +131,8 @@ impl ValueCache {
         Ok(drawn)
     }
 
-    /// The picture of the same subject in full resolution that shares most with a place.
-    fn beside(&self, target: &SubjectView) -> Option<(Arc<Drawn>, Shift)> {
+    /// The image of the same subject in full resolution that shares most with a place.
+    fn beside(&self, target: &SubjectView) -> Option<(Arc<PixelValues>, Shift)> {
         let known = [self.rough.last(), self.whole.last()].into_iter().flatten();
         let same = known.filter(|(known, _)| known.subject == target.subject);
         let shifted = same.filter_map(|(_, drawn)| {
@@ -141,20 +145,20 @@ impl ValueCache {
     /// The view itself if it is soon drawn in single precision, else a coarse one.
     fn affordable(&self, target: &SubjectView) -> View {
         let Pace { whole, single, .. } = self.pace.of(&target.subject);
-        // double precision takes longer; coarse pictures take longer for each of their pixels
+        // double precision takes longer; coarse images take longer for each of their pixels
         let pace = [whole, single].into_iter().flatten().reduce(f64::min);
         let is_quick = pace.is_some_and(|pace| is_quick(pace, &target.view));
         if is_quick { target.view } else { coarse(&target.view) }
     }
 
-    /// What is seen of a place that was drawn.
+    /// Returns the visible part of a place that was drawn.
     pub(super) fn seen(
         &mut self,
         target: &SubjectView,
         watcher: &dyn Watcher,
-    ) -> Result<Arc<OwnedSeen>, Failure> {
-        let make = || OwnedSeen::new(target, watcher).map(Arc::new);
-        self.seen.get_or(target.clone(), || make().map_err(Failure::at(Fault::Deformed)))
+    ) -> Result<Arc<OwnedSubjectView>, ImageFailure> {
+        let make = || OwnedSubjectView::new(target, watcher).map(Arc::new);
+        self.seen.get_or(target.clone(), || make().map_err(ImageFailure::at(FaultOrigin::Deformed)))
     }
 }
 
@@ -175,14 +179,19 @@ impl Pace {
 }
 
 /// Draws a view by the processor, in single precision where that shows the field.
-fn soon(subject: &FrameSubject, view: &View, watcher: &dyn Watcher) -> Result<Drawn, Failure> {
+fn soon(
+    subject: &FrameSubject,
+    view: &View,
+    watcher: &dyn Watcher,
+) -> Result<PixelValues, ImageFailure> {
     let target = SubjectView { subject: subject.clone(), view: *view };
-    let seen = OwnedSeen::new(&target, watcher).map_err(Failure::at(Fault::Deformed))?;
+    let seen =
+        OwnedSubjectView::new(&target, watcher).map_err(ImageFailure::at(FaultOrigin::Deformed))?;
     let precision = subject.bears_single().then_some(Precision::F32);
     let engine = Engine::new(Backend::Cpu, precision, None, watcher);
-    let engine = engine.map_err(Failure::at(Fault::Quantity))?;
+    let engine = engine.map_err(ImageFailure::at(FaultOrigin::Quantity))?;
     let drawn = subject.input(seen.seen()).values(Samples::CENTER, &engine);
-    drawn.map_err(Failure::at(subject.fault()))
+    drawn.map_err(ImageFailure::at(subject.fault()))
 }
 
 fn count(view: &View) -> f64 {

@@ -1,33 +1,33 @@
-//! What is wanted of a pane.
+//! The request of a pane.
 
 use std::sync::Arc;
 
 use ppum::dataset::Dataset;
 use ppum_render::view::View;
 use ppum_scene::compare::Compare;
-use ppum_scene::scene::Scene;
+use ppum_scene::scene::SceneRequest;
 
-use super::minus::Minus;
+use super::subtrahend::SubtractedImage;
 
-/// What is wanted: a view of a scene of a dataset.
+/// The request: a view of a scene of a dataset.
 #[derive(Clone, Debug)]
-pub struct Wanted {
+pub struct FrameRequest {
     /// The dataset.
     pub dataset: Arc<Dataset>,
-    /// What is shown of it, and how.
-    pub scene: Scene,
+    /// The shown scene of it.
+    pub scene: SceneRequest,
     /// Where, on how many pixels.
     pub view: View,
-    /// What resampling gives beside it, if that is asked for.
+    /// The resampling beside it, if that is requested.
     pub compare: Option<Compare>,
-    /// What is subtracted from it.
-    pub minus: Option<Minus>,
+    /// The subtrahend.
+    pub minus: Option<SubtractedImage>,
 }
 
-impl Wanted {
+impl FrameRequest {
     /// A view of a scene, and nothing beside it.
     #[must_use]
-    pub fn new(dataset: Arc<Dataset>, scene: Scene, view: View) -> Self {
+    pub fn new(dataset: Arc<Dataset>, scene: SceneRequest, view: View) -> Self {
         Self { dataset, scene, view, compare: None, minus: None }
     }
 
@@ -40,7 +40,7 @@ impl Wanted {
         Arc::ptr_eq(&self.dataset, &other.dataset) && is_same_left
     }
 
-    /// True if another one is of a plate of the same shape and kind: of a file that was written
+    /// True if another one is of a body of the same shape and kind: of a file that was written
     /// again, for instance.
     pub(super) fn is_alike(&self, other: &Self) -> bool {
         let (dataset, other) = (&self.dataset, &other.dataset);
@@ -53,7 +53,7 @@ impl Wanted {
     }
 }
 
-impl PartialEq for Wanted {
+impl PartialEq for FrameRequest {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.dataset, &other.dataset)
             && self.scene == other.scene

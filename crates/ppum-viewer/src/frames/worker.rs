@@ -1,16 +1,16 @@
-//! The thread that makes the pictures.
+//! The thread that makes the images.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
 use std::time::Instant;
 
-use super::maker::{FrameMaker, Next, StepResult, Wish};
+use super::maker::{FrameMaker, LatestRequest, NextStep, StepResult};
 use super::renderer::Backend;
-use super::stop::{Ask, Claim, StageEnd};
-use super::{Failure, Fault, Outcome};
+use super::stop::{Ask, FrameClaim, FrameStop};
+use super::{FaultOrigin, FrameResult, ImageFailure};
 
-/// Calls whoever shows the pictures.
+/// Calls whoever shows the images.
 pub(super) type Wake = Box<dyn Fn() + Send>;
 
 /// One step: what is to be shown of it, and when the next is due. A panic is told as a failure, and
@@ -18,18 +18,18 @@ pub(super) type Wake = Box<dyn Fn() + Send>;
 pub(super) fn step(
     maker: &mut FrameMaker,
     backend: Backend,
-    wish: &Wish,
+    wish: &LatestRequest,
     claim: Ask<'_>,
-) -> (Option<Outcome>, Next) {
+) -> (Option<FrameResult>, NextStep) {
     let made = catch_unwind(AssertUnwindSafe(|| maker.step(wish, Instant::now(), claim)));
     match made {
         Ok(Ok(StepResult { frame, next })) => (frame.map(Ok), next),
-        Ok(Err(StageEnd::Cancelled)) => (None, Next::More),
-        Ok(Err(StageEnd::Failed(failure))) => (Some(Err(failure)), Next::Rest),
+        Ok(Err(FrameStop::Cancelled)) => (None, NextStep::More),
+        Ok(Err(FrameStop::Failed(failure))) => (Some(Err(failure)), NextStep::Rest),
         Err(_) => {
             *maker = FrameMaker::new(backend);
             let message = PANIC.to_owned();
-            (Some(Err(Failure { fault: Fault::Program, message })), Next::Rest)
+            (Some(Err(ImageFailure { fault: FaultOrigin::Program, message })), NextStep::Rest)
         }
     }
 }
@@ -37,7 +37,7 @@ pub(super) fn step(
 const PANIC: &str = "a mistake of the program keeps it from drawing this; choose something else, and please report it";
 
 /// Adds an outcome; of frames that nobody has taken the last one is enough.
-fn add(outcomes: &mut Vec<Outcome>, outcome: Option<Outcome>) {
+fn add(outcomes: &mut Vec<FrameResult>, outcome: Option<FrameResult>) {
     let Some(outcome) = outcome else { return };
     if outcome.is_ok() && outcomes.last().is_some_and(Result::is_ok) {
         outcomes.pop();
@@ -45,42 +45,42 @@ fn add(outcomes: &mut Vec<Outcome>, outcome: Option<Outcome>) {
     outcomes.push(outcome);
 }
 
-/// A thread that makes pictures.
-pub(super) struct Worker(Arc<Shared>);
+/// A thread that makes images.
+pub(super) struct Worker(Arc<WorkerChannel>);
 
 #[derive(Default)]
-struct Shared {
+struct WorkerChannel {
     state: Mutex<WorkerState>,
     changed: Condvar,
 }
 
 #[derive(Default)]
 struct WorkerState {
-    wish: Option<Wish>,
+    wish: Option<LatestRequest>,
     /// Wishes so far, and the last one that is fulfilled.
     wishes: usize,
     fulfilled: usize,
     is_closed: bool,
-    outcomes: Vec<Outcome>,
+    outcomes: Vec<FrameResult>,
 }
 
-impl Shared {
+impl WorkerChannel {
     fn state(&self) -> MutexGuard<'_, WorkerState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The wish to work for, with its number, when something is to be done for it; none if nobody
     /// wants anything any more.
-    fn next(&self, number: usize, next: Next) -> Option<(Wish, usize)> {
+    fn next(&self, number: usize, next: NextStep) -> Option<(LatestRequest, usize)> {
         let is_waiting = |state: &mut WorkerState| state.wishes == number && !state.is_closed;
         let mut state = self.state();
         state = match next {
-            Next::More => state,
-            Next::After(time) => {
+            NextStep::More => state,
+            NextStep::After(time) => {
                 let waited = self.changed.wait_timeout_while(state, time, is_waiting);
                 waited.unwrap_or_else(PoisonError::into_inner).0
             }
-            Next::Rest => {
+            NextStep::Rest => {
                 let waited = self.changed.wait_while(state, is_waiting);
                 waited.unwrap_or_else(PoisonError::into_inner)
             }
@@ -89,35 +89,35 @@ impl Shared {
         Some((wish, state.wishes))
     }
 
-    fn claim(&self, number: usize) -> Claim {
+    fn claim(&self, number: usize) -> FrameClaim {
         let state = self.state();
         match () {
-            () if state.is_closed => Claim::Gone,
-            () if state.wishes != number => Claim::Replaced,
-            () => Claim::Wanted,
+            () if state.is_closed => FrameClaim::Gone,
+            () if state.wishes != number => FrameClaim::Replaced,
+            () => FrameClaim::Wanted,
         }
     }
 }
 
 impl Worker {
     pub(super) fn new(backend: Backend, wake: Wake) -> Self {
-        let shared = Arc::new(Shared::default());
+        let shared = Arc::new(WorkerChannel::default());
         let theirs = Arc::clone(&shared);
         thread::spawn(move || serve(&theirs, backend, &wake));
         Self(shared)
     }
 
-    pub(super) fn want(&self, wish: Wish) {
+    pub(super) fn want(&self, wish: LatestRequest) {
         let mut state = self.0.state();
         state.wish = Some(wish);
         state.wishes += 1;
-        // why something else had no picture is no news
+        // why something else had no image is no news
         state.outcomes.retain(Result::is_ok);
         drop(state);
         self.0.changed.notify_all();
     }
 
-    pub(super) fn take(&mut self) -> Vec<Outcome> {
+    pub(super) fn take(&mut self) -> Vec<FrameResult> {
         std::mem::take(&mut self.0.state().outcomes)
     }
 
@@ -134,10 +134,10 @@ impl Drop for Worker {
     }
 }
 
-/// Makes pictures until nobody wants any.
-fn serve(shared: &Shared, backend: Backend, wake: &Wake) {
+/// Makes images until nobody wants any.
+fn serve(shared: &WorkerChannel, backend: Backend, wake: &Wake) {
     let mut maker = FrameMaker::new(backend);
-    let (mut number, mut next) = (0, Next::Rest);
+    let (mut number, mut next) = (0, NextStep::Rest);
     while let Some((wish, newest)) = shared.next(number, next) {
         number = newest;
         let outcome;
@@ -147,11 +147,11 @@ fn serve(shared: &Shared, backend: Backend, wake: &Wake) {
         let outcome = outcome.filter(|outcome| outcome.is_ok() || !is_stale);
         let has_news = outcome.is_some();
         add(&mut state.outcomes, outcome);
-        if next == Next::Rest {
+        if next == NextStep::Rest {
             state.fulfilled = number;
         }
         drop(state);
-        if has_news || next == Next::Rest {
+        if has_news || next == NextStep::Rest {
             wake();
         }
     }

@@ -1,30 +1,30 @@
-//! The direct picture against a resampled one: the method, the grid, and what it costs; and against
+//! The direct image against a resampled one: the method, the grid, and what it costs; and against
 //! the one on the left.
 
 use egui::{Grid, RichText, Slider, Ui};
 use ppum::text::trimmed_to;
 use ppum_render::resample::Interpolation;
-use ppum_render::resample::norms::{NAMES, Norms};
+use ppum_render::resample::norms::{DifferenceNorms, NAMES};
 use ppum_scene::compare::Compare;
-use ppum_scene::range::Telling;
+use ppum_scene::range::RangeLocations;
 
 use super::{failure, note, wrong};
 use crate::actions::Action;
-use crate::desk::Desk;
-use crate::frames::{Fault, Frame, Other};
+use crate::frames::{FaultOrigin, RenderedFrame, ResampledView};
+use crate::panel_context::PanelContext;
 use crate::reading::words::value;
 use crate::session::Pane;
 use crate::stage::difference::rounded;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     against_left(ui, desk);
     ui.separator();
     against_resampled(ui, desk);
 }
 
 /// The difference of the two views, how large it is, and where.
-fn against_left(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn against_left(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let mut is_on = desk.session.minus.is_shown;
     let text =
         "On the right, the values minus those of the left: of two files, steps or quantities";
@@ -46,11 +46,11 @@ fn against_left(ui: &mut Ui, desk: &mut Desk<'_>) {
             ui.label(RichText::new(warning).color(wrong(ui)));
         }
     }
-    failure(ui, stage, Fault::Minus);
+    failure(ui, stage, FaultOrigin::Minus);
 }
 
 /// The norms of a difference, and what part of the left they are.
-fn sizes(ui: &mut Ui, norms: &Norms, unit: &str) {
+fn sizes(ui: &mut Ui, norms: &DifferenceNorms, unit: &str) {
     Grid::new("difference").num_columns(3).spacing([14.0, 2.0]).show(ui, |ui| {
         let all = NAMES.into_iter().zip(norms.absolute).zip(norms.relative());
         for ((name, size), part) in all {
@@ -63,9 +63,9 @@ fn sizes(ui: &mut Ui, norms: &Norms, unit: &str) {
 }
 
 /// The least and the largest difference, with their places.
-fn extrema(ui: &mut Ui, frame: &Frame, unit: &str) {
+fn extrema(ui: &mut Ui, frame: &RenderedFrame, unit: &str) {
     let Some(values) = &frame.picture.span.values else { return };
-    let telling = Telling::new(frame.field.dataset(), frame.field.field());
+    let telling = RangeLocations::new(frame.field.dataset(), frame.field.field());
     let unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
     let names = ["smallest", "largest"].into_iter();
     for (name, told) in names.zip(telling.extrema(values, frame.picture.view.width)) {
@@ -75,7 +75,7 @@ fn extrema(ui: &mut Ui, frame: &Frame, unit: &str) {
     ui.label(note(ui, text));
 }
 
-fn against_resampled(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn against_resampled(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     let mut is_on = pane.compare.is_some();
     let text = "What a picture looks like that is interpolated between the points of a grid";
@@ -102,7 +102,7 @@ fn against_resampled(ui: &mut Ui, desk: &mut Desk<'_>) {
             None => {}
         }
     }
-    failure(ui, stage, Fault::Compare);
+    failure(ui, stage, FaultOrigin::Compare);
 }
 
 /// Method, grid, and what stands on the right of the divider.
@@ -138,7 +138,7 @@ fn grid(compare: &mut Compare) -> Slider<'_> {
 }
 
 /// Errors over the pixels that are seen, memory and time.
-fn measured(ui: &mut Ui, other: &Other) {
+fn measured(ui: &mut Ui, other: &ResampledView) {
     let relative = other.norms.relative();
     Grid::new("measured").num_columns(3).spacing([14.0, 2.0]).show(ui, |ui| {
         for (name, error) in NAMES.into_iter().zip(relative) {

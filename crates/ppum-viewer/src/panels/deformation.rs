@@ -1,21 +1,21 @@
-//! The deformed plate: how much, at rest or in motion.
+//! The deformed body: how much, at rest or in motion.
 
 use egui::{Slider, Ui};
 use ppum::text::trimmed_to;
-use ppum_scene::deformed::{Factor, words};
+use ppum_scene::deformed::{Magnification, words};
 use ppum_scene::help::tooltip;
 use ppum_scene::mirror::Mirror;
 
 use super::{failure, note};
 use crate::controls::Controls;
-use crate::controls::swing::Swing;
-use crate::desk::Desk;
-use crate::frames::Fault;
+use crate::controls::deformation_animation::DeformationAnimation;
+use crate::frames::FaultOrigin;
+use crate::panel_context::PanelContext;
 use crate::session::Pane;
-use crate::stage::Stage;
+use crate::stage::ViewPane;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     let is_elastic = stage.controls.facts.is_elastic;
     let is_off = pane.scene.deformed.is_none();
@@ -31,8 +31,8 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     }
     mirror(ui, pane);
     factor_note(ui, stage);
-    failure(ui, stage, Fault::Deformed);
-    failure(ui, stage, Fault::Mirror);
+    failure(ui, stage, FaultOrigin::Deformed);
+    failure(ui, stage, FaultOrigin::Mirror);
 }
 
 /// The whole of a half or quarter model.
@@ -46,14 +46,18 @@ fn mirror(ui: &mut Ui, pane: &mut Pane) {
 fn kinds(ui: &mut Ui, pane: &mut Pane, controls: &Controls) {
     let deformed = &mut pane.scene.deformed;
     let given = match *deformed {
-        Some(Factor::Given(factor)) => factor,
+        Some(Magnification::Given(factor)) => factor,
         _ => controls.factor.unwrap_or(1.0),
     };
     ui.horizontal(|ui| {
         for (factor, name, meaning) in [
             (None, "off", "The plate as it was before it was loaded"),
-            (Some(Factor::Auto), "automatic", "The largest displacement is some 5 % of the plate"),
-            (Some(Factor::Given(given)), "factor", "So many times its displacement"),
+            (
+                Some(Magnification::Auto),
+                "automatic",
+                "The largest displacement is some 5 % of the plate",
+            ),
+            (Some(Magnification::Given(given)), "factor", "So many times its displacement"),
         ] {
             ui.selectable_value(deformed, factor, name).on_hover_text(meaning);
         }
@@ -64,7 +68,7 @@ fn kinds(ui: &mut Ui, pane: &mut Pane, controls: &Controls) {
 fn factor(ui: &mut Ui, pane: &mut Pane, controls: &Controls) {
     let usual = controls.factor.unwrap_or(1.0);
     let mut factor = match pane.scene.deformed {
-        Some(Factor::Given(factor)) => factor,
+        Some(Magnification::Given(factor)) => factor,
         _ => usual,
     };
     // a slider counts in logarithms, which factors of nearly no or of huge displacements leave
@@ -76,7 +80,7 @@ fn factor(ui: &mut Ui, pane: &mut Pane, controls: &Controls) {
         .custom_formatter(|factor, _| trimmed_to(factor, 3))
         .custom_parser(crate::controls::range::parse);
     if ui.add(slider).accessible_name("Factor of the deformation").changed() && factor.is_finite() {
-        pane.scene.deformed = Some(Factor::Given(factor));
+        pane.scene.deformed = Some(Magnification::Given(factor));
     }
 }
 
@@ -85,7 +89,7 @@ const SMALLEST: f64 = 1e-100;
 /// The slider's ends are so many times the automatic factor, its smallest step one over that.
 const DECADES: f64 = 100.0;
 
-/// The factor from nothing to all and back; the border of the plate as it was.
+/// The factor from nothing to all and back; the border of the body as it was.
 fn motion(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls) {
     ui.horizontal(|ui| {
         let (sign, name) = match controls.swing {
@@ -94,14 +98,14 @@ fn motion(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls) {
         };
         if crate::widgets::button(ui, sign, name).clicked() {
             let now = ui.input(|input| input.time);
-            controls.swing = controls.swing.is_none().then(|| Swing::new(now));
+            controls.swing = controls.swing.is_none().then(|| DeformationAnimation::new(now));
         }
         ui.checkbox(&mut pane.scene.outline, "outline").on_hover_text(tooltip("outline"));
     });
 }
 
-/// The factor of the picture.
-fn factor_note(ui: &mut Ui, stage: &Stage) {
+/// The factor of the image.
+fn factor_note(ui: &mut Ui, stage: &ViewPane) {
     let factor = stage.frames.newest().and_then(|frame| frame.factor);
     if let Some(factor) = factor {
         // a factor in motion has no digits that one could read

@@ -1,4 +1,4 @@
-//! Saving what is seen: a picture, a figure, a moving picture; and the command that draws it.
+//! Saving what is seen: an image, a figure, an animation; and the command that draws it.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -7,33 +7,33 @@ use std::time::Duration;
 
 use egui::{ComboBox, DragValue, Grid, Key, Modifiers, TextEdit, Ui, Window};
 use ppum_scene::help::tooltip;
-use ppum_scene::moving::Moving;
+use ppum_scene::moving::MotionKind;
 
-use crate::export::{ExportChoice, ExportKind, LengthUnit, Order, PageSize};
+use crate::export::{ExportChoice, ExportKind, ImageExport, LengthUnit, PageSize};
 use crate::field::OwnedField;
-use crate::frames::Frame;
-use crate::job::Job;
-use crate::replacing::{ASK, Replacing};
+use crate::frames::RenderedFrame;
+use crate::job::BackgroundJob;
+use crate::replaced_file::{ASK, ReplacedFile};
 use crate::session::Pane;
-use crate::stage::Stage;
+use crate::stage::ViewPane;
 use crate::widgets::note_folder;
 
-/// What is to be written, while one chooses it and while it is made.
+/// The export dialog, while it is open and while the file is made.
 pub struct Exporter {
     what: ExportChoice,
     path: String,
     page: PageSize,
     /// The page of the other kinds.
     other: PageSize,
-    /// Pictures a second.
+    /// Images a second.
     rate: f64,
-    /// Pictures of the deformation's coming and going.
+    /// Images of the deformation's coming and going.
     count: usize,
-    job: Option<Job<Result<String, String>>>,
-    /// Pictures of an animation that were worked on, in both passes.
+    job: Option<BackgroundJob<Result<String, String>>>,
+    /// Images of an animation that were worked on, in both passes.
     done: Arc<AtomicUsize>,
     told: Option<Result<String, String>>,
-    replacing: Replacing,
+    replacing: ReplacedFile,
     /// The name is written next.
     is_new: bool,
 }
@@ -44,7 +44,7 @@ const MOST: f64 = 16_384.0;
 impl Exporter {
     /// Begins with a kind, and the size and name that suit what is seen.
     #[must_use]
-    pub fn new(what: ExportChoice, stage: &Stage) -> Self {
+    pub fn new(what: ExportChoice, stage: &ViewPane) -> Self {
         let pixels = PageSize::pixels(stage.view.map_or([1024, 768], |view| view.pixels));
         let (page, other) = match what {
             ExportChoice::Figure => (PageSize::COLUMN, pixels),
@@ -64,7 +64,7 @@ impl Exporter {
             job: None,
             done: Arc::default(),
             told: None,
-            replacing: Replacing::default(),
+            replacing: ReplacedFile::default(),
             is_new: true,
         }
     }
@@ -79,7 +79,7 @@ impl Exporter {
     }
 
     /// Shows the choice; false once it is closed.
-    pub fn show(&mut self, ui: &Ui, pane: &Pane, stage: &mut Stage) -> bool {
+    pub fn show(&mut self, ui: &Ui, pane: &Pane, stage: &mut ViewPane) -> bool {
         self.finish();
         let mut is_open = true;
         let has_list = egui::Popup::is_any_open(ui.ctx());
@@ -99,7 +99,13 @@ impl Exporter {
         is_open && !is_closed
     }
 
-    fn choose(&mut self, ui: &mut Ui, pane: &Pane, stage: &mut Stage, frame: &Arc<Frame>) {
+    fn choose(
+        &mut self,
+        ui: &mut Ui,
+        pane: &Pane,
+        stage: &mut ViewPane,
+        frame: &Arc<RenderedFrame>,
+    ) {
         let grid = Grid::new("save").num_columns(2);
         let file = stage.opened.as_ref().and_then(|opened| opened.path.as_deref());
         let is_entered = grid.show(ui, |ui| self.fields(ui, frame, file)).inner;
@@ -142,7 +148,7 @@ impl Exporter {
     }
 
     /// The fields; true if Enter has finished the name.
-    fn fields(&mut self, ui: &mut Ui, frame: &Frame, file: Option<&Path>) -> bool {
+    fn fields(&mut self, ui: &mut Ui, frame: &RenderedFrame, file: Option<&Path>) -> bool {
         let before = self.what;
         ui.label("Kind");
         ComboBox::from_id_salt("kind").selected_text(self.what.name()).show_ui(ui, |ui| {
@@ -227,9 +233,9 @@ impl Exporter {
         self.path = Path::new(self.path.trim()).with_extension(end).to_string_lossy().into_owned();
     }
 
-    fn order(&self, pane: &Pane, stage: &mut Stage, frame: &Arc<Frame>) -> Order {
+    fn order(&self, pane: &Pane, stage: &mut ViewPane, frame: &Arc<RenderedFrame>) -> ImageExport {
         let steps = (0..frame.field.dataset().steps.len()).collect();
-        Order {
+        ImageExport {
             field: Arc::clone(&frame.field),
             file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),
             left: frame.left(),
@@ -242,9 +248,9 @@ impl Exporter {
             kind: match self.what {
                 ExportChoice::Picture => ExportKind::Picture,
                 ExportChoice::Figure => ExportKind::Figure,
-                ExportChoice::Steps => ExportKind::Moving(Moving::Steps(steps), self.rate),
+                ExportChoice::Steps => ExportKind::Moving(MotionKind::Steps(steps), self.rate),
                 ExportChoice::Deformation => ExportKind::Moving(
-                    Moving::Factor(frame.factor.unwrap_or(1.0), self.count),
+                    MotionKind::Factor(frame.factor.unwrap_or(1.0), self.count),
                     self.rate,
                 ),
             },
@@ -272,8 +278,8 @@ impl Exporter {
         is_input.then(|| "This file is the dataset itself; choose another name.".into())
     }
 
-    /// Begins to write; the factor of a plate that is not deformed is looked for then.
-    fn save(&mut self, ui: &Ui, (mut order, factor): (Order, Option<f64>), path: PathBuf) {
+    /// Begins to write; the factor of a body that is not deformed is looked for then.
+    fn save(&mut self, ui: &Ui, (mut order, factor): (ImageExport, Option<f64>), path: PathBuf) {
         if !self.replacing.allows(&path) {
             self.told = Some(Err(format!("{}: {ASK}", path.display())));
             return;
@@ -281,8 +287,8 @@ impl Exporter {
         self.told = None;
         let done = Arc::clone(&self.done);
         done.store(0, Ordering::Relaxed);
-        self.job = Some(Job::start(ui.ctx(), move |stop| {
-            if let (ExportKind::Moving(Moving::Factor(unknown, _), _), None) =
+        self.job = Some(BackgroundJob::start(ui.ctx(), move |stop| {
+            if let (ExportKind::Moving(MotionKind::Factor(unknown, _), _), None) =
                 (&mut order.kind, factor)
             {
                 *unknown = automatic(&order.field).unwrap_or(1.0);
@@ -295,7 +301,7 @@ impl Exporter {
     }
 
     fn finish(&mut self) {
-        let Some(outcome) = self.job.as_ref().and_then(Job::poll) else { return };
+        let Some(outcome) = self.job.as_ref().and_then(BackgroundJob::poll) else { return };
         self.job = None;
         self.told = Some(outcome.and_then(|outcome| outcome));
     }
@@ -365,10 +371,10 @@ fn side(ui: &mut Ui, name: &str, value: &mut f64, is_paper: bool) {
 }
 
 /// The number of images of an animation.
-fn count(moving: &Moving) -> usize {
+fn count(moving: &MotionKind) -> usize {
     match moving {
-        Moving::Steps(steps) => steps.len(),
-        Moving::Factor(_, count) => *count,
+        MotionKind::Steps(steps) => steps.len(),
+        MotionKind::Factor(_, count) => *count,
     }
 }
 
@@ -380,7 +386,7 @@ fn progress(done: usize, count: usize) -> String {
     }
 }
 
-/// The command that draws the picture, to be copied.
+/// The command that draws the image, to be copied.
 pub fn command(ui: &mut Ui, command: &Result<String, String>) {
     match command {
         Ok(command) => {
@@ -403,9 +409,9 @@ pub fn command(ui: &mut Ui, command: &Result<String, String>) {
     }
 }
 
-/// The factor that shows the largest displacement as some 5 % of the plate.
+/// The factor that shows the largest displacement as some 5 % of the body.
 fn automatic(field: &OwnedField) -> Option<f64> {
-    ppum_scene::deformed::Factor::Auto.number(&[field.field()]).ok()
+    ppum_scene::deformed::Magnification::Auto.number(&[field.field()]).ok()
 }
 
 /// A name beside the dataset's.

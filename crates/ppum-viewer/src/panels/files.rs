@@ -6,15 +6,15 @@ use std::time::Duration;
 use egui::{Align2, Area, Frame, Id, Label, Order, ProgressBar, RichText, ScrollArea, Spinner, Ui};
 
 use crate::actions::Action;
-use crate::desk::Desk;
 use crate::export::ExportChoice;
 use crate::files::examples;
 use crate::files::name;
-use crate::files::read::{Reading, Why};
+use crate::files::read::{FileRead, Why};
+use crate::panel_context::PanelContext;
 use crate::widgets::button;
 
 /// The menu.
-pub fn menu(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn menu(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     ui.menu_button("File", |ui| {
         let has_dataset = desk.active().1.opened.is_some();
         for (name, action, is_possible) in [
@@ -43,8 +43,8 @@ pub fn menu(ui: &mut Ui, desk: &mut Desk<'_>) {
     });
 }
 
-/// What can be saved of the picture.
-pub fn exports(ui: &mut Ui, desk: &mut Desk<'_>) {
+/// Shows the exports of the image.
+pub fn exports(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let stage = desk.active().1;
     let steps = stage.opened.as_ref().map_or(0, |opened| opened.dataset.steps.len());
     let (has_dataset, is_elastic) = (steps > 0, steps > 0 && !stage.is_rigid());
@@ -63,7 +63,7 @@ pub fn exports(ui: &mut Ui, desk: &mut Desk<'_>) {
 }
 
 /// Files that were opened, the newest first.
-pub fn recent(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn recent(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let recent: Vec<PathBuf> = desk.files.kept.recent.clone();
     if recent.is_empty() {
         ui.weak("None yet.");
@@ -76,9 +76,9 @@ pub fn recent(ui: &mut Ui, desk: &mut Desk<'_>) {
     }
 }
 
-/// What is being read, and what is told of files: over the plate's upper edge, so that nothing
-/// moves for it.
-pub fn notes(ui: &Ui, desk: &mut Desk<'_>) {
+/// Shows the files that are being read, and notes about files: over the view's upper edge, so that
+/// nothing moves for them.
+pub fn notes(ui: &Ui, desk: &mut PanelContext<'_>) {
     let waits = desk.files.readings().iter().filter_map(|r| QUICK.checked_sub(r.since.elapsed()));
     if let Some(rest) = waits.min() {
         ui.ctx().request_repaint_after(rest);
@@ -102,14 +102,14 @@ pub fn notes(ui: &Ui, desk: &mut Desk<'_>) {
     });
 }
 
-/// What is read within this time is not told: words that come and go at once only disturb.
+/// Files that are read within this time are not shown: words that come and go at once only disturb.
 const QUICK: Duration = Duration::from_millis(300);
 
-fn is_slow(reading: &Reading) -> bool {
+fn is_slow(reading: &FileRead) -> bool {
     reading.since.elapsed() > QUICK
 }
 
-fn readings(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn readings(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let mut cancelled = None;
     for reading in desk.files.readings().iter().filter(|reading| is_slow(reading)) {
         ui.horizontal(|ui| {
@@ -133,7 +133,7 @@ fn readings(ui: &mut Ui, desk: &mut Desk<'_>) {
     }
 }
 
-fn notes_panel(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn notes_panel(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let mut closed = None;
     for note in &desk.files.notes {
         ui.horizontal(|ui| {

@@ -12,13 +12,13 @@ use super::quantity::version;
 use super::{back, failure, note};
 use crate::controls::Controls;
 use crate::controls::facts::Stem;
-use crate::desk::Desk;
-use crate::frames::Fault;
+use crate::frames::FaultOrigin;
+use crate::panel_context::PanelContext;
 use crate::session::Pane;
 use crate::widgets::editor::{EditedText, TextDiagnostic};
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     let Some(opened) = &stage.opened else { return };
     let dataset = Arc::clone(&opened.dataset);
@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         subject.weight = None;
         controls.editors.retain(|name, _| name == "quantity");
     }
-    failure(ui, stage, Fault::Subject);
+    failure(ui, stage, FaultOrigin::Subject);
 }
 
 /// The weight: one of the library, or a formula of t.

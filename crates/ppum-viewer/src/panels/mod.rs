@@ -1,4 +1,4 @@
-//! What stands around the plate. Panels change the session and nothing else.
+//! Panels around the view. Panels change the session and nothing else.
 
 pub mod colors;
 pub mod compare;
@@ -19,14 +19,14 @@ pub mod top;
 
 use egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 
-use crate::desk::Desk;
-use crate::frames::Fault;
-use crate::stage::Stage;
+use crate::frames::FaultOrigin;
+use crate::panel_context::PanelContext;
+use crate::stage::ViewPane;
 pub(crate) use crate::widgets::{button, note, wrong};
 
 /// The panels on the right, one below the other, each of which folds.
-pub fn side(ui: &mut Ui, desk: &mut Desk<'_>) {
-    type Show = fn(&mut Ui, &mut Desk<'_>);
+pub fn side(ui: &mut Ui, desk: &mut PanelContext<'_>) {
+    type Show = fn(&mut Ui, &mut PanelContext<'_>);
     const ALL: [(&str, Show, bool); 8] = [
         ("Quantity", quantity::show, true),
         ("Colours", colors::show, true),
@@ -47,8 +47,8 @@ pub fn side(ui: &mut Ui, desk: &mut Desk<'_>) {
     });
 }
 
-/// The reason why there is no picture of what is wanted, where it arose.
-fn failure(ui: &mut Ui, stage: &Stage, fault: Fault) {
+/// The reason why there is no image of what is wanted, where it arose.
+fn failure(ui: &mut Ui, stage: &ViewPane, fault: FaultOrigin) {
     if let Some(failure) = stage.frames.failure().filter(|failure| failure.fault == fault) {
         ui.label(RichText::new(&failure.message).color(wrong(ui)));
     }

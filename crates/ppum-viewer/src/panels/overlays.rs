@@ -1,24 +1,24 @@
-//! What lies over the colours.
+//! The panel of overlays.
 
 use egui::{Checkbox, DragValue, RichText, Sense, TextEdit, Ui, vec2};
 use ppum_figure::overlay::{LegendEntry, Symbol};
 use ppum_scene::help::tooltip;
-use ppum_scene::overlays::{Levels, Overlay, Overlays, SPACING};
+use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays, SPACING};
 
 use super::{failure, note, wrong};
 use crate::controls::Controls;
 use crate::controls::draft::LevelsDraft;
-use crate::desk::Desk;
-use crate::frames::Fault;
+use crate::frames::FaultOrigin;
+use crate::panel_context::PanelContext;
 use crate::session::Pane;
 use crate::shapes::color;
-use crate::stage::Stage;
+use crate::stage::ViewPane;
 
 /// Distances of arrows and crosses \[pixels\].
 const SPACINGS: std::ops::RangeInclusive<f64> = 8.0..=400.0;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     ui.columns(2, |columns| {
         for (number, overlay) in Overlay::ALL.into_iter().enumerate() {
@@ -36,7 +36,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         ui.label(note(ui, "A difference has no isolines: they are found of one field"));
     }
     legend(ui, stage);
-    failure(ui, stage, Fault::Overlays);
+    failure(ui, stage, FaultOrigin::Overlays);
 }
 
 /// An overlay, with the reason why there is none of it.
@@ -72,7 +72,7 @@ fn isolines(ui: &mut Ui, overlays: &mut Overlays, controls: &mut Controls) {
         let mut is_on = overlays.isolines.is_some();
         let checkbox = ui.checkbox(&mut is_on, "isolines");
         if checkbox.on_hover_text(tooltip("isolines")).changed() {
-            overlays.isolines = is_on.then_some(Levels::Auto);
+            overlays.isolines = is_on.then_some(IsolineLevels::Auto);
         }
         if is_on {
             levels(ui, overlays, controls);
@@ -89,14 +89,14 @@ fn isolines(ui: &mut Ui, overlays: &mut Overlays, controls: &mut Controls) {
 fn levels(ui: &mut Ui, overlays: &mut Overlays, controls: &mut Controls) {
     let draft = &mut controls.levels;
     if draft.base != overlays.isolines {
-        let text = overlays.isolines.as_ref().map(Levels::to_string).unwrap_or_default();
+        let text = overlays.isolines.as_ref().map(IsolineLevels::to_string).unwrap_or_default();
         *draft = LevelsDraft { text, base: overlays.isolines.clone(), mistake: None };
     }
     let edit = TextEdit::singleline(&mut draft.text).desired_width(90.0);
     let help = "auto, a number of levels, or their values with commas: 0.5, for one";
     let edit = ui.add(edit).accessible_name("Levels of isolines").on_hover_text(help);
     if edit.changed() {
-        match draft.text.parse::<Levels>() {
+        match draft.text.parse::<IsolineLevels>() {
             Ok(levels) => {
                 (draft.base, draft.mistake) = (Some(levels.clone()), None);
                 overlays.isolines = Some(levels);
@@ -123,8 +123,9 @@ fn glyphs(ui: &mut Ui, spacing: &mut Option<f64>, name: &str, why: Option<&str>)
     });
 }
 
-/// What marks mean that the plate has no room for, and what is not seen.
-fn legend(ui: &mut Ui, stage: &Stage) {
+/// Shows the legend entries that have no room on the image, and notices about overlays that are not
+/// visible.
+fn legend(ui: &mut Ui, stage: &ViewPane) {
     let Some(frame) = stage.frames.newest() else { return };
     for entry in &frame.layers.legend {
         line(ui, entry);

@@ -4,14 +4,14 @@ use egui::{Align2, Key, ScrollArea, TextEdit, Ui, Window};
 
 use crate::actions::{ALL, Action, ActionEntry, spelled, synonyms};
 
-/// What is looked for.
+/// The search text.
 #[derive(Clone, Debug, Default)]
-pub struct Palette {
+pub struct CommandPalette {
     text: String,
     chosen: usize,
 }
 
-impl Palette {
+impl CommandPalette {
     /// Shows it, with the actions that are possible; true once it is done, with the action that was
     /// chosen, if any.
     pub fn show(
@@ -72,7 +72,7 @@ mod tests {
     use crate::export::ExportChoice;
     use crate::session::DrawerPage;
 
-    /// What newcomers type leads to what they want.
+    /// Words that newcomers type lead to the actions that they want.
     #[test]
     fn people_find_what_they_call_otherwise() {
         for (words, action) in [

@@ -1,16 +1,16 @@
 //! Parts of the field: smooth, jump, tip, one patch.
 
 use egui::{Button, DragValue, Ui};
-use ppum::decompose::{KINDS, Part};
+use ppum::decompose::{FieldPart, KINDS};
 
 use super::failure;
 use crate::controls::Controls;
-use crate::desk::Desk;
-use crate::frames::Fault;
+use crate::frames::FaultOrigin;
+use crate::panel_context::PanelContext;
 use crate::session::Pane;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     let part = pane.scene.subject.part.as_deref().and_then(|part| part.parse().ok());
     ui.horizontal_wrapped(|ui| {
@@ -23,10 +23,16 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
         }
     });
     patch(ui, pane, &mut stage.controls, part);
-    failure(ui, stage, Fault::Subject);
+    failure(ui, stage, FaultOrigin::Subject);
 }
 
-fn kind_button(ui: &mut Ui, pane: &mut Pane, controls: &Controls, kind: Part, part: Option<Part>) {
+fn kind_button(
+    ui: &mut Ui,
+    pane: &mut Pane,
+    controls: &Controls,
+    kind: FieldPart,
+    part: Option<FieldPart>,
+) {
     let is_chosen = part == Some(kind);
     let has_it = controls.facts.parts.contains(&kind);
     let button = Button::selectable(is_chosen, kind.to_string());
@@ -37,21 +43,21 @@ fn kind_button(ui: &mut Ui, pane: &mut Pane, controls: &Controls, kind: Part, pa
     }
 }
 
-fn meaning(kind: Part) -> &'static str {
+fn meaning(kind: FieldPart) -> &'static str {
     match kind {
-        Part::Smooth => "Polynomials alone",
-        Part::Jump => "Polynomials times the side of a crack, or on one component of a patch",
-        Part::Tip => "Functions of crack tips",
-        Part::Other => "Functions of corners and of one's own",
-        Part::Patch(_) => "One patch",
+        FieldPart::Smooth => "Polynomials alone",
+        FieldPart::Jump => "Polynomials times the side of a crack, or on one component of a patch",
+        FieldPart::Tip => "Functions of crack tips",
+        FieldPart::Other => "Functions of corners and of one's own",
+        FieldPart::Patch(_) => "One patch",
     }
 }
 
-/// One patch, by its number or by a click on the plate.
-fn patch(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, part: Option<Part>) {
+/// One patch, by its number or by a click on the body.
+fn patch(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, part: Option<FieldPart>) {
     ui.horizontal(|ui| {
         let chosen = match part {
-            Some(Part::Patch(patch)) => Some(patch),
+            Some(FieldPart::Patch(patch)) => Some(patch),
             _ => None,
         };
         let mut number = chosen.unwrap_or(0);
@@ -60,7 +66,7 @@ fn patch(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, part: Option<Par
         let value = DragValue::new(&mut number).range(0..=last).speed(0.2);
         let value = ui.add(value).accessible_name("Number of the patch");
         if of.clicked() || value.changed() {
-            pane.scene.subject.part = Some(Part::Patch(number).to_string());
+            pane.scene.subject.part = Some(FieldPart::Patch(number).to_string());
         }
         let is_moved = pane.scene.deformed.is_some();
         let pick = Button::selectable(controls.is_picking, "pick");

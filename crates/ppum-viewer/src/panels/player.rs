@@ -3,22 +3,22 @@
 use egui::{DragValue, Label, RichText, Slider, Ui};
 use ppum::dataset::Step;
 use ppum::text::trimmed;
-use ppum_scene::facts::Growth;
+use ppum_scene::facts::GrowthFacts;
 
 use crate::actions::Action;
-use crate::desk::Desk;
+use crate::panel_context::PanelContext;
 use crate::player::SPEEDS;
 use crate::widgets::button;
 
 /// Shows the player if the dataset is a series, in a row of its own, which is never broken.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let opened = desk.active().1.opened.as_ref();
     if opened.is_some_and(|opened| opened.dataset.steps.len() > 1) {
         ui.horizontal(|ui| row(ui, desk));
     }
 }
 
-fn row(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn row(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let active = desk.session.active;
     let Some(opened) = &desk.stages[active].opened else { return };
     let steps = &opened.dataset.steps;
@@ -64,10 +64,10 @@ fn row(ui: &mut Ui, desk: &mut Desk<'_>) {
     }
 }
 
-/// What the tips of the last steps do, the last one with tips included.
+/// Describes the actions of the tips in the last steps, the last one with tips included.
 fn ends(steps: &[Step]) -> String {
     let told = |(number, step): (usize, &Step)| {
-        let lines = Growth::new(step.growth.as_ref()?).lines();
+        let lines = GrowthFacts::new(step.growth.as_ref()?).lines();
         Some(format!("step {number}: {}", lines.join("; ")))
     };
     let first = steps.len().saturating_sub(2);

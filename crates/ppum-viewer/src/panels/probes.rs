@@ -1,20 +1,20 @@
 //! Probes: points whose values are kept in sight, and follow quantity and step.
 
 use egui::{RichText, Ui};
-use ppum_scene::table::{Column, Table};
+use ppum_scene::table::{Column, NumberTable};
 
 use crate::actions::Action;
-use crate::desk::Desk;
+use crate::panel_context::PanelContext;
 use crate::panels::drawer::plot::outputs;
-use crate::reading::probe::Probed;
+use crate::reading::probe::ProbeReading;
 use crate::reading::words;
 use crate::session::VisibleRegion;
-use crate::stage::Stage;
+use crate::stage::ViewPane;
 use crate::widgets::button;
 use crate::widgets::entry::entry;
 
 /// The list, what is read at each, and what can be done with it.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let mut extrema = desk.session.pane().extrema;
     if ui.checkbox(&mut extrema, "Mark the extrema of the view").changed() {
         desk.actions.push(Action::Extrema);
@@ -75,13 +75,13 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
 }
 
 /// The quantity's name and unit.
-fn names(stage: &mut Stage) -> Option<[String; 2]> {
+fn names(stage: &mut ViewPane) -> Option<[String; 2]> {
     let frame = stage.frame().cloned()?;
     let reader = stage.reading.reader(&frame);
     Some([reader.name.clone(), reader.unit.clone()])
 }
 
-fn probe_lines(ui: &mut Ui, probed: &Probed, [name, unit]: &[String; 2]) {
+fn probe_lines(ui: &mut Ui, probed: &ProbeReading, [name, unit]: &[String; 2]) {
     let mut lines = vec![words::values(probed, name, unit)];
     lines.extend(words::terms(probed));
     lines.extend(words::gradients(probed));
@@ -96,7 +96,7 @@ fn probe_lines(ui: &mut Ui, probed: &Probed, [name, unit]: &[String; 2]) {
 /// The probes with all digits: places as anchor and offset, a row for each side of a crack; of a
 /// difference also the values on the right and on the left.
 #[must_use]
-pub fn table(probes: &[Probed], [name, unit]: &[String; 2]) -> Table {
+pub fn table(probes: &[ProbeReading], [name, unit]: &[String; 2]) -> NumberTable {
     let plain = ["probe", "x", "y", "dx", "dy", "side"].map(|name| Column::new(name, ""));
     let slopes = ["dx", "dy"].map(|by| Column::new(&format!("d({name})/{by}"), ""));
     let is_difference = probes.iter().flat_map(|probed| &probed.sides).any(|s| s.terms.is_some());
@@ -118,5 +118,5 @@ pub fn table(probes: &[Probed], [name, unit]: &[String; 2]) -> Table {
             rows.extend(sided.terms.into_iter().flatten());
         }
     }
-    Table::new(columns, rows)
+    NumberTable::new(columns, rows)
 }

@@ -2,13 +2,13 @@
 
 use egui::{Button, RichText, Ui};
 use ppum::quantity::Quantity;
-use ppum_scene::drawing::Shown;
+use ppum_scene::drawing::DisplayedQuantity;
 use ppum_scene::scene::{default_quantity, shown};
 
 use super::failure;
-use crate::desk::Desk;
 use crate::field::OwnedField;
-use crate::frames::Fault;
+use crate::frames::FaultOrigin;
+use crate::panel_context::PanelContext;
 use crate::shapes::plain;
 use crate::widgets::chooser::named;
 use crate::widgets::editor::{EditedText, TextDiagnostic};
@@ -16,7 +16,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     let field = stage.controls.known.field().cloned();
     let default = field.as_ref().map_or("", |field| default_quantity(field.field()));
@@ -54,7 +54,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     if let Some(text) = chosen {
         pane.scene.quantity = (text != default).then_some(text);
     }
-    failure(ui, stage, Fault::Quantity);
+    failure(ui, stage, FaultOrigin::Quantity);
 }
 
 /// Another number for another field.
@@ -84,7 +84,7 @@ fn words(text: &str, field: &OwnedField) -> String {
 /// The formula behind a name of the file's or of the library's, to begin one's own with.
 fn formula_of(name: &str, field: Option<&OwnedField>) -> Option<String> {
     let field = field?.field();
-    let is_name = matches!(shown(name, field), Ok(Shown::Quantity(quantity))
+    let is_name = matches!(shown(name, field), Ok(DisplayedQuantity::Quantity(quantity))
         if !matches!(&quantity, Quantity::Formula(formula) if formula.label() != name));
     let vocabulary = ppum::quantity::Vocabulary::of(field);
     vocabulary.definition(name).filter(|_| is_name).map(Cow::into_owned)

@@ -1,4 +1,4 @@
-//! What is shown while no dataset is open: files of before, and examples.
+//! The start page, while no dataset is open: files of before, and examples.
 
 use egui::{
     Label, Rect, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, UiBuilder, Vec2, WidgetInfo,
@@ -6,13 +6,13 @@ use egui::{
 };
 
 use crate::actions::Action;
-use crate::desk::Desk;
 use crate::files::examples;
-use crate::shapes::{self, Placed};
+use crate::panel_context::PanelContext;
+use crate::shapes::{self, ImagePlacement};
 use crate::widgets::note;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let room = ui.available_width();
     ui.painter().rect_filled(ui.max_rect(), 0.0, ui.visuals().panel_fill);
     ScrollArea::vertical().id_salt("start").auto_shrink([false; 2]).show(ui, |ui| {
@@ -28,7 +28,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     });
 }
 
-fn page(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn page(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     ui.heading("ppum");
     ui.label("Fields with cracks, exact at every pixel, down to the tip.");
     ui.add_space(8.0);
@@ -56,12 +56,12 @@ fn page(ui: &mut Ui, desk: &mut Desk<'_>) {
     }
 }
 
-/// Size of a tile, and of the picture in it.
+/// Size of a tile, and of the image in it.
 const TILE: Vec2 = vec2(240.0, 64.0);
 const PICTURE: Vec2 = vec2(76.0, 56.0);
 
-/// An example: its plate, its title, and a line about it.
-fn tile(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
+/// An example: its body, its title, and a line about it.
+fn tile(ui: &mut Ui, desk: &mut PanelContext<'_>, number: usize) {
     let example = &examples::ALL[number];
     let (rect, response) = ui.allocate_exact_size(TILE, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, example.title()));
@@ -82,7 +82,7 @@ fn tile(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
     if let Some(preview) = desk.files.previews.of(number) {
         let items =
             preview.items([2.0 * PICTURE.x, 2.0 * PICTURE.y].map(|n| n as u32), 2.0 * LINES);
-        shapes::draw(&ui.painter_at(picture), Placed::new(picture.min, 0.5), &items);
+        shapes::draw(&ui.painter_at(picture), ImagePlacement::new(picture.min, 0.5), &items);
     }
     let text = Rect::from_min_max(pos2(picture.right() + 8.0, rect.top()), rect.max);
     let layout = egui::Layout::top_down(egui::Align::Min);
@@ -93,11 +93,11 @@ fn tile(ui: &mut Ui, desk: &mut Desk<'_>, number: usize) {
     ui.add(Label::new(about).selectable(false).wrap());
 }
 
-/// Widths of lines and signs in parts of those of pictures.
+/// Widths of lines and signs in parts of those of images.
 const LINES: f64 = 0.45;
 
 /// Files with their folders.
-fn recent(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn recent(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let recent = desk.files.kept.recent.clone();
     if recent.is_empty() {
         ui.weak("None yet.");

@@ -4,7 +4,7 @@ use egui::{Label, ProgressBar, RichText, Sense, Ui};
 
 use super::player;
 use crate::actions::Action;
-use crate::desk::Desk;
+use crate::panel_context::PanelContext;
 use crate::reading::tool::Tool;
 use crate::session::DrawerPage;
 use crate::widgets::button;
@@ -16,7 +16,7 @@ fn one_line(text: &str) -> String {
 
 /// Shows buttons for the most frequent actions, and the title in the room that they leave: it ends
 /// in … where it has none, and is told on hover then.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         super::files::menu(ui, desk);
         for (sign, name, action) in [
@@ -45,7 +45,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
 }
 
 /// Says that functions, the weight or quantities are not those of the file.
-fn replaced(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn replaced(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     let subject = &pane.scene.subject;
     let count = subject.functions.len() + subject.quantities.len();
@@ -62,7 +62,7 @@ fn replaced(ui: &mut Ui, desk: &mut Desk<'_>) {
 }
 
 /// Shows the progress of a running solution on every page; a click opens the page *Problem*.
-fn solving(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn solving(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let Some(running) = desk.solving.running() else { return };
     let told = running.progress_report();
     let step = told.progress.map_or(0, |progress| progress.step);
@@ -80,7 +80,7 @@ fn solving(ui: &mut Ui, desk: &mut Desk<'_>) {
 
 /// Shows buttons for features that are easily overlooked: saving images, probes, K at a tip, two
 /// views.
-fn reading(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn reading(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     let has_tips = stage.tips(pane) > 0;
     let is_probing = stage.reading.tool == Some(Tool::Probe);

@@ -9,20 +9,20 @@ use ppum::vec2::Vec2;
 use ppum_fracture::intensity::{CircleError, clearance, on_circle};
 use ppum_problem::Problem;
 use ppum_scene::facts::{HEADS, Tip};
-use ppum_scene::profile::Along;
+use ppum_scene::profile::ProfileCurve;
 
-use super::question::Question;
+use super::question::BackgroundQuery;
 
-/// What is asked for.
+/// The request.
 #[derive(Clone, Debug)]
-pub struct Asked {
+pub struct IntegralRequest {
     dataset: Arc<Dataset>,
     step: usize,
     tip: TipId,
     radius: f64,
 }
 
-impl PartialEq for Asked {
+impl PartialEq for IntegralRequest {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.dataset, &other.dataset)
             && (self.step, self.tip, self.radius) == (other.step, other.tip, other.radius)
@@ -31,16 +31,16 @@ impl PartialEq for Asked {
 
 /// The factors on a circle, found in the background.
 #[derive(Default)]
-pub struct Integral {
-    question: Question<Asked, TipIntensity>,
-    asked: Option<Result<Asked, String>>,
+pub struct CircleIntegral {
+    question: BackgroundQuery<IntegralRequest, TipIntensity>,
+    asked: Option<Result<IntegralRequest, String>>,
 }
 
-impl Integral {
+impl CircleIntegral {
     /// Asks for the factors on a circle of a step; of another curve there are none.
     pub fn ask(
         &mut self,
-        along: Option<Along>,
+        along: Option<ProfileCurve>,
         dataset: &Arc<Dataset>,
         step: usize,
         wake: &egui::Context,
@@ -63,8 +63,8 @@ impl Integral {
         (*key == asked).then(|| answer.as_ref().clone().map(Arc::new))
     }
 
-    /// What is said of the circle. It is of the dataset and the step that were asked about, also
-    /// where another one is shown since.
+    /// Describes the results on the circle. They belong to the dataset and the step of the request,
+    /// also if another one is shown since.
     pub fn words(&mut self) -> String {
         let found = self.newest_factors();
         match (found, &self.asked) {
@@ -89,7 +89,7 @@ impl Integral {
     }
 }
 
-impl Asked {
+impl IntegralRequest {
     fn find(&self, watcher: &dyn Watcher) -> Option<Result<TipIntensity, String>> {
         // without the loads near the tip the factors would be others
         let Ok(problem) = Problem::of_step(&self.dataset, self.step) else {
@@ -107,20 +107,25 @@ impl Asked {
 const UNKNOWN: &str =
     "the stored problem cannot be read, so the loads near the tip are not known; solve it again";
 
-/// What a curve asks for; none unless it is a circle. The reason if it is not one around a tip.
-fn asked(along: Along, dataset: &Arc<Dataset>, step: usize) -> Option<Result<Asked, String>> {
+/// Returns the request for a curve; `None` unless it is a circle, the reason as an error if the
+/// circle is not around a tip.
+fn asked(
+    along: ProfileCurve,
+    dataset: &Arc<Dataset>,
+    step: usize,
+) -> Option<Result<IntegralRequest, String>> {
     dataset.equation.elastic()?;
     let cracks = &dataset.steps.get(step)?.cracks;
     match along {
-        Along::Around { tip: number, radius } => {
+        ProfileCurve::Around { tip: number, radius } => {
             let Some(tip) = tips(cracks).nth(number) else {
                 return Some(Err(format!("the step has no tip {number}")));
             };
             let usual = 0.01 * cracks[tip.crack as usize].length();
             let radius = radius.unwrap_or(usual);
-            Some(Ok(Asked { dataset: Arc::clone(dataset), step, tip, radius }))
+            Some(Ok(IntegralRequest { dataset: Arc::clone(dataset), step, tip, radius }))
         }
-        Along::Circle { center, radius } => {
+        ProfileCurve::Circle { center, radius } => {
             let from = |tip: TipId| cracks[tip.crack as usize].end_point(tip.end);
             let is_inside = |tip: &TipId| (from(*tip) - Vec2::from(center)).length() < radius;
             let inside: Vec<_> = tips(cracks).enumerate().filter(|(_, t)| is_inside(t)).collect();

@@ -1,12 +1,12 @@
 //! Reading values: at points, along curves, on circles around tips.
 //!
-//! What is chosen (probes, a curve) stands in the [`Pane`]. What has become of it is here: values
-//! at the pointer and at the probes, evaluated exactly and at once, and what is found in the
-//! background along curves.
+//! The user's choices (probes, a curve) are in the [`Pane`]. The results are here: values at the
+//! pointer and at the probes, evaluated exactly and at once, and what is found in the background
+//! along curves.
 
 pub mod integral;
 pub mod output;
-pub mod plotted;
+pub mod plot_request;
 pub mod probe;
 pub mod question;
 pub mod tool;
@@ -14,31 +14,31 @@ pub mod words;
 
 use std::sync::Arc;
 
-use crate::frames::Frame;
+use crate::frames::RenderedFrame;
 use crate::session::Pane;
-use output::Output;
-use plotted::{Asked, CurveValues, Plotted};
-use ppum_scene::profile::Along;
-use ppum_scene::spot::Spot;
-use probe::{Probed, Reader};
-use question::Question;
-use tool::{Grip, Tool};
+use output::TableExport;
+use plot_request::{CurveValues, PlotRequest, PlotResult};
+use ppum_scene::location::Location;
+use ppum_scene::profile::ProfileCurve;
+use probe::{ProbeReading, QuantityReader};
+use question::BackgroundQuery;
+use tool::{CurveHandle, Tool};
 
-/// What is read of one view.
+/// The readings of one view.
 #[derive(Default)]
-pub struct Reading {
-    /// What is read at the pointer; nothing where that is not over the plate.
-    pub hover: Option<Probed>,
-    /// What is read at the probes, in their order.
-    pub probes: Vec<Probed>,
+pub struct ViewReading {
+    /// The reading at the pointer; nothing where that is not over the body.
+    pub hover: Option<ProbeReading>,
+    /// The readings at the probes, in their order.
+    pub probes: Vec<ProbeReading>,
     /// The probe that was clicked last.
     pub selected: Option<usize>,
     /// The point of the curve that belongs to the place of the pointer in the plot.
-    pub marked: Option<Spot>,
-    /// What the next drag over the plate draws, or clicks do.
+    pub marked: Option<Location>,
+    /// The effect of the next drag over the view, or of clicks.
     pub tool: Option<Tool>,
     /// The handle that is dragged.
-    pub(crate) grip: Option<Grip>,
+    pub(crate) grip: Option<CurveHandle>,
     /// True from the beginning of a new curve to its end.
     pub(crate) is_new: bool,
     /// True once a curve was drawn that is to be plotted.
@@ -46,34 +46,34 @@ pub struct Reading {
     /// Why the numbers of a curve were refused.
     pub refused: Option<String>,
     /// Values along the curve.
-    pub plot: Question<Asked, CurveValues>,
+    pub plot: BackgroundQuery<PlotRequest, CurveValues>,
     /// The last values along a curve that could be found.
-    pub good: Option<(Along, Arc<Plotted>)>,
+    pub good: Option<(ProfileCurve, Arc<PlotResult>)>,
     /// K on the circle.
-    pub integral: integral::Integral,
+    pub integral: integral::CircleIntegral,
     /// Where files go.
-    pub output: Output,
-    reader: Option<Reader>,
-    read: Option<(Arc<Frame>, Vec<Spot>)>,
+    pub output: TableExport,
+    reader: Option<QuantityReader>,
+    read: Option<(Arc<RenderedFrame>, Vec<Location>)>,
 }
 
-impl Reading {
-    /// What reads the values of a picture.
-    pub fn reader(&mut self, frame: &Frame) -> &Reader {
+impl ViewReading {
+    /// Returns the reader of the values of an image.
+    pub fn reader(&mut self, frame: &RenderedFrame) -> &QuantityReader {
         if self.reader.as_ref().is_none_or(|reader| !reader.is_of(frame)) {
             self.reader = None;
         }
-        self.reader.get_or_insert_with(|| Reader::new(frame))
+        self.reader.get_or_insert_with(|| QuantityReader::new(frame))
     }
 
-    /// Forgets what was read: there is no picture of what is open.
+    /// Forgets what was read: there is no image of what is open.
     pub fn forget(&mut self) {
         (self.hover, self.read) = (None, None);
         self.probes.clear();
     }
 
-    /// Reads all probes anew if they or the picture have changed.
-    pub fn refresh(&mut self, frame: &Arc<Frame>, pane: &Pane) {
+    /// Reads all probes again if they or the image have changed.
+    pub fn refresh(&mut self, frame: &Arc<RenderedFrame>, pane: &Pane) {
         let is_known = self
             .read
             .as_ref()

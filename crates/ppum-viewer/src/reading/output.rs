@@ -3,11 +3,11 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::replacing::{ASK, Replacing};
+use crate::replaced_file::{ASK, ReplacedFile};
 
 /// The name of the next file, and what became of the last one.
 #[derive(Debug, Default)]
-pub struct Output {
+pub struct TableExport {
     /// The name without its end; that of the proposal where it is empty, and beside it where it
     /// names no folder.
     pub path: String,
@@ -15,10 +15,10 @@ pub struct Output {
     proposal: PathBuf,
     /// The proposal for the last file.
     told_of: PathBuf,
-    /// What became of the last file: its name, or the reason why there is none.
+    /// The result of the last file: its name, or the reason why there is none.
     pub told: Option<Result<String, String>>,
     /// The file that was asked for last.
-    replacing: Replacing,
+    replacing: ReplacedFile,
 }
 
 /// A file that is not written.
@@ -32,14 +32,14 @@ enum OutputError {
     Write(PathBuf, #[source] io::Error),
 }
 
-impl Output {
+impl TableExport {
     /// Proposes a file.
     pub fn propose(&mut self, proposal: PathBuf) {
         self.proposal = proposal;
     }
 
-    /// What became of the last file, if this one was proposed for it: there are several lists that
-    /// are written.
+    /// Returns the result of the last file, if this one was proposed for it: there are several
+    /// lists that are written.
     #[must_use]
     pub fn told(&self) -> Option<&Result<String, String>> {
         self.told.as_ref().filter(|_| self.told_of == self.proposal)

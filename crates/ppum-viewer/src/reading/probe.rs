@@ -1,38 +1,38 @@
-//! Exact values at a point of what a picture shows, or of its difference from another one.
+//! Exact values at a point of what an image shows, or of its difference from another one.
 
 use std::sync::Arc;
 
 use ppum::crack::SegmentId;
 use ppum::vec2::Vec2;
-use ppum_scene::drawing::Shown;
+use ppum_scene::drawing::DisplayedQuantity;
+use ppum_scene::location::Location;
 use ppum_scene::mirror::MirrorLines;
 use ppum_scene::probe::{PointReader, segment_of};
-pub use ppum_scene::probe::{Probed, Sided};
+pub use ppum_scene::probe::{ProbeReading, SideValue};
 use ppum_scene::scene::default_quantity;
-use ppum_scene::spot::Spot;
 
 use crate::field::OwnedField;
-use crate::frames::Frame;
+use crate::frames::RenderedFrame;
 
-/// What reads a quantity of a field, or its difference from another one.
-pub struct Reader {
+/// The reader of a quantity of a field, or of its difference from another one.
+pub struct QuantityReader {
     field: Arc<OwnedField>,
     points: PointReader,
     lines: MirrorLines,
     /// The text that the quantity was chosen by.
     text: String,
-    /// What reads the values that are subtracted.
-    left: Option<Box<Reader>>,
+    /// The reader of the values that are subtracted.
+    left: Option<Box<QuantityReader>>,
     /// The quantity's name.
     pub name: String,
     /// Its unit; may be empty.
     pub unit: String,
 }
 
-impl Reader {
-    /// What reads the values that a picture shows.
+impl QuantityReader {
+    /// Makes the reader of the values that an image shows.
     #[must_use]
-    pub fn new(frame: &Frame) -> Self {
+    pub fn new(frame: &RenderedFrame) -> Self {
         let own = Self::of(&frame.field, &frame.shown, own_text(frame), frame.lines);
         let left = frame.subtracted.as_ref().map(|left| {
             let text = left_text(frame).unwrap_or_default();
@@ -48,7 +48,12 @@ impl Reader {
         }
     }
 
-    fn of(owned: &Arc<OwnedField>, shown: &Shown, text: &str, lines: MirrorLines) -> Self {
+    fn of(
+        owned: &Arc<OwnedField>,
+        shown: &DisplayedQuantity,
+        text: &str,
+        lines: MirrorLines,
+    ) -> Self {
         let (field, quantity) = (owned.field(), shown.quantity());
         Self {
             field: Arc::clone(owned),
@@ -61,9 +66,9 @@ impl Reader {
         }
     }
 
-    /// True if it reads what a picture shows.
+    /// True if it reads what an image shows.
     #[must_use]
-    pub fn is_of(&self, frame: &Frame) -> bool {
+    pub fn is_of(&self, frame: &RenderedFrame) -> bool {
         let is_same_left = match (&self.left, &frame.subtracted) {
             (None, None) => true,
             (Some(reader), Some(left)) => {
@@ -78,7 +83,7 @@ impl Reader {
 
     /// The values at a point.
     #[must_use]
-    pub fn read(&self, spot: &Spot) -> Probed {
+    pub fn read(&self, spot: &Location) -> ProbeReading {
         let Some(left) = &self.left else { return self.points.read(self.field.field(), spot) };
         let [own, other] = [self, left].map(|reader| reader.own(spot));
         let mut read = left.points.read_own(left.field.field(), &other);
@@ -88,17 +93,17 @@ impl Reader {
             // the crack was drawn from its other end
             read.sides.reverse();
         }
-        Probed { spot: *spot, ..self.points.read_own(self.field.field(), &own).minus(&read) }
+        ProbeReading { spot: *spot, ..self.points.read_own(self.field.field(), &own).minus(&read) }
     }
 
-    /// A spot of another plate: on a crack of this one if that is the same.
-    fn own(&self, spot: &Spot) -> Spot {
+    /// A spot of another body: on a crack of this one if that is the same.
+    fn own(&self, spot: &Location) -> Location {
         let on = spot.on.filter(|_| segment_of(self.field.field(), spot).is_some());
-        Spot { on, ..*spot }
+        Location { on, ..*spot }
     }
 
     /// The direction of the crack that a spot lies on.
-    fn along(&self, spot: &Spot) -> Option<Vec2> {
+    fn along(&self, spot: &Location) -> Option<Vec2> {
         let SegmentId { crack, segment } = segment_of(self.field.field(), spot)?;
         let points = &self.field.field().step.cracks[crack as usize].points;
         Some(points[segment as usize + 1] - points[segment as usize])
@@ -106,7 +111,7 @@ impl Reader {
 
     /// The spot itself, or the tip or the point of a crack that lies within reach of it.
     #[must_use]
-    pub fn snapped(&self, spot: Spot, reach: f64) -> Spot {
+    pub fn snapped(&self, spot: Location, reach: f64) -> Location {
         let own = self.snapped_own(spot, reach);
         match &self.left {
             Some(left) if own == spot => left.snapped_own(spot, reach),
@@ -114,7 +119,7 @@ impl Reader {
         }
     }
 
-    fn snapped_own(&self, spot: Spot, reach: f64) -> Spot {
+    fn snapped_own(&self, spot: Location, reach: f64) -> Location {
         spot.snapped(&self.field.field().step.cracks, reach)
     }
 }
@@ -132,12 +137,12 @@ fn short(right: &str, left: &str) -> String {
 }
 
 /// The text by which a quantity was chosen.
-fn own_text(frame: &Frame) -> &str {
+fn own_text(frame: &RenderedFrame) -> &str {
     text_of(frame.wanted.scene.quantity.as_deref(), &frame.field)
 }
 
-/// The same of what is subtracted.
-fn left_text(frame: &Frame) -> Option<&str> {
+/// Returns the text of the subtrahend.
+fn left_text(frame: &RenderedFrame) -> Option<&str> {
     let (wanted, left) = (frame.wanted.minus.as_ref()?, frame.subtracted.as_ref()?);
     Some(text_of(wanted.quantity.as_deref(), &left.field))
 }

@@ -4,34 +4,34 @@ use std::sync::Arc;
 
 use ppum::progress::Watcher;
 
-use crate::job::Job;
+use crate::job::BackgroundJob;
 
 /// One question at a time and its last answer, with what was asked.
 #[derive(Debug)]
-pub struct Question<K, V> {
-    running: Option<(K, Job<Answer<V>>)>,
+pub struct BackgroundQuery<K, V> {
+    running: Option<(K, BackgroundJob<QueryAnswer<V>>)>,
     newest: Option<(K, Arc<Result<V, String>>)>,
 }
 
 /// A value, or the reason why there is none; nothing of work that was stopped.
-type Answer<V> = Option<Result<V, String>>;
+type QueryAnswer<V> = Option<Result<V, String>>;
 
-impl<K, V> Default for Question<K, V> {
+impl<K, V> Default for BackgroundQuery<K, V> {
     fn default() -> Self {
         Self { running: None, newest: None }
     }
 }
 
-impl<K: Clone + PartialEq, V: Send + 'static> Question<K, V> {
-    /// Asks for something unless that is known or on its way. What is asked for while other work
-    /// runs has to be asked for again; if it is `urgent` that work is stopped. So no two threads
+impl<K: Clone + PartialEq, V: Send + 'static> BackgroundQuery<K, V> {
+    /// Asks for something unless that is known or on its way. A question that is asked while other
+    /// work runs has to be asked again; if it is `urgent` that work is stopped. So no two threads
     /// ever work for one question, however long the first takes to stop.
     pub fn ask(
         &mut self,
         key: &K,
         urgent: bool,
         wake: &egui::Context,
-        work: impl FnOnce(&dyn Watcher) -> Answer<V> + Send + 'static,
+        work: impl FnOnce(&dyn Watcher) -> QueryAnswer<V> + Send + 'static,
     ) {
         self.poll();
         if let Some((running, job)) = &self.running {
@@ -41,7 +41,7 @@ impl<K: Clone + PartialEq, V: Send + 'static> Question<K, V> {
             return;
         }
         if self.newest.as_ref().is_none_or(|(known, _)| known != key) {
-            let job = Job::start(wake, move |stop| work(stop));
+            let job = BackgroundJob::start(wake, move |stop| work(stop));
             self.running = Some((key.clone(), job));
         }
     }
@@ -66,7 +66,7 @@ impl<K: Clone + PartialEq, V: Send + 'static> Question<K, V> {
     }
 }
 
-impl<K, V> Question<K, V> {
+impl<K, V> BackgroundQuery<K, V> {
     /// True while work runs.
     #[must_use]
     pub fn is_working(&self) -> bool {
@@ -82,7 +82,7 @@ mod tests {
 
     use super::*;
 
-    fn answer<V: Send + 'static>(question: &mut Question<u32, V>) -> Arc<Result<V, String>> {
+    fn answer<V: Send + 'static>(question: &mut BackgroundQuery<u32, V>) -> Arc<Result<V, String>> {
         while question.newest().is_none() || question.is_working() {
             std::thread::sleep(Duration::from_millis(1));
         }
@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn the_last_question_is_answered_and_an_urgent_one_stops_what_runs() {
-        let (wake, mut question) = (egui::Context::default(), Question::default());
+        let (wake, mut question) = (egui::Context::default(), BackgroundQuery::default());
         let endless = |watcher: &dyn Watcher| {
             while watcher.report(Progress::start(Phase::Evaluation, 1)).is_ok() {
                 std::thread::yield_now();
@@ -113,7 +113,8 @@ mod tests {
 
     #[test]
     fn a_panic_is_an_answer_and_not_asked_for_again() {
-        let (wake, mut question) = (egui::Context::default(), Question::<u32, ()>::default());
+        let (wake, mut question) =
+            (egui::Context::default(), BackgroundQuery::<u32, ()>::default());
         question.ask(&1, false, &wake, |_| panic!("seven"));
         assert!(answer(&mut question).as_ref().as_ref().is_err_and(|e| e.contains("seven")));
         question.ask(&1, false, &wake, |_| Some(Ok(())));

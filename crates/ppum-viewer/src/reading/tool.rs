@@ -1,6 +1,6 @@
-//! What the mouse draws over the plate, and what it holds.
+//! The tools that the mouse draws over the view, and their handles.
 
-/// What a drag over the plate draws, or a click does.
+/// The effect of a drag over the view, or of a click.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Tool {
     /// A line, from its start.
@@ -16,7 +16,7 @@ pub enum Tool {
 }
 
 impl Tool {
-    /// What to do with it.
+    /// Returns the hint for its use.
     #[must_use]
     pub fn hint(self) -> &'static str {
         match self {
@@ -31,7 +31,7 @@ impl Tool {
 
 /// A handle of a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Grip {
+pub(crate) enum CurveHandle {
     From,
     To,
     Center,

@@ -1,11 +1,11 @@
-//! What is read, in words.
+//! Readings in words.
 
-pub use ppum_scene::spot::{Places, number};
+pub use ppum_scene::location::{LocationFormat, number};
 
 use ppum::mesh::Shape;
 
-use super::probe::{Probed, Sided};
-use ppum_scene::owner::{Element, Owner};
+use super::probe::{ProbeReading, SideValue};
+use ppum_scene::owner::{MeshElement, Owner};
 
 /// Digits of values, and of those that stand beside them.
 pub const DIGITS: usize = 7;
@@ -22,16 +22,16 @@ fn with_unit(value: f64, digits: usize, unit: &str) -> String {
     if unit.is_empty() || !value.is_finite() { number } else { format!("{number} {unit}") }
 }
 
-/// What is read of a quantity, with as many digits as suit a whole plate.
+/// Writes the reading of a quantity, with as many digits as suit a whole body.
 #[must_use]
-pub fn values(probed: &Probed, name: &str, unit: &str) -> String {
+pub fn values(probed: &ProbeReading, name: &str, unit: &str) -> String {
     values_to(probed, name, unit, DIGITS)
 }
 
-/// The same with so many digits: `von-mises = 2.71`, `ux = 0.1 above, −0.1 below, jump 0.2`,
-/// `syy = ∞ at tip 1`.
+/// Writes the reading with so many digits: `von-mises = 2.71`,
+/// `ux = 0.1 above, −0.1 below, jump 0.2`, `syy = ∞ at tip 1`.
 #[must_use]
-pub fn values_to(probed: &Probed, name: &str, unit: &str, digits: usize) -> String {
+pub fn values_to(probed: &ProbeReading, name: &str, unit: &str, digits: usize) -> String {
     if probed.is_outside() {
         return "outside the plate".into();
     }
@@ -39,7 +39,7 @@ pub fn values_to(probed: &Probed, name: &str, unit: &str, digits: usize) -> Stri
     let has_terms = probed.sides.iter().any(|s| s.terms.is_some());
     let digits = if has_terms { digits - (DIGITS - FEWER) } else { digits };
     let value = |v: f64| with_unit(v, digits, unit);
-    let of = |sided: &Sided| value(sided.value);
+    let of = |sided: &SideValue| value(sided.value);
     match &probed.sides[..] {
         [above, below] => {
             let jump = value(above.value - below.value);
@@ -58,8 +58,8 @@ pub fn values_to(probed: &Probed, name: &str, unit: &str, digits: usize) -> Stri
 /// The two values of a difference: `right 3.1, left 3`; of both sides one after the other. None of
 /// what is none.
 #[must_use]
-pub fn terms(probed: &Probed) -> Option<String> {
-    let of = |sided: &Sided| {
+pub fn terms(probed: &ProbeReading) -> Option<String> {
+    let of = |sided: &SideValue| {
         let [right, left] = sided.terms?;
         let side = sided.side.map_or(String::new(), |side| format!("{} ", side.name()));
         let [right, left] = [right, left].map(|value| number(value, FEWER));
@@ -72,7 +72,7 @@ pub fn terms(probed: &Probed) -> Option<String> {
 /// The gradient by its size and direction: `gradient 3.2 at 45°`; of both sides one after the
 /// other. None where there is none.
 #[must_use]
-pub fn gradients(probed: &Probed) -> Option<String> {
+pub fn gradients(probed: &ProbeReading) -> Option<String> {
     let is_known = probed.sides.iter().any(|sided| !sided.gradient.x.is_nan());
     let all: Vec<_> =
         probed.sides.iter().map(|s| s.slope().unwrap_or_else(|| "∞".into())).collect();
@@ -82,7 +82,7 @@ pub fn gradients(probed: &Probed) -> Option<String> {
 /// The owner: `cell 312, level 6`; `patch 12` without cells; `element 7, curved triangle, order 4,
 /// part 12` of a mesh.
 #[must_use]
-pub fn owner(probed: &Probed) -> Option<String> {
+pub fn owner(probed: &ProbeReading) -> Option<String> {
     probed.owner.map(|owner| match owner {
         Owner::Cell { patch, level } => format!("cell {patch}, level {level}"),
         Owner::Box { patch } => format!("patch {patch}"),
@@ -90,8 +90,8 @@ pub fn owner(probed: &Probed) -> Option<String> {
     })
 }
 
-fn element_text(element: Element) -> String {
-    let Element { patch, number, map_degree, order, is_cut, .. } = element;
+fn element_text(element: MeshElement) -> String {
+    let MeshElement { patch, number, map_degree, order, is_cut, .. } = element;
     let shape = match element.shape {
         Shape::Triangle => "triangle",
         Shape::Square => "square",
@@ -103,7 +103,7 @@ fn element_text(element: Element) -> String {
 
 /// The patches with their φ, the largest first: `φ 0.61 of 12, 0.39 of 13`.
 #[must_use]
-pub fn patches(probed: &Probed) -> Option<String> {
+pub fn patches(probed: &ProbeReading) -> Option<String> {
     let all = listed(probed, 3);
     (!all.is_empty()).then(|| format!("φ {}", all.join(", ")))
 }
@@ -111,7 +111,7 @@ pub fn patches(probed: &Probed) -> Option<String> {
 /// The patches with their φ in ever fewer words: all of them, with fewer digits, then the largest
 /// alone and `…`.
 #[must_use]
-pub fn shorter(probed: &Probed) -> Vec<String> {
+pub fn shorter(probed: &ProbeReading) -> Vec<String> {
     let (long, short) = (listed(probed, 3), listed(probed, 2));
     if long.is_empty() {
         return Vec::new();
@@ -121,7 +121,7 @@ pub fn shorter(probed: &Probed) -> Vec<String> {
     all.into_iter().chain(few).collect()
 }
 
-fn listed(probed: &Probed, digits: usize) -> Vec<String> {
+fn listed(probed: &ProbeReading, digits: usize) -> Vec<String> {
     let mut all = probed.patches.clone();
     all.sort_by(|a, b| b.1.total_cmp(&a.1));
     all.iter().map(|(patch, phi)| format!("{} of {patch}", number(*phi, digits))).collect()
@@ -130,7 +130,7 @@ fn listed(probed: &Probed, digits: usize) -> Vec<String> {
 /// All that is read at a point, as a text to be copied: the place and the values with all
 /// their digits.
 #[must_use]
-pub fn all(probed: &Probed, name: &str, unit: &str) -> String {
+pub fn all(probed: &ProbeReading, name: &str, unit: &str) -> String {
     let [x, y] = probed.spot.texts();
     let mut lines = vec![format!("({x}, {y})")];
     if let Some(tip) = probed.tip {

@@ -1,5 +1,5 @@
-//! The text of a problem as it is seen: comments, headings and strings in their colours,
-//! mistakes underlined.
+//! The text of a problem as it is seen: comments, headings and strings in their colours, errors
+//! underlined.
 
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Color32, FontId, Stroke, Visuals};
@@ -60,7 +60,7 @@ impl HighlightStyle {
         format
     }
 
-    /// The text with its mistakes, each line in a row of its own.
+    /// The text with its errors, each line in a row of its own.
     #[must_use]
     pub fn layout(&self, text: &str, marks: &[Mark]) -> LayoutJob {
         let mut job = LayoutJob::default();
@@ -82,7 +82,7 @@ impl HighlightStyle {
     }
 }
 
-/// The bytes of a line that a mistake at a column is about: a word, a string or a number.
+/// The bytes of a line that an error at a column is about: a word, a string or a number.
 fn span(line: &str, column: usize) -> [usize; 2] {
     let end_of_line = line.trim_end().len();
     let start = line.char_indices().nth(column.saturating_sub(1)).map_or(line.len(), |(at, _)| at);

@@ -11,18 +11,18 @@ use ppum::dataset::Dataset;
 use ppum::progress::{Phase, Progress, Verdict, Watcher};
 use ppum_fracture::growth::{GrowthError, grow};
 use ppum_fracture::solve::{Plan, SolveError};
-use ppum_problem::{Location, Problem, ProblemError};
+use ppum_problem::{Problem, ProblemError, ProblemLocation};
 
 use self::preview::Preview;
-use crate::job::{CancelToken, Job};
+use crate::job::{BackgroundJob, CancelToken};
 use crate::session::ProblemDraft;
 
-/// A mistake in the text.
+/// An error in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mark {
-    /// Line and column, from 1; none of a mistake that has no place in the text.
+    /// Line and column, from 1; none of an error that has no place in the text.
     pub at: Option<[usize; 2]>,
-    /// The mistake and its remedy.
+    /// The error and its remedy.
     pub message: String,
 }
 
@@ -33,14 +33,14 @@ enum FileLookup {
     Dataset(Arc<Dataset>),
 }
 
-/// What is known of a text.
+/// A text with the results of its check.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Checked {
+pub struct CheckedText {
     /// The text.
     pub text: String,
-    /// Its mistakes, in the order of the text.
+    /// Its errors, in the order of the text.
     pub marks: Vec<Mark>,
-    /// What the text describes; of a text with mistakes what the last one without any did.
+    /// The geometry of the text; if it has errors, of the last text without any.
     pub preview: Option<Arc<Preview>>,
 }
 
@@ -57,7 +57,7 @@ pub enum SolutionOutcome {
 
 /// How a dataset was computed in this window.
 #[derive(Clone, Debug)]
-pub struct Solution {
+pub struct ComputationRecord {
     /// The problem, as it was when its solution began.
     pub problem: ProblemDraft,
     /// The way the computation has ended.
@@ -66,18 +66,18 @@ pub struct Solution {
 
 /// A dataset that was computed for a pane.
 #[derive(Clone, Debug)]
-pub struct Solved {
+pub struct ComputedDataset {
     /// The pane.
     pub pane: usize,
     /// The dataset.
     pub dataset: Arc<Dataset>,
     /// How it was computed.
-    pub solution: Solution,
+    pub solution: ComputationRecord,
 }
 
 /// The problem that is written, and the solution that is computed.
 #[derive(Debug)]
-pub struct Solving {
+pub struct SolverPane {
     /// The dataset that the text came from: it holds the tables and points that the text names.
     pub origin: Option<Arc<Dataset>>,
     /// The way the last solution has ended.
@@ -86,20 +86,20 @@ pub struct Solving {
     pub wanted: Option<[usize; 2]>,
     /// Memory that is free \[bytes\], as far as the system tells.
     pub memory: fn() -> Option<u64>,
-    checked: Option<Arc<Checked>>,
-    checking: Option<Job<Checked>>,
-    running: Option<Running>,
+    checked: Option<Arc<CheckedText>>,
+    checking: Option<BackgroundJob<CheckedText>>,
+    running: Option<RunningSolution>,
     ctx: egui::Context,
 }
 
 /// A solution that is being computed.
 #[derive(Debug)]
-pub struct Running {
+pub struct RunningSolution {
     pane: usize,
     problem: ProblemDraft,
     start: Instant,
     told: Arc<Mutex<SolutionProgress>>,
-    job: Job<Result<SolvedDataset, Stopped>>,
+    job: BackgroundJob<Result<SolvedDataset, SolutionFailure>>,
 }
 
 /// The estimate and the progress of a solution while it is computed.
@@ -107,7 +107,7 @@ pub struct Running {
 pub struct SolutionProgress {
     /// The phase, and how much of it is done.
     pub progress: Option<Progress>,
-    /// What it takes, in words, once that is known.
+    /// The cost, in words, once that is known.
     pub estimate: Option<String>,
     /// The number of the last step of a series.
     pub steps: Option<usize>,
@@ -119,18 +119,18 @@ pub struct SolutionProgress {
 #[derive(Debug)]
 struct SolvedDataset {
     dataset: Dataset,
-    stopped: Option<Stopped>,
+    stopped: Option<SolutionFailure>,
 }
 
 #[derive(Debug, thiserror::Error)]
-enum Stopped {
+enum SolutionFailure {
     #[error("cancelled")]
     Cancelled,
     #[error("{0}")]
     Failed(String),
 }
 
-impl From<SolveError> for Stopped {
+impl From<SolveError> for SolutionFailure {
     fn from(error: SolveError) -> Self {
         match error {
             SolveError::Cancelled(_) => Self::Cancelled,
@@ -160,7 +160,7 @@ pub(crate) fn phase_number(phase: Phase) -> usize {
     PHASES.iter().position(|known| *known == phase).unwrap_or(0)
 }
 
-impl Solving {
+impl SolverPane {
     /// Nothing is written yet.
     #[must_use]
     pub fn new(ctx: &egui::Context) -> Self {
@@ -187,11 +187,11 @@ impl Solving {
         }
     }
 
-    /// Looks for mistakes in the background whenever the text is another one.
+    /// Looks for errors in the background whenever the text is another one.
     pub fn check(&mut self, draft: &ProblemDraft) {
-        if let Some(outcome) = self.checking.as_ref().and_then(Job::poll) {
+        if let Some(outcome) = self.checking.as_ref().and_then(BackgroundJob::poll) {
             self.checking = None;
-            let broken = |message| Checked {
+            let broken = |message| CheckedText {
                 text: draft.text.clone(),
                 marks: vec![Mark { at: None, message }],
                 preview: None,
@@ -204,19 +204,19 @@ impl Solving {
         let is_known = self.checked.as_ref().is_some_and(|checked| checked.text == draft.text);
         if self.checking.is_none() && !is_known {
             let (text, source) = (draft.text.clone(), self.source(draft));
-            self.checking = Some(Job::start(&self.ctx, move |_| {
+            self.checking = Some(BackgroundJob::start(&self.ctx, move |_| {
                 let (marks, preview) = match parse(&text, &source) {
                     Ok(problem) => (Vec::new(), Some(Arc::new(Preview::new(&problem)))),
                     Err(error) => (marks(&error), None),
                 };
-                Checked { text, marks, preview }
+                CheckedText { text, marks, preview }
             }));
         }
     }
 
-    /// What is known of the text that was looked at last.
+    /// Returns the facts about the text that was checked last.
     #[must_use]
-    pub fn checked(&self) -> Option<&Arc<Checked>> {
+    pub fn checked(&self) -> Option<&Arc<CheckedText>> {
         self.checked.as_ref()
     }
 
@@ -233,13 +233,13 @@ impl Solving {
         let (text, source) = (draft.text.clone(), self.source(draft));
         let told = Arc::new(Mutex::new(SolutionProgress::default()));
         let (theirs, memory, ctx) = (Arc::clone(&told), (self.memory)(), self.ctx.clone());
-        let job = Job::start(&self.ctx, move |stop| {
+        let job = BackgroundJob::start(&self.ctx, move |stop| {
             let follower = Follower { told: &theirs, stop, ctx: &ctx };
             on_own_threads(|| solve(&text, &source, memory, &follower))?
         });
         self.outcome = None;
         let (problem, start) = (draft.clone(), Instant::now());
-        self.running = Some(Running { pane, problem, start, told, job });
+        self.running = Some(RunningSolution { pane, problem, start, told, job });
     }
 
     /// Stops the solution that is being computed.
@@ -259,7 +259,7 @@ impl Solving {
 
     /// The solution that is being computed.
     #[must_use]
-    pub fn running(&self) -> Option<&Running> {
+    pub fn running(&self) -> Option<&RunningSolution> {
         self.running.as_ref()
     }
 
@@ -270,10 +270,10 @@ impl Solving {
     }
 
     /// The dataset that was computed since.
-    pub fn poll(&mut self) -> Option<Solved> {
+    pub fn poll(&mut self) -> Option<ComputedDataset> {
         let ended = self.running.as_ref()?.job.poll()?;
         let running = self.running.take()?;
-        let (outcome, dataset) = match ended.map_err(Stopped::Failed).flatten() {
+        let (outcome, dataset) = match ended.map_err(SolutionFailure::Failed).flatten() {
             Ok(SolvedDataset { dataset, stopped: None }) => {
                 let warnings = warnings_of(&dataset);
                 (SolutionOutcome::Solved(running.seconds(), warnings), Some(dataset))
@@ -284,13 +284,13 @@ impl Solving {
             Err(stopped) => (stopped.outcome(0), None),
         };
         self.outcome = Some(outcome.clone());
-        let Running { pane, problem, .. } = running;
-        let solution = Solution { problem, outcome };
-        dataset.map(|dataset| Solved { pane, dataset: Arc::new(dataset), solution })
+        let RunningSolution { pane, problem, .. } = running;
+        let solution = ComputationRecord { problem, outcome };
+        dataset.map(|dataset| ComputedDataset { pane, dataset: Arc::new(dataset), solution })
     }
 }
 
-impl Solution {
+impl ComputationRecord {
     /// True if it is all that was to be computed: not the steps before a stop or an error.
     #[must_use]
     pub fn is_complete(&self) -> bool {
@@ -298,7 +298,7 @@ impl Solution {
     }
 }
 
-impl Stopped {
+impl SolutionFailure {
     /// The outcome with so many steps.
     fn outcome(self, steps: usize) -> SolutionOutcome {
         match self {
@@ -311,7 +311,7 @@ impl Stopped {
     }
 }
 
-/// What the warnings of all steps say, each once.
+/// Returns the warnings of all steps, each once.
 fn warnings_of(dataset: &Dataset) -> Vec<String> {
     let mut said = Vec::new();
     for warning in dataset.steps.iter().flat_map(|step| &step.warnings) {
@@ -322,7 +322,7 @@ fn warnings_of(dataset: &Dataset) -> Vec<String> {
     said
 }
 
-impl Running {
+impl RunningSolution {
     /// The problem that is solved.
     #[must_use]
     pub fn problem(&self) -> &ProblemDraft {
@@ -382,9 +382,9 @@ impl Follower<'_> {
 }
 
 impl Watcher for Follower<'_> {
-    fn hear(&self, progress: Progress) -> Verdict {
+    fn on_progress(&self, progress: Progress) -> Verdict {
         let mut told = self.told();
-        // as many pictures as eyes can follow
+        // as many images as eyes can follow
         let hundredth = |p: Progress| (p.step, p.phase, 100 * p.done / p.total.max(1));
         if told.progress.map(hundredth) != Some(hundredth(progress)) {
             self.ctx.request_repaint();
@@ -394,11 +394,11 @@ impl Watcher for Follower<'_> {
     }
 }
 
-/// On threads of their own, so that pictures, which are made on the others, do not wait for
-/// the solution.
-fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, Stopped> {
+/// On threads of their own, so that images, which are made on the others, do not wait for the
+/// solution.
+fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, SolutionFailure> {
     let pool = rayon::ThreadPoolBuilder::new().build();
-    pool.map(|pool| pool.install(work)).map_err(|error| Stopped::Failed(error.to_string()))
+    pool.map(|pool| pool.install(work)).map_err(|error| SolutionFailure::Failed(error.to_string()))
 }
 
 fn solve(
@@ -406,8 +406,8 @@ fn solve(
     source: &FileLookup,
     memory: Option<u64>,
     follower: &Follower<'_>,
-) -> Result<SolvedDataset, Stopped> {
-    let problem = parse(text, source).map_err(|error| Stopped::Failed(summary(&error)))?;
+) -> Result<SolvedDataset, SolutionFailure> {
+    let problem = parse(text, source).map_err(|error| SolutionFailure::Failed(summary(&error)))?;
     follower.told().steps = problem.growth.as_ref().map(|rule| rule.steps);
     let plan = Plan::new(&problem, memory, follower)?;
     follower.told().estimate = Some(plan.estimate().to_string());
@@ -420,10 +420,10 @@ fn solve(
     Ok(SolvedDataset { dataset, stopped: None })
 }
 
-/// What no file can hold is no solution: a load that is too large leaves numbers that are
+/// A dataset that no file can hold is no solution: a load that is too large leaves numbers that are
 /// not finite.
-fn holds(dataset: &Dataset) -> Result<(), Stopped> {
-    ppum_format::check(dataset).map_err(|error| Stopped::Failed(error.to_string()))
+fn holds(dataset: &Dataset) -> Result<(), SolutionFailure> {
+    ppum_format::check(dataset).map_err(|error| SolutionFailure::Failed(error.to_string()))
 }
 
 /// All steps of a series, or those that are complete when it is stopped.
@@ -431,7 +431,7 @@ fn grown(
     problem: &Problem,
     memory: Option<u64>,
     follower: &Follower<'_>,
-) -> Result<SolvedDataset, Stopped> {
+) -> Result<SolvedDataset, SolutionFailure> {
     let mut all: Option<Dataset> = None;
     let keep = |step: Dataset| {
         holds(&step)?;
@@ -443,13 +443,13 @@ fn grown(
     };
     let stopped = match grow(problem, None, memory, follower, keep) {
         Ok(()) => None,
-        Err(GrowthError::Solve(error)) => Some(Stopped::from(error)),
+        Err(GrowthError::Solve(error)) => Some(SolutionFailure::from(error)),
         Err(GrowthError::Kept(stopped)) => Some(stopped),
-        Err(error) => Some(Stopped::Failed(error.to_string())),
+        Err(error) => Some(SolutionFailure::Failed(error.to_string())),
     };
     match (all, stopped) {
         (Some(dataset), stopped) => Ok(SolvedDataset { dataset, stopped }),
-        (None, stopped) => Err(stopped.unwrap_or(Stopped::Cancelled)),
+        (None, stopped) => Err(stopped.unwrap_or(SolutionFailure::Cancelled)),
     }
 }
 
@@ -467,10 +467,10 @@ fn summary(error: &ProblemError) -> String {
     }
 }
 
-/// The mistakes with their places in the text.
+/// The errors with their places in the text.
 fn marks(error: &ProblemError) -> Vec<Mark> {
-    let mark = |mistake: &ppum_problem::Mistake| match &mistake.location {
-        Location::Text { file, line, column } if file == "problem" => {
+    let mark = |mistake: &ppum_problem::Diagnostic| match &mistake.location {
+        ProblemLocation::Text { file, line, column } if file == "problem" => {
             Mark { at: Some([*line, *column]), message: mistake.message.clone() }
         }
         place => Mark { at: None, message: format!("{place}: {}", mistake.message) },

@@ -1,28 +1,28 @@
-//! What the text of a problem describes, before it is solved.
+//! The geometry in the text of a problem, before it is solved.
 
 use ppum::crack::Crack;
 use ppum::domain::{Domain, Hole};
 use ppum::vec2::{Vec2, vec2};
-use ppum_figure::canvas::{Item, Path, Pen};
-use ppum_figure::overlay::{self, Load, Support};
-use ppum_problem::{Problem, Station};
+use ppum_figure::canvas::{CanvasItem, CanvasPath, StrokeStyle};
+use ppum_figure::overlay::{self, LoadMark, SupportMark};
+use ppum_problem::{BoundaryStation, Problem};
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
-/// The plate with its holes and cracks, and what holds and loads it.
+/// The body with its holes and cracks, and what holds and loads it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Preview {
     domain: Domain,
     cracks: Vec<Crack>,
-    supports: Vec<Support>,
-    loads: Vec<Load>,
+    supports: Vec<SupportMark>,
+    loads: Vec<LoadMark>,
 }
 
-/// Distance of supports and loads, in parts of the plate's longer side.
+/// Distance of supports and loads, in parts of the body's longer side.
 const SPACING: f64 = 0.1;
-/// Room around the plate for supports and loads, in parts of the picture's sides.
+/// Room around the body for supports and loads, in parts of the image's sides.
 const MARGIN: f64 = 0.16;
-/// Most cracks and holes that are drawn: more of them are specks, and every picture of the window
+/// Most cracks and holes that are drawn: more of them are specks, and every image of the window
 /// draws all.
 const MOST: usize = 2000;
 
@@ -35,15 +35,15 @@ impl Preview {
     pub fn new(problem: &Problem) -> Self {
         let size = problem.domain().bounds.size();
         let stations = problem.stations(SPACING * size.x.max(size.y));
-        let support = |&Station { at, outward, held, axis, exchanges, .. }: &Station| Support {
+        let support =
+            |&BoundaryStation { at, outward, held, axis, exchanges, .. }: &BoundaryStation| {
+                SupportMark { at, outward, held, axis, yields: exchanges }
+            };
+        let load = |&BoundaryStation { at, outward, traction, .. }: &BoundaryStation| LoadMark {
             at,
             outward,
-            held,
-            axis,
-            yields: exchanges,
+            traction,
         };
-        let load =
-            |&Station { at, outward, traction, .. }: &Station| Load { at, outward, traction };
         let held =
             stations.iter().filter(|station| station.exchanges || station.held != [false; 2]);
         let loaded = stations.iter().filter(|station| station.traction != Vec2::ZERO);
@@ -64,9 +64,9 @@ impl Preview {
         &self.domain.holes
     }
 
-    /// Drawn on so many pixels; nothing of a plate that has no room there.
+    /// Drawn on so many pixels; nothing of a body that has no room there.
     #[must_use]
-    pub fn items(&self, pixels: [u32; 2], scale: f64) -> Vec<Item> {
+    pub fn items(&self, pixels: [u32; 2], scale: f64) -> Vec<CanvasItem> {
         let bounds = self.domain.bounds;
         let (size, center) = (bounds.size(), (bounds.min + bounds.max) * 0.5);
         let [across, up] = pixels.map(|count| f64::from(count) * (1.0 - 2.0 * MARGIN));
@@ -81,12 +81,12 @@ impl Preview {
     }
 }
 
-/// The box of the plate.
-fn plate(view: &View, min: Vec2, max: Vec2, scale: f64) -> Vec<Item> {
+/// The box of the body.
+fn plate(view: &View, min: Vec2, max: Vec2, scale: f64) -> Vec<CanvasItem> {
     let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y), min];
-    let outline = Path { pieces: vec![corners.map(|corner| view.pixel(corner)).to_vec()] };
-    let border = Item::Line { path: outline.clone(), pen: Pen::new(BORDER, scale) };
-    vec![Item::Fill { outline, color: PLATE }, border]
+    let outline = CanvasPath { pieces: vec![corners.map(|corner| view.pixel(corner)).to_vec()] };
+    let border = CanvasItem::Line { path: outline.clone(), pen: StrokeStyle::new(BORDER, scale) };
+    vec![CanvasItem::Fill { outline, color: PLATE }, border]
 }
 
 #[cfg(test)]
@@ -106,8 +106,8 @@ mod tests {
         let mut points = 0;
         for item in &items {
             let path = match item {
-                Item::Line { path, .. } => path,
-                Item::Fill { outline, .. } => outline,
+                CanvasItem::Line { path, .. } => path,
+                CanvasItem::Fill { outline, .. } => outline,
                 _ => continue,
             };
             assert!(path.pieces.iter().flatten().all(inside), "{path:?}");

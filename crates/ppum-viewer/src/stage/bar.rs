@@ -1,6 +1,6 @@
-//! The colour bar on the plate: drawn as figures draw it, and the control of the range. Its ends
-//! are dragged, its middle shifts both, the wheel spreads them; a click on an end edits its number,
-//! a double click leaves the range to the program.
+//! The colour bar of a view: drawn as figures draw it, and the control of the range. Its ends are
+//! dragged, its middle shifts both, the wheel spreads them; a click on an end edits its number, a
+//! double click leaves the range to the program.
 
 use std::sync::Arc;
 
@@ -9,39 +9,39 @@ use egui::{
     TextEdit, Ui, pos2, vec2,
 };
 use ppum::text::exact;
-use ppum_figure::figure::{Bar, Design, Labels, Theme};
+use ppum_figure::figure::{FigureStyle, Labels, StandaloneColorBar, Theme};
 use ppum_render::extrema::{Extrema, Extremum};
-use ppum_render::picture::Picture;
-use ppum_render::range::Range;
+use ppum_render::picture::ColoredRaster;
+use ppum_render::range::RangeChoice;
 use ppum_render::scale::Normalization;
-use ppum_scene::colors::Colors;
-use ppum_scene::drawing::Drawn;
-use ppum_scene::range::Telling;
+use ppum_scene::colors::ColorOptions;
+use ppum_scene::drawing::PixelValues;
+use ppum_scene::range::RangeLocations;
 
 use crate::controls::range::{digits, parse, set};
-use crate::frames::Frame;
-use crate::reading::probe::Probed;
+use crate::frames::RenderedFrame;
+use crate::reading::probe::ProbeReading;
 use crate::reading::words::number;
 use crate::session::Pane;
-use crate::shapes::{self, Placed};
+use crate::shapes::{self, ImagePlacement};
 use crate::widgets::wrong;
 
-/// What is done to the bar just now.
+/// The present gesture on the bar.
 #[derive(Clone, Debug, Default)]
-pub struct Grip {
+pub struct BarGrip {
     /// The range when it was grabbed, and where.
-    grabbed: Option<Grabbed>,
+    grabbed: Option<GrabbedBar>,
     /// The end that is written, and what.
-    edited: Option<Edited>,
+    edited: Option<EditedLimit>,
     /// The extrema of values, which are looked for with ranges that are found and hold for those
     /// that are given.
-    extrema: Option<(Arc<Drawn>, Extrema)>,
+    extrema: Option<(Arc<PixelValues>, Extrema)>,
 }
 
 /// A bar as it was when it was grabbed. One that is dragged has other labels and other ends; what
 /// the hand does is measured on the one that it took.
 #[derive(Clone, Copy, Debug)]
-struct Grabbed {
+struct GrabbedBar {
     norm: Normalization,
     /// Heights of positions 0 and 1.
     ends: [f32; 2],
@@ -50,19 +50,19 @@ struct Grabbed {
 }
 
 #[derive(Clone, Debug)]
-struct Edited {
+struct EditedLimit {
     end: usize,
     text: String,
     mistake: Option<String>,
     is_new: bool,
 }
 
-/// Length of the bar in parts of the plate's height, and at most; no bar where it would be shorter
+/// Length of the bar in parts of the view's height, and at most; no bar where it would be shorter
 /// than the least.
 const PART: f32 = 0.6;
 const MOST: f32 = 420.0;
 const LEAST: f32 = 140.0;
-/// From the plate's border, and around the bar.
+/// Distance from the view's edge, and around the bar.
 const MARGIN: f32 = 10.0;
 const ROOM: f32 = 8.0;
 /// Width of its colours.
@@ -71,7 +71,7 @@ const BODY: f32 = 22.0;
 const MARK: f32 = 8.0;
 /// Height of what counts as an end.
 const END: f32 = 22.0;
-/// Plates that are narrower have bars without a name.
+/// Views that are narrower have bars without a name.
 const NARROW: f32 = 560.0;
 /// Letters in parts of those of a figure of 1024 × 768 pixels.
 const LETTERS: f64 = 0.92;
@@ -81,28 +81,28 @@ const WHEEL: f64 = 240.0;
 const ENDS: [&str; 2] = ["Lower end of the colours", "Upper end of the colours"];
 
 /// A bar at its place.
-struct Standing<'a> {
-    frame: &'a Frame,
-    bar: Bar,
+struct BarLayout<'a> {
+    frame: &'a RenderedFrame,
+    bar: StandaloneColorBar,
     /// The bar's upper left corner.
     corner: Pos2,
     right: f32,
 }
 
-/// Shows the bar of a picture on a plate, with ticks at what is read at the pointer.
+/// Shows the bar of an image over a view, with ticks at what is read at the pointer.
 pub fn show(
     ui: &mut Ui,
     plate: Rect,
-    grip: &mut Grip,
-    colors: &mut Colors,
-    frame: &Frame,
-    hover: Option<&Probed>,
+    grip: &mut BarGrip,
+    colors: &mut ColorOptions,
+    frame: &RenderedFrame,
+    hover: Option<&ProbeReading>,
 ) {
     let length = length(plate);
     if length < LEAST || plate.width() < LEAST {
         return;
     }
-    let standing = Standing::new(ui, plate, frame, length);
+    let standing = BarLayout::new(ui, plate, frame, length);
     standing.paint(ui);
     standing.body(ui, grip, colors);
     for end in [0, 1] {
@@ -114,27 +114,32 @@ pub fn show(
     standing.follow(ui, values);
 }
 
-/// Shows the bar of the difference to a resampled picture, where that is seen: beside the other
+/// Shows the bar of the difference to a resampled image, where that is seen: beside the other
 /// one, and nothing drags it.
-pub fn of_difference(ui: &Ui, plate: Rect, (pane, is_compared): (&Pane, bool), frame: &Frame) {
+pub fn of_difference(
+    ui: &Ui,
+    plate: Rect,
+    (pane, is_compared): (&Pane, bool),
+    frame: &RenderedFrame,
+) {
     let length = length(plate);
     let Some(other) = frame.other.as_ref().filter(|_| is_compared) else { return };
     if length < LEAST || plate.width() < 2.0 * LEAST || !pane.against.difference {
         return;
     }
     let labels = Labels { quantity: "resampled − direct".into(), ..Labels::default() };
-    let beside = Standing::new(ui, plate, frame, length).whole().left();
+    let beside = BarLayout::new(ui, plate, frame, length).whole().left();
     let bar = bar(ui, &other.difference, &labels, length);
-    let standing = Standing::at(plate, frame, bar, beside - MARGIN);
+    let standing = BarLayout::at(plate, frame, bar, beside - MARGIN);
     standing.paint(ui);
 }
 
-/// The length of a plate's bar.
+/// The length of a view's bar.
 fn length(plate: Rect) -> f32 {
     (PART * plate.height()).min(MOST)
 }
 
-/// The width that a plate's bar usually takes of it; none where there is no bar.
+/// The width that a view's bar usually takes of it; zero where there is no bar.
 pub(super) fn width(plate: Rect) -> f32 {
     let is_there = length(plate) >= LEAST && plate.width() >= LEAST;
     let labels = if plate.width() < NARROW { 48.0 } else { 66.0 };
@@ -142,14 +147,14 @@ pub(super) fn width(plate: Rect) -> f32 {
 }
 
 /// A bar in the window's colours.
-fn bar(ui: &Ui, picture: &Picture, labels: &Labels, length: f32) -> Bar {
-    let mut design = Design::pixels([1024, 768]);
+fn bar(ui: &Ui, picture: &ColoredRaster, labels: &Labels, length: f32) -> StandaloneColorBar {
+    let mut design = FigureStyle::pixels([1024, 768]);
     design.font_size *= LETTERS;
     design.theme = if ui.visuals().dark_mode { Theme::Dark } else { Theme::Light };
-    Bar::new(picture, labels, &design, f64::from(length))
+    StandaloneColorBar::new(picture, labels, &design, f64::from(length))
 }
 
-impl Grabbed {
+impl GrabbedBar {
     /// How far a height is from where the button went down, in lengths of the bar.
     fn by(&self, at: f32) -> f64 {
         let [low, high] = self.ends;
@@ -157,9 +162,9 @@ impl Grabbed {
     }
 }
 
-impl Grip {
-    /// The extrema of a picture's values, if they are known.
-    fn extrema(&mut self, frame: &Frame) -> Option<&Extrema> {
+impl BarGrip {
+    /// The extrema of an image's values, if they are known.
+    fn extrema(&mut self, frame: &RenderedFrame) -> Option<&Extrema> {
         if let Some(found) = &frame.picture.span.values {
             self.extrema = Some((Arc::clone(&frame.drawn), found.clone()));
         }
@@ -168,8 +173,8 @@ impl Grip {
     }
 }
 
-impl<'a> Standing<'a> {
-    fn new(ui: &Ui, plate: Rect, frame: &'a Frame, length: f32) -> Self {
+impl<'a> BarLayout<'a> {
+    fn new(ui: &Ui, plate: Rect, frame: &'a RenderedFrame, length: f32) -> Self {
         let [quantity, unit] = frame.words();
         let mut labels = Labels { quantity, unit, ..Labels::default() };
         if plate.width() < NARROW {
@@ -180,8 +185,8 @@ impl<'a> Standing<'a> {
         Self::at(plate, frame, bar, plate.right() - MARGIN)
     }
 
-    /// In the middle of a plate's height, on the left of something.
-    fn at(plate: Rect, frame: &'a Frame, bar: Bar, right: f32) -> Self {
+    /// Places the bar at the middle of a view's height, to the left of a position.
+    fn at(plate: Rect, frame: &'a RenderedFrame, bar: StandaloneColorBar, right: f32) -> Self {
         let mut width = bar.bounds()[1].x as f32;
         // one that is dragged has other labels and stays where it is
         width = width.max(bar.width as f32 + if plate.width() < NARROW { 48.0 } else { 66.0 });
@@ -211,7 +216,7 @@ impl<'a> Standing<'a> {
         (f64::from(height - self.corner.y) - low) / (high - low)
     }
 
-    /// What is coloured evenly.
+    /// Returns the rectangle of the colours.
     fn colored(&self) -> Rect {
         let right = self.corner.x + self.bar.width as f32;
         Rect::from_min_max(pos2(self.corner.x, self.height(1.0)), pos2(right, self.height(0.0)))
@@ -228,14 +233,14 @@ impl<'a> Standing<'a> {
     fn paint(&self, ui: &Ui) {
         let ground = ui.visuals().panel_fill.gamma_multiply(0.88);
         ui.painter().rect_filled(self.whole(), 6.0, ground);
-        let placed = Placed::new(self.corner, 1.0);
+        let placed = ImagePlacement::new(self.corner, 1.0);
         shapes::draw(ui.painter(), placed, &self.bar.items);
     }
 
     /// The middle: shifts the range, the wheel spreads it.
-    fn body(&self, ui: &Ui, grip: &mut Grip, colors: &mut Colors) {
+    fn body(&self, ui: &Ui, grip: &mut BarGrip, colors: &mut ColorOptions) {
         let id = ui.scope_id().with("colour bar");
-        // the ground takes the mouse, so that the plate below does not move
+        // the background takes the mouse, so that the view below does not move
         ui.interact(self.whole(), id.with("ground"), Sense::click_and_drag());
         let response = ui.interact(self.colored(), id, Sense::click_and_drag());
         name(&response, "Range of the colours");
@@ -257,7 +262,7 @@ impl<'a> Standing<'a> {
     }
 
     /// An end: dragged to where its value is to be, or written.
-    fn end(&self, ui: &Ui, grip: &mut Grip, colors: &mut Colors, end: usize) {
+    fn end(&self, ui: &Ui, grip: &mut BarGrip, colors: &mut ColorOptions, end: usize) {
         let rect = self.end_rect(end);
         let id = ui.scope_id().with("end of the colour bar").with(end);
         let response = ui.interact(rect, id, Sense::click_and_drag());
@@ -274,7 +279,7 @@ impl<'a> Standing<'a> {
             let _ = set(colors, ends, end);
         } else if response.clicked() {
             let text = exact(short(ends[end], ends));
-            grip.edited = Some(Edited { end, text, mistake: None, is_new: true });
+            grip.edited = Some(EditedLimit { end, text, mistake: None, is_new: true });
         }
         self.automatic(&response, grip, colors);
     }
@@ -295,23 +300,23 @@ impl<'a> Standing<'a> {
     }
 
     /// While it is dragged: the range when that began, and by how many lengths of the bar.
-    fn grabbed(&self, response: &Response, grip: &mut Grip) -> Option<(Normalization, f64)> {
+    fn grabbed(&self, response: &Response, grip: &mut BarGrip) -> Option<(Normalization, f64)> {
         let at = response.interact_pointer_pos()?.y;
         if response.drag_started() {
             // where the button went down: a drag is known some points later
             let origin = response.ctx.input(|input| input.pointer.press_origin());
             let ends = [0.0, 1.0].map(|end| self.height(end));
             let from = origin.map_or(at, |origin| origin.y);
-            grip.grabbed = Some(Grabbed { norm: *self.norm(), ends, from });
+            grip.grabbed = Some(GrabbedBar { norm: *self.norm(), ends, from });
             grip.edited = None;
         }
         let dragged = response.dragged();
         grip.grabbed.filter(|_| dragged).map(|grabbed| (grabbed.norm, grabbed.by(at)))
     }
 
-    fn automatic(&self, response: &Response, grip: &mut Grip, colors: &mut Colors) {
+    fn automatic(&self, response: &Response, grip: &mut BarGrip, colors: &mut ColorOptions) {
         if response.double_clicked() {
-            colors.range = Range::Auto;
+            colors.range = RangeChoice::Auto;
             grip.edited = None;
         }
     }
@@ -333,7 +338,7 @@ impl<'a> Standing<'a> {
             let response = ui.interact(rect, id, Sense::hover());
             let told = || {
                 let dataset = self.frame.field.dataset();
-                let telling = Telling::new(dataset, self.frame.field.field());
+                let telling = RangeLocations::new(dataset, self.frame.field.field());
                 let all = telling.extrema(extrema, picture.view.width);
                 format!("{}: {}", ["smallest value", "largest value"][number], all[number])
             };
@@ -384,7 +389,7 @@ impl<'a> Standing<'a> {
     }
 
     /// The number of an end, while it is written.
-    fn edit(&self, ui: &Ui, grip: &mut Grip, colors: &mut Colors) {
+    fn edit(&self, ui: &Ui, grip: &mut BarGrip, colors: &mut ColorOptions) {
         let Some(mut edited) = grip.edited.take() else { return };
         let end = edited.end;
         let place = pos2(self.whole().left() - 112.0, self.height(end as f64) - 12.0);
@@ -395,20 +400,20 @@ impl<'a> Standing<'a> {
             egui::Frame::popup(ui.style()).inner_margin(4.0).show(ui, |ui| field(ui, &mut edited))
         });
         let mut is_done = is_done.inner.inner;
-        if matches!(is_done, Done::Entered | Done::Finished)
+        if matches!(is_done, BarGesture::Entered | BarGesture::Finished)
             && let Err(mistake) = self.entered(&edited, colors)
-            && is_done == Done::Entered
+            && is_done == BarGesture::Entered
         {
-            (edited.mistake, edited.is_new, is_done) = (Some(mistake), true, Done::No);
+            (edited.mistake, edited.is_new, is_done) = (Some(mistake), true, BarGesture::No);
         }
-        if is_done == Done::No {
+        if is_done == BarGesture::No {
             grip.edited = Some(edited);
         }
     }
 
-    fn entered(&self, edited: &Edited, colors: &mut Colors) -> Result<(), String> {
+    fn entered(&self, edited: &EditedLimit, colors: &mut ColorOptions) -> Result<(), String> {
         let mut ends = match colors.range {
-            Range::Fixed(min, max) => [min, max],
+            RangeChoice::Fixed(min, max) => [min, max],
             _ => [self.norm().min(), self.norm().max()],
         };
         ends[edited.end] = parse(&edited.text).ok_or("write a finite number")?;
@@ -430,7 +435,7 @@ fn apart(heights: &[f32], gap: f32) -> Vec<f32> {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Done {
+enum BarGesture {
     No,
     Entered,
     Finished,
@@ -438,7 +443,7 @@ enum Done {
 }
 
 /// The field that a number is written in.
-fn field(ui: &mut Ui, edited: &mut Edited) -> Done {
+fn field(ui: &mut Ui, edited: &mut EditedLimit) -> BarGesture {
     let edit = TextEdit::singleline(&mut edited.text).desired_width(90.0);
     let edit = ui.add(edit).accessible_name(format!("{} as a number", ENDS[edited.end]));
     if edited.is_new {
@@ -450,16 +455,16 @@ fn field(ui: &mut Ui, edited: &mut Edited) -> Done {
     }
     let [enter, escape] = [Key::Enter, Key::Escape].map(|key| ui.input(|i| i.key_pressed(key)));
     match (edit.lost_focus(), enter, escape) {
-        (_, _, true) => Done::Left,
-        (true, true, _) => Done::Entered,
+        (_, _, true) => BarGesture::Left,
+        (true, true, _) => BarGesture::Entered,
         // a number that is written counts, as in other fields; one that is none is given up
-        (true, false, _) => Done::Finished,
-        _ => Done::No,
+        (true, false, _) => BarGesture::Finished,
+        _ => BarGesture::No,
     }
 }
 
 /// Fixes the range to both ends; one that is none leaves the range as it was.
-fn shift(colors: &mut Colors, [min, max]: [f64; 2]) {
+fn shift(colors: &mut ColorOptions, [min, max]: [f64; 2]) {
     if let Ok(range) = format!("{min:?},{max:?}").parse() {
         colors.range = range;
     }

@@ -3,28 +3,28 @@
 
 use egui::{Align, Layout, Rect, RichText, Ui, UiBuilder, vec2};
 use ppum::text::trimmed_to;
-use ppum_render::resample::norms::{NAMES, Norms};
+use ppum_render::resample::norms::{DifferenceNorms, NAMES};
 
-use crate::frames::{Fault, Frames, Minus};
+use crate::frames::{FaultOrigin, PaneFrames, SubtractedImage};
 use crate::reading::words::value;
 use crate::widgets::wrong;
 
-/// What a view is to the one beside it.
+/// The relation of a view to the one beside it.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub enum Pair {
+pub enum PairRole {
     /// Nothing: it shows its own values.
     #[default]
     Alone,
     /// Its values are subtracted on the right.
     Left,
     /// It shows its values minus those of the left, if a dataset is open there.
-    Right(Option<Minus>),
+    Right(Option<SubtractedImage>),
 }
 
-impl Pair {
-    /// What is subtracted here.
+impl PairRole {
+    /// Returns the subtrahend here.
     #[must_use]
-    pub fn minus(&self) -> Option<&Minus> {
+    pub fn minus(&self) -> Option<&SubtractedImage> {
         match self {
             Self::Right(minus) => minus.as_ref(),
             _ => None,
@@ -34,7 +34,7 @@ impl Pair {
 
 /// Digits of norms.
 const DIGITS: usize = 3;
-/// From the plate's border, and around the words.
+/// Distance from the view's edge, and around the words.
 const MARGIN: f32 = 10.0;
 const ROOM: f32 = 5.0;
 /// Widest words.
@@ -44,21 +44,21 @@ const SMALL: f32 = 11.5;
 /// Where there is less room one norm stands alone.
 const NARROW: f32 = 400.0;
 
-/// Says on both plates what they are to each other, in the upper right corner; something on the
-/// left takes some of the width.
+/// Says on both views how they are related, in the upper right corner; something on the left takes
+/// some of the width.
 pub fn show(
     ui: &mut Ui,
     (plate, taken): (Rect, f32),
-    (pair, caption): (&Pair, Option<&str>),
-    frames: &Frames,
+    (pair, caption): (&PairRole, Option<&str>),
+    frames: &PaneFrames,
 ) {
     let space = plate.width() - taken - 2.0 * (MARGIN + ROOM);
     let (title, lines) = match pair {
-        Pair::Alone if caption.is_none() => return,
-        Pair::Alone => ("", Vec::new()),
-        Pair::Left => ("left", Vec::new()),
-        Pair::Right(None) => ("right", vec![("nothing is open on the left".to_owned(), true)]),
-        Pair::Right(Some(_)) => ("right − left", difference_lines(frames, space < NARROW)),
+        PairRole::Alone if caption.is_none() => return,
+        PairRole::Alone => ("", Vec::new()),
+        PairRole::Left => ("left", Vec::new()),
+        PairRole::Right(None) => ("right", vec![("nothing is open on the left".to_owned(), true)]),
+        PairRole::Right(Some(_)) => ("right − left", difference_lines(frames, space < NARROW)),
     };
     let corner = plate.right_top() + vec2(-MARGIN - ROOM, MARGIN + ROOM);
     let left = corner.x - space.clamp(1.0, WIDEST);
@@ -86,8 +86,8 @@ pub fn show(
 }
 
 /// The lines about a difference, in short of one norm alone; true for those of errors.
-fn difference_lines(frames: &Frames, is_short: bool) -> Vec<(String, bool)> {
-    let failure = frames.failure().filter(|failure| failure.fault == Fault::Minus);
+fn difference_lines(frames: &PaneFrames, is_short: bool) -> Vec<(String, bool)> {
+    let failure = frames.failure().filter(|failure| failure.fault == FaultOrigin::Minus);
     if let Some(failure) = failure {
         return vec![(failure.message.clone(), true)];
     }
@@ -104,7 +104,7 @@ fn difference_lines(frames: &Frames, is_short: bool) -> Vec<(String, bool)> {
 
 /// The means and the largest of the differences in the view, also in parts of the left's own; in
 /// short L2 alone.
-fn words(norms: &Norms, unit: &str, is_short: bool) -> String {
+fn words(norms: &DifferenceNorms, unit: &str, is_short: bool) -> String {
     match norms.absolute {
         _ if norms.compared == 0 => return "no point of this view has both values".into(),
         [.., 0.0] => return "no difference in this view".into(),

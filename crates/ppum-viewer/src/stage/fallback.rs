@@ -1,19 +1,19 @@
-//! What is shown where something was chosen that a dataset does not have: a file that was written
-//! anew, a session of another one.
+//! Replacement of choices that a dataset does not have: a file that was written again, a session of
+//! another one.
 
 use egui::{Align, Layout, Rect, RichText, Ui, UiBuilder, vec2};
-use ppum_scene::colors::Colors;
+use ppum_scene::colors::ColorOptions;
 use ppum_scene::scene::Subject;
 
-use crate::frames::{Failure, Fault, Frames};
+use crate::frames::{FaultOrigin, ImageFailure, PaneFrames};
 use crate::session::Pane;
-use crate::stage::Stage;
+use crate::stage::ViewPane;
 use crate::widgets::wrong;
 
-impl Stage {
-    /// Leaves what keeps a dataset from having any picture, as if it was opened without; that can
-    /// be undone. Where there is a picture of it the mistake is to be mended, and the
-    /// picture stays.
+impl ViewPane {
+    /// Drops the settings that keep a dataset from having any image, as if it had been opened
+    /// without them; that can be undone. Where there is an image the error is for the user to
+    /// correct, and the image stays.
     pub(super) fn fall_back(&mut self, pane: &mut Pane) {
         if self.frames.newest().is_some() {
             return;
@@ -22,7 +22,7 @@ impl Stage {
         self.told.extend(failure.and_then(|failure| leave(pane, &failure)));
     }
 
-    /// Shows the whole plate in place of a place that no view has.
+    /// Shows the whole body instead of a location that no view can show.
     pub fn show_whole(&mut self, pane: &mut Pane) {
         pane.place = None;
         self.flight = None;
@@ -31,42 +31,45 @@ impl Stage {
 }
 
 /// Leaves what a failure comes from; what is told of it, if there was something to leave.
-fn leave(pane: &mut Pane, Failure { fault, message }: &Failure) -> Option<String> {
+fn leave(pane: &mut Pane, ImageFailure { fault, message }: &ImageFailure) -> Option<String> {
     let scene = &mut pane.scene;
     match fault {
-        Fault::Quantity => {
+        FaultOrigin::Quantity => {
             let quantity = scene.quantity.take()?;
             Some(format!("{quantity} cannot be shown: {message}. The default quantity is shown"))
         }
-        Fault::Subject => {
+        FaultOrigin::Subject => {
             let own = Subject { step: scene.subject.step, ..Subject::default() };
             (scene.subject != own).then(|| {
                 scene.subject = own;
                 format!("what was replaced cannot be: {message}. Everything is as the file has it")
             })
         }
-        Fault::Deformed => {
+        FaultOrigin::Deformed => {
             scene.deformed.take()?;
             Some(format!("the plate cannot be deformed: {message}"))
         }
-        Fault::Mirror => {
+        FaultOrigin::Mirror => {
             scene.mirror.take()?;
             Some(format!("the plate cannot be mirrored: {message}"))
         }
-        Fault::Colors => (scene.colors != Colors::default()).then(|| {
-            scene.colors = Colors::default();
+        FaultOrigin::Colors => (scene.colors != ColorOptions::default()).then(|| {
+            scene.colors = ColorOptions::default();
             format!("the colours cannot be those chosen: {message}. The default ones are")
         }),
-        Fault::Overlays | Fault::Compare | Fault::Minus | Fault::Program => None,
+        FaultOrigin::Overlays
+        | FaultOrigin::Compare
+        | FaultOrigin::Minus
+        | FaultOrigin::Program => None,
     }
 }
 
 /// Widest words \[points\].
 const WIDEST: f32 = 440.0;
 
-/// Says in the middle of the plate why there is nothing to see; differences say so themselves.
-pub(super) fn show(ui: &mut Ui, rect: Rect, frames: &Frames) {
-    let failure = frames.failure().filter(|failure| failure.fault != Fault::Minus);
+/// Says in the middle of the view why there is nothing to see; differences say so themselves.
+pub(super) fn show(ui: &mut Ui, rect: Rect, frames: &PaneFrames) {
+    let failure = frames.failure().filter(|failure| failure.fault != FaultOrigin::Minus);
     let (Some(failure), None) = (failure, frames.newest()) else { return };
     let width = (rect.width() - 40.0).clamp(40.0, WIDEST);
     let room = Rect::from_center_size(rect.center(), vec2(width, 0.5 * rect.height()));

@@ -10,7 +10,7 @@ use crate::session::VisibleRegion;
 pub struct Flight {
     from: VisibleRegion,
     to: VisibleRegion,
-    /// What the place is set to at the end: none for the whole plate.
+    /// The location that is set at the end: none for the whole body.
     pub end: Option<VisibleRegion>,
     /// When it began, and what it takes \[s\], by the window's clock.
     began: f64,
@@ -32,7 +32,7 @@ impl Flight {
         end: Option<VisibleRegion>,
         now: f64,
     ) -> Self {
-        let takes = (PACE * Path::new(from, to).length).clamp(0.0, LONGEST);
+        let takes = (PACE * FlightPath::new(from, to).length).clamp(0.0, LONGEST);
         Self { from, to, end, began: now, takes }
     }
 
@@ -45,7 +45,7 @@ impl Flight {
         }
         // slow at both ends
         let eased = part * part * (3.0 - 2.0 * part);
-        let place = Path::new(self.from, self.to).at(eased);
+        let place = FlightPath::new(self.from, self.to).at(eased);
         // between places that are too far apart there is no way
         let is_finite = place.width > 0.0 && place.width.is_finite() && place.center().is_finite();
         is_finite.then_some(place)
@@ -53,7 +53,7 @@ impl Flight {
 }
 
 /// The way between two places.
-struct Path {
+struct FlightPath {
     from: VisibleRegion,
     to: VisibleRegion,
     /// Distance of the centres.
@@ -63,7 +63,7 @@ struct Path {
     start: f64,
 }
 
-impl Path {
+impl FlightPath {
     fn new(from: VisibleRegion, to: VisibleRegion) -> Self {
         let distance = (to.center() - from.center()).length();
         let (w0, w1) = (from.width, to.width);
@@ -113,7 +113,7 @@ mod tests {
             (place(0.1, 1.0), place(0.1, 1e-12)),
             (place(0.5, 1e-6), place(0.0, 3.0)),
         ] {
-            let path = Path::new(a, b);
+            let path = FlightPath::new(a, b);
             for (part, want) in [(0.0, a), (1.0, b)] {
                 let found = path.at(part);
                 assert!((found.width / want.width - 1.0).abs() < 1e-6, "{a:?} {b:?} {found:?}");
@@ -126,7 +126,7 @@ mod tests {
 
     #[test]
     fn between_far_tips_it_rises() {
-        let path = Path::new(place(-0.5, 1e-6), place(0.5, 1e-6));
+        let path = FlightPath::new(place(-0.5, 1e-6), place(0.5, 1e-6));
         assert!(path.at(0.5).width > 0.1);
     }
 }

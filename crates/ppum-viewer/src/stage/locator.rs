@@ -1,28 +1,28 @@
-//! A small map of the whole plate, with where one is, once that is only a part of it.
+//! A small map of the whole body, with where one is, once that is only a part of it.
 
 use egui::{Color32, Rect, Response, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 use ppum::field::Field;
 use ppum::vec2::Vec2;
-use ppum_figure::canvas::Item;
+use ppum_figure::canvas::CanvasItem;
 use ppum_figure::overlay;
 use ppum_figure::ticks::power_of_ten;
 use ppum_render::view::View;
 
-use crate::shapes::{self, Placed};
+use crate::shapes::{self, ImagePlacement};
 
 /// The larger side of the map, in points of the window.
 const SIDE: f32 = 110.0;
-/// The map is shown where the plate is enlarged more than this.
+/// The map is shown where the body is enlarged more than this.
 const ENLARGED: f64 = 2.5;
 
-/// What the map shows of a plate: its holes and cracks, drawn once.
+/// The body as the map shows it: its holes and cracks, drawn once.
 pub struct Locator {
     map: View,
-    items: Vec<Item>,
+    items: Vec<CanvasItem>,
 }
 
 impl Locator {
-    /// The map of a plate; none of one without size.
+    /// The map of a body; none of one without size.
     #[must_use]
     pub fn new(field: &Field<'_>) -> Option<Self> {
         let bounds = field.domain.bounds;
@@ -33,7 +33,7 @@ impl Locator {
     }
 
     /// The width from the left of the stage that the map takes in a view that is `times` larger
-    /// than the whole plate; none where it is not shown.
+    /// than the whole body; none where it is not shown.
     #[must_use]
     pub fn width(&self, rect: Rect, times: f64) -> f32 {
         let width = self.map.pixels[0] as f32;
@@ -42,7 +42,7 @@ impl Locator {
     }
 
     /// Shows the map in the upper left corner of the stage, if the view is a small part of the
-    /// plate, with how many `times` larger it is than the whole; the point of the plate that was
+    /// body, with how many `times` larger it is than the whole; the point of the body that was
     /// clicked.
     pub fn show(&self, ui: &Ui, rect: Rect, view: &View, times: f64) -> Option<Vec2> {
         let [width, height] = self.map.pixels.map(|n| n as f32);
@@ -54,7 +54,7 @@ impl Locator {
         let painter = ui.painter_at(rect);
         painter.rect_filled(whole.expand(4.0), 4.0, Color32::from_black_alpha(150));
         painter.rect_filled(whole, 0.0, Color32::from_gray(230));
-        shapes::draw(&painter.with_clip_rect(whole), Placed::new(corner, 1.0), &self.items);
+        shapes::draw(&painter.with_clip_rect(whole), ImagePlacement::new(corner, 1.0), &self.items);
         self.mark(&painter, whole, view);
         let zoom = format!("×{}", magnification(times));
         let name = format!("Map of the plate, {zoom}");

@@ -1,4 +1,4 @@
-//! Marks over the plate: the patches at the pointer, the curve with its handles, probes, extrema, K
+//! Marks over the view: the patches at the pointer, the curve with its handles, probes, extrema, K
 //! beside its circle.
 
 use std::sync::Arc;
@@ -9,22 +9,22 @@ use ppum::crack::Crack;
 use ppum::vec2::Vec2;
 use ppum_render::extrema::Extremum;
 
-use super::Stage;
-use super::sight::Sight;
+use super::ViewPane;
+use super::hover::HoverGeometry;
 use super::tools::{handles, outline};
-use crate::frames::Frame;
-use crate::reading::probe::Probed;
+use crate::frames::RenderedFrame;
+use crate::reading::probe::ProbeReading;
 use crate::reading::words;
 use crate::session::Pane;
-use ppum_scene::spot::Spot;
+use ppum_scene::location::Location;
 
 const INK: Color32 = Color32::from_rgb(214, 88, 0);
 const HALO: Color32 = Color32::from_rgba_premultiplied(225, 225, 225, 225);
 
-impl Stage {
-    /// Marks over the plate: the patches at the pointer, the curve with its handles,
-    /// probes, extrema.
-    pub(super) fn marks(&mut self, ui: &mut Ui, sight: &Sight, pane: &Pane) {
+impl ViewPane {
+    /// Marks over the view: the patches at the pointer, the curve with its handles, probes,
+    /// extrema.
+    pub(super) fn marks(&mut self, ui: &mut Ui, sight: &HoverGeometry, pane: &Pane) {
         let painter = ui.painter_at(sight.rect);
         let cracks = self.cracks(pane);
         let cracks = cracks.as_deref().unwrap_or_default();
@@ -56,7 +56,7 @@ impl Stage {
     }
 
     /// K beside the circle, or the reason why there is none.
-    fn told_integral(&mut self, ui: &mut Ui, sight: &Sight, pane: &Pane, cracks: &[Crack]) {
+    fn told_integral(&mut self, ui: &mut Ui, sight: &HoverGeometry, pane: &Pane, cracks: &[Crack]) {
         let Some(along) = &pane.curve else { return };
         if !self.reading.integral.is_asked() || self.reading.grip.is_some() {
             return;
@@ -69,7 +69,7 @@ impl Stage {
     }
 }
 
-/// A text on a plate of its own above a position, inside a rectangle.
+/// Shows a text on its own background above a position, inside a rectangle.
 fn beside(ui: &mut Ui, within: Rect, at: Pos2, text: &str) {
     let width = (within.width() - 24.0).min(420.0);
     let font = egui::TextStyle::Body.resolve(ui.style());
@@ -83,7 +83,7 @@ fn beside(ui: &mut Ui, within: Rect, at: Pos2, text: &str) {
     let corner = within.min + corner.max(egui::Vec2::ZERO).min(room);
     let rect = Rect::from_min_size(corner, size);
     ui.painter_at(within).rect_filled(rect, 4.0, ui.visuals().panel_fill.gamma_multiply(0.92));
-    // a label, so that it is read aloud too; of a child, since the plate's own room is given away
+    // a label, so that it is read aloud too; in a child, since the view's own space is given away
     let builder = egui::UiBuilder::new().max_rect(rect.shrink2(vec2(6.0, 4.0)));
     let mut child = ui.new_child(builder);
     child.set_clip_rect(within);
@@ -92,14 +92,19 @@ fn beside(ui: &mut Ui, within: Rect, at: Pos2, text: &str) {
 }
 
 /// The supports of the patches, the more strongly the more they count.
-fn patches(painter: &Painter, sight: &Sight, probed: &Probed, frame: &Arc<Frame>) {
+fn patches(
+    painter: &Painter,
+    sight: &HoverGeometry,
+    probed: &ProbeReading,
+    frame: &Arc<RenderedFrame>,
+) {
     let field = frame.field.field();
     for (patch, phi) in &probed.patches {
         let support = field.step.partition.support(*patch as usize);
         let bounds = field.domain.bounds;
         let (a, b) = (support.min.max(bounds.min), support.max.min(bounds.max));
         let corners = [a, Vec2 { x: b.x, y: a.y }, b, Vec2 { x: a.x, y: b.y }, a];
-        let spots = corners.map(|corner| Spot::new(corner, Vec2::ZERO));
+        let spots = corners.map(|corner| Location::new(corner, Vec2::ZERO));
         let strength = (30.0 + 130.0 * phi.clamp(0.0, 1.0)) as u8;
         for line in sight.lines(&spots) {
             painter.line_segment(line, Stroke::new(2.0, Color32::from_black_alpha(strength / 2)));
@@ -109,7 +114,7 @@ fn patches(painter: &Painter, sight: &Sight, probed: &Probed, frame: &Arc<Frame>
 }
 
 /// A ring around what is read if that is not just under the pointer: a tip, a point of a crack.
-fn ring(painter: &Painter, sight: &Sight, probed: &Probed) {
+fn ring(painter: &Painter, sight: &HoverGeometry, probed: &ProbeReading) {
     if (probed.tip.is_some() || probed.crack.is_some())
         && let Some(at) = sight.position(&probed.spot)
     {
@@ -118,7 +123,7 @@ fn ring(painter: &Painter, sight: &Sight, probed: &Probed) {
     }
 }
 
-fn curve(painter: &Painter, sight: &Sight, spots: &[Spot]) {
+fn curve(painter: &Painter, sight: &HoverGeometry, spots: &[Location]) {
     let lines = sight.lines(spots);
     for (width, color) in [(4.0, HALO), (2.0, INK)] {
         for line in &lines {
@@ -128,7 +133,13 @@ fn curve(painter: &Painter, sight: &Sight, spots: &[Spot]) {
 }
 
 /// The mark of a probe: a cross with its number.
-fn probe(painter: &Painter, sight: &Sight, spot: &Spot, number: &str, is_selected: bool) {
+fn probe(
+    painter: &Painter,
+    sight: &HoverGeometry,
+    spot: &Location,
+    number: &str,
+    is_selected: bool,
+) {
     let Some(at) = sight.position(spot) else { return };
     let arm = if is_selected { 8.0 } else { 6.0 };
     for (width, color) in [(4.0, HALO), (if is_selected { 2.5 } else { 1.5 }, INK)] {
@@ -139,7 +150,7 @@ fn probe(painter: &Painter, sight: &Sight, spot: &Spot, number: &str, is_selecte
     lettered(painter, at + vec2(7.0, -5.0), Align2::LEFT_BOTTOM, number);
 }
 
-/// Letters on a small plate, readable on any colours.
+/// Text on a small background, readable on any colours.
 fn lettered(painter: &Painter, at: Pos2, align: Align2, text: &str) {
     if text.is_empty() {
         return;
@@ -151,10 +162,10 @@ fn lettered(painter: &Painter, at: Pos2, align: Align2, text: &str) {
 }
 
 /// The places of the least and the greatest value of what is seen of the body.
-fn extrema(painter: &Painter, sight: &Sight, frame: &Arc<Frame>) {
+fn extrema(painter: &Painter, sight: &HoverGeometry, frame: &Arc<RenderedFrame>) {
     let Some(found) = &frame.picture.span.values else { return };
     let mark = |extremum: &Extremum, sign: &str, align: Align2| {
-        if let Some(at) = sight.position(&Spot::new(found.center, extremum.offset)) {
+        if let Some(at) = sight.position(&Location::new(found.center, extremum.offset)) {
             painter.circle(at, 4.0, HALO, Stroke::new(2.0, INK));
             let text = format!("{sign} {}", words::value(extremum.value, ""));
             let shift = if align == Align2::LEFT_BOTTOM { -5.0 } else { 5.0 };

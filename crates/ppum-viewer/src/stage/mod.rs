@@ -1,10 +1,10 @@
-//! The plate, edge to edge: shown from the newest picture, moved by the mouse.
+//! A view, edge to edge: shown from the newest image, moved by the mouse.
 
-pub mod against;
 pub mod bar;
 pub mod difference;
 mod fallback;
 pub mod flight;
+pub mod hover;
 pub mod locator;
 mod marks;
 mod opened;
@@ -12,8 +12,8 @@ mod pipeline;
 pub mod pixels;
 pub mod readout;
 pub mod scale_bar;
-pub mod sight;
 mod solids;
+pub mod split_view;
 pub mod texture;
 pub mod tools;
 
@@ -22,37 +22,37 @@ use std::sync::Arc;
 use egui::{Color32, PointerButton, Rect, Sense, Ui, vec2};
 use ppum::crack::tips;
 use ppum::dataset::Dataset;
-use ppum::decompose::Part;
+use ppum::decompose::FieldPart;
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
 use ppum_scene::compare::Compare;
-use ppum_scene::scene::{Scene, default_quantity};
+use ppum_scene::location::Location;
+use ppum_scene::scene::{SceneRequest, default_quantity};
 use ppum_scene::shot::FieldSource;
-use ppum_scene::spot::Spot;
 
 use crate::controls::Controls;
 use crate::field::OwnedField;
-use crate::frames::{Backend, Frame, Frames, Wanted};
+use crate::frames::{Backend, FrameRequest, PaneFrames, RenderedFrame};
 use crate::plate::{bounded, view, zoomed};
-use crate::reading::Reading;
-use crate::reading::question::Question;
+use crate::reading::ViewReading;
+use crate::reading::question::BackgroundQuery;
 use crate::session::{Pane, VisibleRegion};
-use crate::undo::{Rest, Undo};
-use against::Against;
-use difference::Pair;
+use crate::undo::{RestDetector, Undo};
+use difference::PairRole;
 use flight::Flight;
+use hover::HoverGeometry;
 use locator::Locator;
-pub use opened::Opened;
+pub use opened::OpenDataset;
 use ppum_scene::owner::Owner;
-use sight::Sight;
-use texture::{Sheet, Texture};
+use split_view::SplitView;
+use texture::{LayerTexture, Texture};
 
-/// One view: its dataset, its pictures, and what the mouse does in it.
-pub struct Stage {
+/// One view: its dataset, its images, and what the mouse does in it.
+pub struct ViewPane {
     /// The dataset.
-    pub opened: Option<Opened>,
-    /// Pictures, made in the background.
-    pub frames: Frames,
+    pub opened: Option<OpenDataset>,
+    /// Images, made in the background.
+    pub frames: PaneFrames,
     /// Views that were, to go back to.
     pub trail: Undo<Option<VisibleRegion>>,
     /// The view on the window's pixels.
@@ -61,79 +61,79 @@ pub struct Stage {
     pub hover: Option<Vec2>,
     /// Columns of pixels on the right that belong to the colour bar where there is room beside it.
     taken: u32,
-    /// What the panels of this view remember.
+    /// The state of the panels of this view.
     pub controls: Controls,
-    grip: bar::Grip,
-    against: Against,
-    /// What the view is to the one beside it.
-    pub pair: Pair,
-    /// What is read of it.
-    pub reading: Reading,
+    grip: bar::BarGrip,
+    against: SplitView,
+    /// The relation of the view to the one beside it.
+    pub pair: PairRole,
+    /// The readings of it.
+    pub reading: ViewReading,
     texture: Texture,
-    sheet: Sheet,
+    sheet: LayerTexture,
     flight: Option<Flight>,
-    rest: Rest<Option<VisibleRegion>>,
-    /// The map of the plate, and the field that it was drawn of.
+    rest: RestDetector<Option<VisibleRegion>>,
+    /// The map of the body, and the field that it was drawn of.
     locator: Option<(Arc<OwnedField>, Option<Locator>)>,
-    moved: Question<Moved, ppum::vec2::Rect>,
+    moved: BackgroundQuery<VisibleBodies, ppum::vec2::Rect>,
     /// True if someone wants to go deeper than doubles do.
     is_at_the_end: bool,
-    /// What cannot be shown as it was chosen and is shown otherwise, for whoever tells it.
+    /// Choices that cannot be shown and are replaced, for the caller to report.
     pub told: Vec<String>,
-    /// What is shown, where another view stands beside it.
+    /// The caption; `None` without another view beside it.
     pub caption: Option<String>,
     /// Why a key did nothing, and when.
     unheeded: Option<(String, f64)>,
     now: f64,
 }
 
-/// What a box is looked for around: the deformed whole, and its border as it was if that is
-/// drawn too.
+/// A scene whose bounding box is computed: that of the deformed whole, and of its undeformed border
+/// if that is drawn too.
 #[derive(Clone)]
-struct Moved {
+struct VisibleBodies {
     field: Arc<OwnedField>,
-    scene: Scene,
+    scene: SceneRequest,
 }
 
-impl PartialEq for Moved {
+impl PartialEq for VisibleBodies {
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.field, &other.field) && self.scene == other.scene
     }
 }
 
-impl Moved {
+impl VisibleBodies {
     fn bounds(&self) -> Result<ppum::vec2::Rect, String> {
         let source = FieldSource::of(self.field.dataset(), self.field.field());
         source.seen_bounds(&self.scene).map_err(|error| error.to_string())
     }
 }
 
-/// Part of the picture that the keys move it by.
+/// Part of the image that the keys move it by.
 const PAN: f64 = 0.125;
 
-impl Stage {
+impl ViewPane {
     /// A stage without a dataset.
     #[must_use]
     pub fn new(ctx: &egui::Context, backend: Backend) -> Self {
         let ctx = ctx.clone();
         Self {
             opened: None,
-            frames: Frames::with_backend(backend, move || ctx.request_repaint()),
+            frames: PaneFrames::with_backend(backend, move || ctx.request_repaint()),
             trail: Undo::new(None),
             view: None,
             hover: None,
             taken: 0,
             controls: Controls::default(),
-            grip: bar::Grip::default(),
-            against: Against::default(),
-            pair: Pair::default(),
+            grip: bar::BarGrip::default(),
+            against: SplitView::default(),
+            pair: PairRole::default(),
             texture: Texture::default(),
-            sheet: Sheet::default(),
-            reading: Reading::default(),
+            sheet: LayerTexture::default(),
+            reading: ViewReading::default(),
             flight: None,
-            rest: Rest::new(None),
+            rest: RestDetector::new(None),
             locator: None,
-            moved: Question::default(),
+            moved: BackgroundQuery::default(),
             is_at_the_end: false,
             told: Vec::new(),
             caption: None,
@@ -160,7 +160,7 @@ impl Stage {
             self.show_whole(pane);
         }
         let Some(view) = view(pane.place, whole, pixels, self.taken) else { return };
-        let sight = Sight::new(view, rect, self.frames.newest().map(|frame| &**frame));
+        let sight = HoverGeometry::new(view, rect, self.frames.newest().map(|frame| &**frame));
         if !self.draw_by_mouse(ui, &response, &sight, pane) {
             self.move_by_mouse(ui, &response, rect, pane, &view, &opened.dataset);
         }
@@ -172,7 +172,7 @@ impl Stage {
             Some(seconds) => ui.ctx().request_repaint_after_secs(seconds as f32),
         }
         if self.frames.poll() {
-            // panels have been shown, from the picture before
+            // panels have been shown, from the image before
             ui.ctx().request_repaint();
             self.fall_back(pane);
         }
@@ -182,7 +182,7 @@ impl Stage {
         let scene = self.controls.drawn(&pane.scene);
         let compare = self.compared(pane);
         let (dataset, minus) = (Arc::clone(&opened.dataset), self.pair.minus().cloned());
-        self.frames.want(Wanted { dataset, scene, view, compare, minus });
+        self.frames.want(FrameRequest { dataset, scene, view, compare, minus });
         self.paint(ui, rect, &view);
         if let Some(frame) = self.frames.newest() {
             let hover = self.reading.hover.as_ref();
@@ -199,14 +199,14 @@ impl Stage {
         let taken = map.map_or(0.0, |map| map.width(rect, times));
         let caption = self.caption.as_deref();
         difference::show(ui, (rect, taken), (&self.pair, caption), &self.frames);
-        let sight = Sight::new(view, rect, self.frames.newest().map(|frame| &**frame));
+        let sight = HoverGeometry::new(view, rect, self.frames.newest().map(|frame| &**frame));
         self.read(ui, &response, &sight, pane);
         self.pick(&response, pane);
         self.marks(ui, &sight, pane);
         self.line(ui, pane);
     }
 
-    /// The way of resampling that is looked at: grids are of one field, and of the plate as it was.
+    /// The way of resampling that is looked at: grids are of one field, and of the body as it was.
     #[must_use]
     pub fn compared(&self, pane: &Pane) -> Option<Compare> {
         let is_moved = pane.scene.deformed.is_some() || pane.scene.mirror.is_some();
@@ -222,7 +222,7 @@ impl Stage {
         self.controls.is_picking = false;
         let owner = self.frame().and_then(|frame| Owner::at(frame.field.field(), center, offset));
         if let Some(owner) = owner {
-            pane.scene.subject.part = Some(Part::Patch(owner.patch()).to_string());
+            pane.scene.subject.part = Some(FieldPart::Patch(owner.patch()).to_string());
         }
     }
 
@@ -241,7 +241,7 @@ impl Stage {
         }
     }
 
-    /// Flies to a place, or to the whole plate.
+    /// Flies to a place, or to the whole body.
     pub fn fly_to(&mut self, pane: &Pane, to: Option<VisibleRegion>) {
         let (Some(view), Some(opened)) = (self.view, self.opened.clone()) else { return };
         let whole = self.known_whole(pane, &opened.dataset);
@@ -251,15 +251,15 @@ impl Stage {
             Some(Flight::new(VisibleRegion::of(&view), VisibleRegion::of(&end), to, self.now));
     }
 
-    /// A box around the plate as it is drawn, where it is deformed too; that is looked for in
+    /// A box around the body as it is drawn, deformed or not; that of a deformed one is computed in
     /// the background.
     fn whole(&mut self, ctx: &egui::Context, pane: &Pane, dataset: &Dataset) -> ppum::vec2::Rect {
         match (pane.scene.deformed, self.frames.newest()) {
             (Some(_), Some(frame)) => {
-                let Scene { deformed, outline, ref mirror, .. } = pane.scene;
+                let SceneRequest { deformed, outline, ref mirror, .. } = pane.scene;
                 let mirror = mirror.clone();
-                let scene = Scene { deformed, outline, mirror, ..Scene::default() };
-                let asked = Moved { field: Arc::clone(&frame.field), scene };
+                let scene = SceneRequest { deformed, outline, mirror, ..SceneRequest::default() };
+                let asked = VisibleBodies { field: Arc::clone(&frame.field), scene };
                 let theirs = asked.clone();
                 self.moved.ask(&asked, false, ctx, move |_| Some(theirs.bounds()));
             }
@@ -268,7 +268,7 @@ impl Stage {
         self.known_whole(pane, dataset)
     }
 
-    /// What a figure shows: the plate without what lies beside it, or what is seen of it.
+    /// Returns the view of a figure: the body without what lies beside it, or what is seen of it.
     #[must_use]
     pub fn cropped(&mut self, pane: &Pane) -> Option<View> {
         let (view, dataset) = (self.view?, Arc::clone(&self.opened.as_ref()?.dataset));
@@ -278,7 +278,7 @@ impl Stage {
         View::hug(self.known_whole(pane, &dataset), view.pixels).ok()
     }
 
-    /// The same as far as it is known: while a factor is dragged that of the last one.
+    /// Returns the last box that is known: while a factor is dragged, that of the previous one.
     fn known_whole(&mut self, pane: &Pane, dataset: &Dataset) -> ppum::vec2::Rect {
         let known = pane.scene.deformed.and(self.moved.newest());
         let known =
@@ -287,7 +287,7 @@ impl Stage {
         bounds.copied().unwrap_or_else(|| self.plate(pane, dataset))
     }
 
-    /// A box around the undeformed plate, the whole of one that is mirrored.
+    /// A box around the undeformed body, the whole of one that is mirrored.
     fn plate(&self, pane: &Pane, dataset: &Dataset) -> ppum::vec2::Rect {
         let bounds = dataset.domain.bounds;
         let frame = self.frames.newest().filter(|_| pane.scene.mirror.is_some());
@@ -295,16 +295,16 @@ impl Stage {
         frame.map_or(bounds, |frame| frame.lines.whole(bounds))
     }
 
-    /// True while a picture is on its way, or where it is to be.
+    /// True while an image is on its way, or where it is to be.
     #[must_use]
     pub fn is_drawing(&self) -> bool {
         self.frames.is_working() || self.moved.is_working()
     }
 
-    /// What is shown in a few words: `plate.h5 · step 3 · syy`.
+    /// Describes the view in a few words: `plate.h5 · step 3 · syy`.
     #[must_use]
     pub fn named(&self, pane: &Pane) -> Option<String> {
-        let Opened { path, dataset, .. } = self.opened.as_ref()?;
+        let OpenDataset { path, dataset, .. } = self.opened.as_ref()?;
         let file = path.as_deref().and_then(std::path::Path::file_name);
         let name = file.map_or(dataset.title.clone(), |name| name.to_string_lossy().into_owned());
         let step = pane.scene.subject.step_of(dataset);
@@ -322,7 +322,7 @@ impl Stage {
         self.opened.as_ref().is_some_and(|opened| opened.dataset.equation.elastic().is_none())
     }
 
-    /// Says for a few seconds, on the line below the plate, why a key did nothing.
+    /// Says for a few seconds, on the line below the view, why a key did nothing.
     pub fn tell(&mut self, text: impl Into<String>) {
         self.unheeded = Some((text.into(), self.now));
     }
@@ -430,25 +430,25 @@ impl Stage {
     /// The way from the view's centre to the point that a ring marks near the pointer, else to the
     /// pointer itself, so that one who enlarges a point of a crack stays on the crack.
     fn snapped(&self, view: &View, pointer: Vec2, scale: f64) -> Vec2 {
-        let is_marked = |spot: &Spot| spot.on.is_some() || spot.offset() == Vec2::ZERO;
+        let is_marked = |spot: &Location| spot.on.is_some() || spot.offset() == Vec2::ZERO;
         let ring = self.reading.hover.as_ref().filter(|probed| is_marked(&probed.spot));
         let offset = ring.map(|probed| probed.spot.from(view.center));
         let reach = (readout::SNAP + 1.0) * scale * view.pixel_size();
         offset.filter(|offset| (*offset - pointer).length() < reach).unwrap_or(pointer)
     }
 
-    /// The newest picture of the dataset that is open: not of the one before, which may still
-    /// be seen.
+    /// The newest image of the dataset that is open: not of the one before, which may still be
+    /// seen.
     #[must_use]
-    pub fn frame(&self) -> Option<&Arc<Frame>> {
+    pub fn frame(&self) -> Option<&Arc<RenderedFrame>> {
         let dataset = &self.opened.as_ref()?.dataset;
         self.frames.newest().filter(|frame| Arc::ptr_eq(&frame.wanted.dataset, dataset))
     }
 
-    /// Shows a dataset from now on: where another plate was, if it has the same place, and else the
+    /// Shows a dataset from now on: where another body was, if it has the same place, and else the
     /// whole of it.
-    pub fn take(&mut self, pane: &mut Pane, opened: Opened) {
-        let bounds = |opened: &Opened| opened.dataset.domain.bounds;
+    pub fn take(&mut self, pane: &mut Pane, opened: OpenDataset) {
+        let bounds = |opened: &OpenDataset| opened.dataset.domain.bounds;
         if self.opened.as_ref().is_some_and(|before| bounds(before) != bounds(&opened)) {
             pane.place = None;
             self.flight = None;
@@ -456,7 +456,7 @@ impl Stage {
         self.opened = Some(opened);
     }
 
-    /// Draws the newest picture, and what lies over it.
+    /// Draws the newest image, and what lies over it.
     fn paint(&mut self, ui: &Ui, rect: Rect, view: &View) {
         let Some(frame) = self.frames.newest() else { return };
         let painter = ui.painter_at(rect);
@@ -465,7 +465,7 @@ impl Stage {
     }
 }
 
-/// Width of the view around a tip that one flies to, in parts of the plate's size.
+/// Width of the view around a tip that one flies to, in parts of the body's size.
 const TIP: f64 = 0.05;
 /// Turns of the wheel, in points, that enlarge e times.
 const WHEEL: f64 = 240.0;

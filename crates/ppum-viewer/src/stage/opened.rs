@@ -7,20 +7,20 @@ use ppum::dataset::Dataset;
 
 use crate::files::{examples, name};
 use crate::session::ProblemDraft;
-use crate::solving::Solution;
+use crate::solving::ComputationRecord;
 
 /// A dataset that is open.
 #[derive(Clone, Debug)]
-pub struct Opened {
+pub struct OpenDataset {
     /// Its file, if it came from one or was saved.
     pub path: Option<PathBuf>,
     /// The dataset.
     pub dataset: Arc<Dataset>,
     /// How it was computed, if that was done in this window.
-    pub solution: Option<Arc<Solution>>,
+    pub solution: Option<Arc<ComputationRecord>>,
 }
 
-impl Opened {
+impl OpenDataset {
     /// A dataset that was not computed in this window.
     #[must_use]
     pub fn new(path: Option<PathBuf>, dataset: Arc<Dataset>) -> Self {

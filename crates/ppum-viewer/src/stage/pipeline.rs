@@ -1,4 +1,4 @@
-//! What shaders of our own draw on.
+//! The target of custom shaders.
 
 use eframe::egui_wgpu::wgpu;
 use egui::{Context, Id};

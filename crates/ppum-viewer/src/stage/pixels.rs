@@ -1,4 +1,4 @@
-//! Pixels of a picture drawn by a shader of our own, which does nothing but fetch them.
+//! Pixels of an image drawn by a shader of our own, which does nothing but fetch them.
 //!
 //! That of egui filters, dithers and counts with remainders at every pixel; a software driver
 //! computes all of it, whatever it needs, which takes ten times as long as all the rest of a
@@ -12,9 +12,9 @@ use ppum_render::image::Image;
 
 use super::pipeline::{format, id, pipeline};
 use super::solids::Solids;
-use crate::frames::Painted;
+use crate::frames::ColoredImage;
 
-/// Lets pictures be drawn by the shader on a device of wgpu; elsewhere egui draws them.
+/// Lets images be drawn by the shader on a device of wgpu; elsewhere egui draws them.
 pub fn use_device(ctx: &Context, target: wgpu::TextureFormat) {
     if !target.is_srgb() {
         ctx.data_mut(|data| data.insert_temp(id(), target));
@@ -28,16 +28,16 @@ pub(crate) fn use_none(ctx: &Context) {
     ctx.data_mut(|data| data.remove::<wgpu::TextureFormat>(id()));
 }
 
-/// A slot for a picture on the device, freed when its last clone is dropped.
+/// A slot for an image on the device, freed when its last clone is dropped.
 #[derive(Clone, Default)]
 pub(super) struct TextureSlot(Arc<()>);
 
-/// Draws a picture with its corners at those of a rectangle, a coarse one smoothly; false if egui
+/// Draws an image with its corners at those of a rectangle, a coarse one smoothly; false if egui
 /// has to.
 pub(super) fn draw(
     painter: &Painter,
     slot: &TextureSlot,
-    picture: &Arc<Painted>,
+    picture: &Arc<ColoredImage>,
     (target, is_smooth): (Rect, bool),
 ) -> bool {
     let Some(format) = format(painter.ctx()) else { return false };
@@ -47,7 +47,7 @@ pub(super) fn draw(
         [relative(p.x, rect.min.x, rect.width()), -relative(p.y, rect.min.y, rect.height())]
     };
     let ([left, top], [right, bottom]) = (corner(target.min), corner(target.max));
-    let shown = Shown {
+    let shown = ImageDraw {
         slot: slot.clone(),
         picture: Arc::clone(picture),
         corners: [left, top, right, bottom],
@@ -58,33 +58,33 @@ pub(super) fn draw(
     true
 }
 
-/// A picture that is to be drawn.
-struct Shown {
+/// An image that is to be drawn.
+struct ImageDraw {
     slot: TextureSlot,
-    picture: Arc<Painted>,
+    picture: Arc<ColoredImage>,
     /// Left, top, right and bottom, from −1 to 1 across the rectangle that is drawn in.
     corners: [f32; 4],
     is_smooth: bool,
     format: wgpu::TextureFormat,
 }
 
-/// Pipelines and pictures on the device.
+/// Pipelines and images on the device.
 struct PixelResources {
     pipelines: [wgpu::RenderPipeline; 2],
     sampler: wgpu::Sampler,
-    pictures: Vec<Picture>,
+    pictures: Vec<DeviceImage>,
 }
 
-/// A picture on the device.
-struct Picture {
+/// An image on the device.
+struct DeviceImage {
     slot: Weak<()>,
-    picture: Arc<Painted>,
+    picture: Arc<ColoredImage>,
     texture: wgpu::Texture,
     corners: wgpu::Buffer,
     bindings: wgpu::BindGroup,
 }
 
-impl CallbackTrait for Shown {
+impl CallbackTrait for ImageDraw {
     fn prepare(
         &self,
         device: &wgpu::Device,
@@ -148,7 +148,12 @@ impl PixelResources {
         Self { pipelines, sampler, pictures: Vec::new() }
     }
 
-    fn picture(&self, device: &wgpu::Device, queue: &wgpu::Queue, shown: &Shown) -> Picture {
+    fn picture(
+        &self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        shown: &ImageDraw,
+    ) -> DeviceImage {
         let [width, height] = shown.picture.image.size;
         let texture = device.create_texture(&wgpu::TextureDescriptor {
             label: Some("picture"),
@@ -179,7 +184,7 @@ impl PixelResources {
         });
         let (slot, picture) = (Arc::downgrade(&shown.slot.0), Arc::clone(&shown.picture));
         send(queue, &texture, &picture.image);
-        Picture { slot, picture, texture, corners, bindings }
+        DeviceImage { slot, picture, texture, corners, bindings }
     }
 }
 
@@ -190,13 +195,13 @@ fn entries<const N: usize>(
     numbered.map(|(binding, resource)| wgpu::BindGroupEntry { binding, resource }).collect()
 }
 
-impl Picture {
+impl DeviceImage {
     fn is_at(&self, slot: &TextureSlot) -> bool {
         self.slot.as_ptr() == Arc::as_ptr(&slot.0)
     }
 
-    /// Sends another picture of the same size, if it is another one.
-    fn change(&mut self, queue: &wgpu::Queue, picture: &Arc<Painted>) {
+    /// Sends another image of the same size, if it is another one.
+    fn change(&mut self, queue: &wgpu::Queue, picture: &Arc<ColoredImage>) {
         if !Arc::ptr_eq(&self.picture, picture) {
             send(queue, &self.texture, &picture.image);
             self.picture = Arc::clone(picture);
@@ -215,7 +220,7 @@ fn send(queue: &wgpu::Queue, texture: &wgpu::Texture, image: &Image) {
     queue.write_texture(texture.as_image_copy(), &image.rgba, layout, size);
 }
 
-/// The corners, the picture, and how it is smoothed; one layout for both pipelines.
+/// The corners, the image, and how it is smoothed; one layout for both pipelines.
 fn layout(device: &wgpu::Device) -> wgpu::PipelineLayout {
     let entry = |binding, visibility, ty| wgpu::BindGroupLayoutEntry {
         binding,

@@ -1,40 +1,46 @@
-//! What is read at the pointer: the line below the plate, and probes by clicks.
+//! The reading at the pointer: the line below the view, and probes by clicks.
 
 use egui::{Color32, Pos2, Response, RichText, Ui, vec2};
 use ppum::vec2::Vec2;
 
-use super::Stage;
-use super::sight::Sight;
+use super::ViewPane;
+use super::hover::HoverGeometry;
 use crate::controls::range::digits;
 use crate::reading::tool::Tool;
-use crate::reading::words::{self, Places};
+use crate::reading::words::{self, LocationFormat};
 use crate::session::Pane;
-use ppum_scene::spot::Spot;
+use ppum_scene::location::Location;
 
 /// Seconds for which it is told why a key did nothing.
 const TOLD: f64 = 4.0;
-/// Height of a line below the plate.
+/// Height of a line below the view.
 const HEIGHT: f32 = 22.0;
 /// Views that are narrower have two lines.
 const NARROW: f32 = 760.0;
 /// Distance in points of the window within which a tip or a crack is meant.
 pub(super) const SNAP: f64 = 4.0;
-/// The same of the mark of a probe that is clicked.
+/// That distance for the mark of a probe that is clicked.
 const MARK: f32 = 9.0;
 
-/// Lines below a plate of some width.
+/// Lines below a view of some width.
 fn lines(width: f32) -> usize {
     if width < NARROW { 2 } else { 1 }
 }
 
-/// The height of what is below a plate of some width.
+/// The height of the lines below a view of some width.
 pub(super) fn height(width: f32) -> f32 {
     HEIGHT * lines(width) as f32 + 2.0
 }
 
-impl Stage {
+impl ViewPane {
     /// Reads the values at the pointer and at the probes.
-    pub(super) fn read(&mut self, ui: &Ui, response: &Response, sight: &Sight, pane: &mut Pane) {
+    pub(super) fn read(
+        &mut self,
+        ui: &Ui,
+        response: &Response,
+        sight: &HoverGeometry,
+        pane: &mut Pane,
+    ) {
         let Some(frame) = self.frame().cloned() else {
             self.reading.forget();
             return;
@@ -54,7 +60,7 @@ impl Stage {
     }
 
     /// Asks for K of what is shown, with all that is replaced in it.
-    fn ask_integral(&mut self, ui: &Ui, pane: &Pane, frame: &crate::frames::Frame) {
+    fn ask_integral(&mut self, ui: &Ui, pane: &Pane, frame: &crate::frames::RenderedFrame) {
         let dataset = frame.field.dataset();
         let step = frame.wanted.scene.subject.step_of(dataset);
         if self.reading.grip.is_none() {
@@ -63,7 +69,7 @@ impl Stage {
     }
 
     /// A click selects a probe; with the tool for probes it pins one where there is none.
-    fn click(&mut self, response: &Response, sight: &Sight, pane: &mut Pane) {
+    fn click(&mut self, response: &Response, sight: &HoverGeometry, pane: &mut Pane) {
         let is_free = matches!(self.reading.tool, None | Some(Tool::Probe));
         let at = response.interact_pointer_pos().filter(|_| response.clicked() && is_free);
         let Some(at) = at else { return };
@@ -77,7 +83,7 @@ impl Stage {
     }
 
     /// Pins a probe; one that is there already is selected.
-    pub fn pin(&mut self, pane: &mut Pane, spot: Spot) {
+    pub fn pin(&mut self, pane: &mut Pane, spot: Location) {
         let known = pane.probes.iter().position(|probe| probe.is_at(&spot));
         if known.is_none() {
             pane.probes.push(spot);
@@ -85,20 +91,20 @@ impl Stage {
         self.reading.selected = known.or(Some(pane.probes.len() - 1));
     }
 
-    /// The point of the plate at the pointer.
+    /// The point of the body at the pointer.
     #[must_use]
-    pub fn hovered(&self) -> Option<Spot> {
+    pub fn hovered(&self) -> Option<Location> {
         let hover = self.reading.hover.as_ref().filter(|probed| !probed.is_outside());
         hover.map(|probed| probed.spot)
     }
 
-    /// The point that is read: that of the plate at the pointer, else the middle of the view.
+    /// The point that is read: that of the body at the pointer, else the middle of the view.
     #[must_use]
-    pub fn spot(&self) -> Option<Spot> {
-        self.hovered().or_else(|| Some(Spot::new(self.view?.center, Vec2::ZERO)))
+    pub fn spot(&self) -> Option<Location> {
+        self.hovered().or_else(|| Some(Location::new(self.view?.center, Vec2::ZERO)))
     }
 
-    /// What is read at the pointer, else at the selected probe, as a text to be copied.
+    /// Returns the reading at the pointer, else at the selected probe, as a text to be copied.
     #[must_use]
     pub fn copied(&mut self) -> Option<String> {
         let frame = self.frame().cloned()?;
@@ -108,7 +114,7 @@ impl Stage {
         Some(words::all(&probed, &reader.name, &reader.unit))
     }
 
-    /// The lines below the plate: what has no room is left out, the least important first.
+    /// The lines below the view: parts that have no room are left out, the least important first.
     pub(super) fn line(&mut self, ui: &mut Ui, pane: &Pane) {
         let (parts, patches) = self.words(pane);
         let width = ui.available_width();
@@ -158,7 +164,7 @@ impl Stage {
         };
         let (size, cracks) = (self.plate_size(), self.cracks(pane));
         let cracks = cracks.as_deref().unwrap_or_default();
-        let places = Places { view: &view, size, cracks };
+        let places = LocationFormat { view: &view, size, cracks };
         let reader = self.reading.reader(&frame);
         let mut parts = vec![places.show(&probed.spot)];
         let norm = &frame.picture.normalization;
@@ -229,7 +235,7 @@ fn fitting(ui: &Ui, parts: Vec<String>, patches: &[String]) -> Vec<String> {
 }
 
 /// The number of the probe whose mark lies at a position.
-fn probe_at(sight: &Sight, pane: &Pane, at: Pos2) -> Option<usize> {
-    let near = |spot: &Spot| sight.position(spot).is_some_and(|p| p.distance(at) <= MARK);
+fn probe_at(sight: &HoverGeometry, pane: &Pane, at: Pos2) -> Option<usize> {
+    let near = |spot: &Location| sight.position(spot).is_some_and(|p| p.distance(at) <= MARK);
     pane.probes.iter().position(near)
 }

@@ -29,7 +29,7 @@ impl Plugin for Solids {
     }
 }
 
-/// What is drawn at once.
+/// The parts that are drawn at once.
 #[derive(Debug)]
 enum Layer {
     /// Shapes of plain colours that are cut off at one rectangle.
@@ -40,7 +40,7 @@ enum Layer {
 /// Shapes as few layers: a solid one is drawn together with one of before, unless it covers
 /// something in between.
 fn layers(shapes: Vec<ClippedShape>) -> Vec<Layer> {
-    let mut found = Layers::default();
+    let mut found = SolidLayers::default();
     for ClippedShape { clip_rect, shape, transform_after_tessellation } in shapes {
         let is_moved = transform_after_tessellation != TSTransform::IDENTITY;
         if is_moved {
@@ -53,13 +53,13 @@ fn layers(shapes: Vec<ClippedShape>) -> Vec<Layer> {
 }
 
 #[derive(Default)]
-struct Layers {
+struct SolidLayers {
     layers: Vec<Layer>,
     /// Where each of them draws.
     bounds: Vec<Rect>,
 }
 
-impl Layers {
+impl SolidLayers {
     fn put_each(&mut self, clip: Rect, shape: Shape) {
         match shape {
             Shape::Noop => {}

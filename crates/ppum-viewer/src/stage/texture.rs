@@ -1,4 +1,4 @@
-//! Pictures on the screen: each where it belongs in the view, whatever view it was made for.
+//! Images on the screen: each where it belongs in the view, whatever view it was made for.
 
 use std::sync::Arc;
 
@@ -6,11 +6,11 @@ use egui::{Color32, ColorImage, Painter, Rect, TextureHandle, TextureOptions, po
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
 
-use crate::frames::{Frame, Painted};
-use crate::shapes::{self, Placed};
+use crate::frames::{ColoredImage, RenderedFrame};
+use crate::shapes::{self, ImagePlacement};
 use crate::stage::pixels::{self, TextureSlot};
 
-/// A picture on its way to the screen; it is sent there once.
+/// An image on its way to the screen; it is sent there once.
 #[derive(Default)]
 pub struct Texture {
     place: TextureSlot,
@@ -18,12 +18,18 @@ pub struct Texture {
 }
 
 impl Texture {
-    /// Draws a picture in a rectangle that shows a view.
-    pub fn show(&mut self, painter: &Painter, painted: &Arc<Painted>, view: &View, rect: Rect) {
+    /// Draws an image in a rectangle that shows a view.
+    pub fn show(
+        &mut self,
+        painter: &Painter,
+        painted: &Arc<ColoredImage>,
+        view: &View,
+        rect: Rect,
+    ) {
         let placed = placed(&painted.view, view, rect);
         let size = painted.image.size.map(|n| n as f32 * placed.scale);
         let target = Rect::from_min_size(placed.corner, vec2(size[0], size[1]));
-        // a coarse picture looks better smooth; of a fine one pixels are pixels
+        // a coarse image looks better smooth; of a fine one pixels are pixels
         let is_coarse = painted.view.pixels[0] < view.pixels[0] / 2;
         if pixels::draw(painter, &self.place, painted, (target, is_coarse)) {
             return;
@@ -52,7 +58,7 @@ impl Texture {
     }
 }
 
-/// A picture as it fits onto the device: of one that is larger than textures may be every second
+/// An image as it fits onto the device: of one that is larger than textures may be every second
 /// pixel, or third.
 fn fitting(ctx: &egui::Context, image: &Arc<ColorImage>) -> Arc<ColorImage> {
     let most = ctx.input(|input| input.max_texture_side).max(1);
@@ -72,13 +78,13 @@ const FAR: f32 = 2.0;
 
 /// Layers on their way to the screen.
 #[derive(Default)]
-pub struct Sheet {
+pub struct LayerTexture {
     sent: Option<(Arc<ColorImage>, TextureHandle)>,
 }
 
-impl Sheet {
+impl LayerTexture {
     /// Draws the layers of a frame in a rectangle that shows a view.
-    pub fn show(&mut self, painter: &Painter, frame: &Frame, view: &View, rect: Rect) {
+    pub fn show(&mut self, painter: &Painter, frame: &RenderedFrame, view: &View, rect: Rect) {
         let placed = placed(&frame.layers_view, view, rect);
         let enlarged = placed.scale / placed.pen;
         let is_near = (1.0 / FAR..=FAR).contains(&enlarged);
@@ -104,13 +110,13 @@ impl Sheet {
     }
 }
 
-/// Where a picture made for one view lies in a rectangle that shows another.
+/// Where an image made for one view lies in a rectangle that shows another.
 #[must_use]
-pub fn placed(picture: &View, view: &View, rect: Rect) -> Placed {
+pub fn placed(picture: &View, view: &View, rect: Rect) -> ImagePlacement {
     let points = f64::from(rect.width()) / f64::from(view.pixels[0]);
     let corner = picture.offset_at(Vec2::ZERO) + (picture.center - view.center);
     let corner = view.pixel_of_offset(corner) * points;
-    Placed {
+    ImagePlacement {
         corner: rect.min + vec2(corner.x as f32, corner.y as f32),
         scale: (picture.pixel_size() / view.pixel_size() * points) as f32,
         pen: points as f32,

@@ -1,4 +1,4 @@
-//! Curves drawn over the plate by the mouse, and their handles.
+//! Curves drawn over the view by the mouse, and their handles.
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -7,14 +7,14 @@ use egui::{CursorIcon, Key, Modifiers, PointerButton, Response, Ui};
 use ppum::crack::{Crack, TipId, tips};
 use ppum::dataset::Dataset;
 use ppum::vec2::{Rect, Vec2};
-use ppum_scene::profile::Along;
+use ppum_scene::profile::ProfileCurve;
 
-use super::Stage;
-use super::sight::Sight;
-use crate::reading::tool::{Grip, Tool};
-use crate::reading::words::Places;
+use super::ViewPane;
+use super::hover::HoverGeometry;
+use crate::reading::tool::{CurveHandle, Tool};
+use crate::reading::words::LocationFormat;
 use crate::session::Pane;
-use ppum_scene::spot::Spot;
+use ppum_scene::location::Location;
 
 /// Part of the view that the radius of a circle around a tip has.
 const SEEN: f64 = 0.3;
@@ -24,23 +24,23 @@ const TIP: f64 = 10.0;
 /// Angles of rays nearer to a face than this are those of the face \[degrees\].
 const FACE: f64 = 2.0;
 
-impl Stage {
+impl ViewPane {
     /// Draws curves and moves their handles; true if the mouse is taken for that.
     pub(super) fn draw_by_mouse(
         &mut self,
         ui: &Ui,
         response: &Response,
-        sight: &Sight,
+        sight: &HoverGeometry,
         pane: &mut Pane,
     ) -> bool {
         let Some(cracks) = self.cracks(pane) else { return false };
-        let places = Places { view: &sight.view, size: self.plate_size(), cracks: &cracks };
-        let pen = Pen { sight, places };
+        let places = LocationFormat { view: &sight.view, size: self.plate_size(), cracks: &cracks };
+        let pen = CurvePainter { sight, places };
         self.point_at(ui, response, &pen, pane);
         if self.reading.tool == Some(Tool::Crack) && response.clicked() {
             let at = response.interact_pointer_pos().and_then(|at| sight.spot(at));
             if let Some(index) = at.and_then(|spot| nearest_crack(&cracks, &spot)) {
-                pane.curve = Some(Along::Crack { index });
+                pane.curve = Some(ProfileCurve::Crack { index });
             }
             self.reading.tool = None;
             return true;
@@ -58,14 +58,15 @@ impl Stage {
         if response.drag_stopped() || !response.dragged() {
             (self.reading.grip, self.reading.tool) = (None, None);
             // a circle has its words beside it
-            let is_plotted = matches!(pane.curve, Some(Along::Line { .. } | Along::Ray { .. }));
+            let is_plotted =
+                matches!(pane.curve, Some(ProfileCurve::Line { .. } | ProfileCurve::Ray { .. }));
             self.reading.wants_plot = std::mem::take(&mut self.reading.is_new) && is_plotted;
         }
         true
     }
 
     /// Escape leaves a tool; the pointer says what a drag would do.
-    fn point_at(&mut self, ui: &Ui, response: &Response, pen: &Pen<'_>, pane: &Pane) {
+    fn point_at(&mut self, ui: &Ui, response: &Response, pen: &CurvePainter<'_>, pane: &Pane) {
         let has_tool = self.reading.tool.is_some();
         if has_tool && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape)) {
             self.reading.tool = None;
@@ -80,7 +81,7 @@ impl Stage {
 
     /// The handle that a drag has begun at; that of a new curve if a tool is chosen, by itself or
     /// by a key that is held.
-    fn gripped(&mut self, ui: &Ui, pen: &Pen<'_>, pane: &mut Pane) -> Option<Grip> {
+    fn gripped(&mut self, ui: &Ui, pen: &CurvePainter<'_>, pane: &mut Pane) -> Option<CurveHandle> {
         let at = ui.input(|input| input.pointer.press_origin())?;
         let modifiers = ui.input(|input| input.modifiers);
         let by_key = match () {
@@ -111,10 +112,10 @@ impl Stage {
         let Some((tip, id)) = all.min_by(|a, b| distance(a.1).total_cmp(&distance(b.1))) else {
             return false;
         };
-        let places = Places { view: &view, size: self.plate_size(), cracks: &cracks };
+        let places = LocationFormat { view: &view, size: self.plate_size(), cracks: &cracks };
         let seen = places.rounded(SEEN * view.width.min(view.height()));
         let radius = self.usual_radius(pane, id).map_or(seen, |usual| usual.min(seen));
-        pane.curve = Some(Along::Around { tip, radius: Some(radius) });
+        pane.curve = Some(ProfileCurve::Around { tip, radius: Some(radius) });
         pane.plot.log = [false; 2];
         self.reading.refused = None;
         true
@@ -127,29 +128,29 @@ impl Stage {
     }
 
     /// A curve to begin with, if there is none: the crack nearest to the pointer, or the middle
-    /// line of the plate.
+    /// line of the body.
     pub fn choose_curve(&mut self, pane: &mut Pane) {
         let (Some(cracks), Some(spot)) = (self.cracks(pane), self.spot()) else { return };
         if pane.curve.is_none() {
-            let crack = nearest_crack(&cracks, &spot).map(|index| Along::Crack { index });
+            let crack = nearest_crack(&cracks, &spot).map(|index| ProfileCurve::Crack { index });
             pane.curve = crack.or_else(|| self.middle());
         }
     }
 
-    /// The reason why there is nothing of a curve on the plate: a radius or a length that leaves
+    /// The reason why there is nothing of a curve on the body: a radius or a length that leaves
     /// it, or is none.
     #[must_use]
-    pub fn refusal(&self, pane: &Pane, along: &Along) -> Option<String> {
+    pub fn refusal(&self, pane: &Pane, along: &ProfileCurve) -> Option<String> {
         let bounds = self.opened.as_ref()?.dataset.domain.bounds;
         let cracks = self.cracks(pane)?;
         let tip = |number: usize| {
             tips(&cracks).nth(number).map(|tip| cracks[tip.crack as usize].end_point(tip.end))
         };
         let (center, length, name) = match *along {
-            Along::Circle { center, radius } => (center.into(), radius, "radius"),
-            Along::Around { tip: number, radius } => (tip(number)?, radius?, "radius"),
-            Along::Ray { tip: number, far, .. } => (tip(number)?, far?, "length"),
-            Along::Line { .. } | Along::Crack { .. } => return None,
+            ProfileCurve::Circle { center, radius } => (center.into(), radius, "radius"),
+            ProfileCurve::Around { tip: number, radius } => (tip(number)?, radius?, "radius"),
+            ProfileCurve::Ray { tip: number, far, .. } => (tip(number)?, far?, "length"),
+            ProfileCurve::Line { .. } | ProfileCurve::Crack { .. } => return None,
         };
         let Rect { min, max } = bounds;
         let corners = [min, max, Vec2 { x: min.x, y: max.y }, Vec2 { x: max.x, y: min.y }];
@@ -163,12 +164,16 @@ impl Stage {
         })
     }
 
-    /// The line through the middle of the plate, from border to border.
+    /// The line through the middle of the body, from border to border.
     #[must_use]
-    pub fn middle(&self) -> Option<Along> {
+    pub fn middle(&self) -> Option<ProfileCurve> {
         let bounds = self.opened.as_ref()?.dataset.domain.bounds;
         let y = bounds.center().y;
-        Some(Along::Line { anchor: [0.0; 2], from: [bounds.min.x, y], to: [bounds.max.x, y] })
+        Some(ProfileCurve::Line {
+            anchor: [0.0; 2],
+            from: [bounds.min.x, y],
+            to: [bounds.max.x, y],
+        })
     }
 
     /// The cracks of the step that is shown.
@@ -179,14 +184,14 @@ impl Stage {
         dataset.steps.get(step).map(|_| cracks)
     }
 
-    /// The larger side of the plate's box.
+    /// The larger side of the body's box.
     pub(crate) fn plate_size(&self) -> f64 {
         let size = self.opened.as_ref().map(|opened| opened.dataset.domain.bounds.size());
         size.map_or(1.0, |size| size.x.max(size.y))
     }
 }
 
-/// The cracks of a step, kept with their dataset: in every picture of the window they are asked
+/// The cracks of a step, kept with their dataset: in every image of the window they are asked
 /// for, and there may be many.
 pub(crate) struct Cracks {
     dataset: Arc<Dataset>,
@@ -201,26 +206,26 @@ impl Deref for Cracks {
     }
 }
 
-/// What draws curves: numbers rounded to what the view can tell apart.
-struct Pen<'a> {
-    sight: &'a Sight,
-    places: Places<'a>,
+/// A painter of curves, with numbers rounded to what the view can tell apart.
+struct CurvePainter<'a> {
+    sight: &'a HoverGeometry,
+    places: LocationFormat<'a>,
 }
 
-impl Pen<'_> {
+impl CurvePainter<'_> {
     fn end(&self, tip: TipId) -> Vec2 {
         self.places.cracks[tip.crack as usize].end_point(tip.end)
     }
 
     /// The number and the place of the nearest tip within reach.
-    fn tip_near(&self, spot: &Spot, reach: f64) -> Option<(usize, Vec2)> {
+    fn tip_near(&self, spot: &Location, reach: f64) -> Option<(usize, Vec2)> {
         let all = tips(self.places.cracks).map(|tip| self.end(tip)).enumerate();
         let near = all.filter(|(_, tip)| spot.from(*tip).length() <= reach);
         near.min_by(|a, b| spot.from(a.1).length().total_cmp(&spot.from(b.1).length()))
     }
 
     /// The offset of a spot from an anchor, rounded; a tip beside it exactly.
-    fn rounded(&self, spot: &Spot, anchor: Vec2) -> Vec2 {
+    fn rounded(&self, spot: &Location, anchor: Vec2) -> Vec2 {
         match self.tip_near(spot, self.sight.reach(TIP)) {
             Some((_, tip)) => tip - anchor,
             None => {
@@ -230,13 +235,13 @@ impl Pen<'_> {
         }
     }
 
-    fn radius(&self, spot: &Spot, center: Vec2) -> f64 {
+    fn radius(&self, spot: &Location, center: Vec2) -> f64 {
         let least = self.sight.view.pixel_size();
         self.places.rounded(spot.from(center).length()).max(least)
     }
 
     /// A curve that begins at a spot, with the handle that is dragged then.
-    fn begun(&self, tool: Tool, spot: &Spot) -> Option<(Along, Grip)> {
+    fn begun(&self, tool: Tool, spot: &Location) -> Option<(ProfileCurve, CurveHandle)> {
         match tool {
             Tool::Line => {
                 let anchor = match self.places.is_deep() {
@@ -244,55 +249,64 @@ impl Pen<'_> {
                     false => Vec2::ZERO,
                 };
                 let start = self.rounded(spot, anchor).into();
-                Some((Along::Line { anchor: anchor.into(), from: start, to: start }, Grip::To))
+                Some((
+                    ProfileCurve::Line { anchor: anchor.into(), from: start, to: start },
+                    CurveHandle::To,
+                ))
             }
-            Tool::Circle => Some((self.circle(spot, self.sight.reach(1.0)), Grip::Radius)),
+            Tool::Circle => Some((self.circle(spot, self.sight.reach(1.0)), CurveHandle::Radius)),
             Tool::Ray => {
                 let (tip, _) = self.tip_near(spot, f64::INFINITY)?;
-                Some((Along::Ray { tip, angle: 0.0, far: None }, Grip::To))
+                Some((ProfileCurve::Ray { tip, angle: 0.0, far: None }, CurveHandle::To))
             }
             Tool::Crack | Tool::Probe => None,
         }
     }
 
     /// The circle about a spot; around the tip beside it.
-    fn circle(&self, spot: &Spot, radius: f64) -> Along {
+    fn circle(&self, spot: &Location, radius: f64) -> ProfileCurve {
         match self.tip_near(spot, self.sight.reach(TIP)) {
-            Some((tip, _)) => Along::Around { tip, radius: Some(radius) },
+            Some((tip, _)) => ProfileCurve::Around { tip, radius: Some(radius) },
             None => {
                 let center = self.rounded(spot, Vec2::ZERO).into();
-                Along::Circle { center, radius }
+                ProfileCurve::Circle { center, radius }
             }
         }
     }
 
     /// The curve with a handle at another place.
-    fn moved(&self, along: Along, grip: Grip, spot: &Spot) -> Along {
+    fn moved(&self, along: ProfileCurve, grip: CurveHandle, spot: &Location) -> ProfileCurve {
         let numbered = |number: usize| tips(self.places.cracks).nth(number);
         match along {
-            Along::Line { anchor, from, to } => {
+            ProfileCurve::Line { anchor, from, to } => {
                 let end = self.rounded(spot, anchor.into()).into();
                 match grip {
-                    Grip::From => Along::Line { anchor, from: end, to },
-                    _ => Along::Line { anchor, from, to: end },
+                    CurveHandle::From => ProfileCurve::Line { anchor, from: end, to },
+                    _ => ProfileCurve::Line { anchor, from, to: end },
                 }
             }
-            Along::Circle { radius, .. } if grip == Grip::Center => self.circle(spot, radius),
-            Along::Circle { center, .. } => {
-                Along::Circle { center, radius: self.radius(spot, center.into()) }
+            ProfileCurve::Circle { radius, .. } if grip == CurveHandle::Center => {
+                self.circle(spot, radius)
             }
-            Along::Around { tip, .. } if grip == Grip::Radius => match numbered(tip) {
-                Some(id) => Along::Around { tip, radius: Some(self.radius(spot, self.end(id))) },
-                None => along,
-            },
-            Along::Ray { tip, .. } => match numbered(tip) {
+            ProfileCurve::Circle { center, .. } => {
+                ProfileCurve::Circle { center, radius: self.radius(spot, center.into()) }
+            }
+            ProfileCurve::Around { tip, .. } if grip == CurveHandle::Radius => {
+                match numbered(tip) {
+                    Some(id) => {
+                        ProfileCurve::Around { tip, radius: Some(self.radius(spot, self.end(id))) }
+                    }
+                    None => along,
+                }
+            }
+            ProfileCurve::Ray { tip, .. } => match numbered(tip) {
                 Some(id) => {
                     let axis = self.places.cracks[id.crack as usize].growth_direction(id.end);
                     let way = spot.from(self.end(id));
                     let angle = axis.cross(way).atan2(axis.dot(way)).to_degrees().round();
                     let is_face = angle.abs() > 180.0 - FACE;
                     let angle = if is_face { 180f64.copysign(angle) } else { angle };
-                    Along::Ray { tip, angle, far: Some(self.radius(spot, self.end(id))) }
+                    ProfileCurve::Ray { tip, angle, far: Some(self.radius(spot, self.end(id))) }
                 }
                 None => along,
             },
@@ -301,9 +315,10 @@ impl Pen<'_> {
     }
 
     /// The handle of a curve at a position.
-    fn gripped(&self, along: Option<Along>, at: egui::Pos2) -> Option<Grip> {
+    fn gripped(&self, along: Option<ProfileCurve>, at: egui::Pos2) -> Option<CurveHandle> {
         let handles = handles(&along?, self.places.cracks);
-        let distance = |spot: &Spot| self.sight.position(spot).map(|p| f64::from(p.distance(at)));
+        let distance =
+            |spot: &Location| self.sight.position(spot).map(|p| f64::from(p.distance(at)));
         let near = handles.into_iter().filter_map(|(grip, spot)| Some((distance(&spot)?, grip)));
         let nearest = near.min_by(|a, b| a.0.total_cmp(&b.0));
         nearest.filter(|(distance, _)| *distance <= GRIP).map(|(_, grip)| grip)
@@ -311,34 +326,34 @@ impl Pen<'_> {
 }
 
 /// The crack nearest to a point.
-fn nearest_crack(cracks: &[Crack], spot: &Spot) -> Option<usize> {
+fn nearest_crack(cracks: &[Crack], spot: &Location) -> Option<usize> {
     let distance = |crack: &Crack| ppum::segment::polyline_distance(&crack.points, spot.point());
     let all = cracks.iter().map(distance).enumerate();
     all.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
 }
 
 /// The handles of a curve, with their places.
-pub(crate) fn handles(along: &Along, cracks: &[Crack]) -> Vec<(Grip, Spot)> {
-    let spot = |anchor: [f64; 2], offset: [f64; 2]| Spot::new(anchor.into(), offset.into());
+pub(crate) fn handles(along: &ProfileCurve, cracks: &[Crack]) -> Vec<(CurveHandle, Location)> {
+    let spot = |anchor: [f64; 2], offset: [f64; 2]| Location::new(anchor.into(), offset.into());
     match *along {
-        Along::Line { anchor, from, to } => {
-            vec![(Grip::To, spot(anchor, to)), (Grip::From, spot(anchor, from))]
+        ProfileCurve::Line { anchor, from, to } => {
+            vec![(CurveHandle::To, spot(anchor, to)), (CurveHandle::From, spot(anchor, from))]
         }
-        Along::Circle { center, radius } => {
+        ProfileCurve::Circle { center, radius } => {
             vec![
-                (Grip::Radius, spot(center, [radius, 0.0])),
-                (Grip::Center, spot(center, [0.0; 2])),
+                (CurveHandle::Radius, spot(center, [radius, 0.0])),
+                (CurveHandle::Center, spot(center, [0.0; 2])),
             ]
         }
-        Along::Around { .. } => match outline(along, cracks).first() {
-            Some(first) => vec![(Grip::Radius, *first)],
+        ProfileCurve::Around { .. } => match outline(along, cracks).first() {
+            Some(first) => vec![(CurveHandle::Radius, *first)],
             None => Vec::new(),
         },
-        Along::Ray { .. } => match outline(along, cracks).last() {
-            Some(last) => vec![(Grip::To, *last)],
+        ProfileCurve::Ray { .. } => match outline(along, cracks).last() {
+            Some(last) => vec![(CurveHandle::To, *last)],
             None => Vec::new(),
         },
-        Along::Crack { .. } => Vec::new(),
+        ProfileCurve::Crack { .. } => Vec::new(),
     }
 }
 
@@ -346,11 +361,11 @@ pub(crate) fn handles(along: &Along, cracks: &[Crack]) -> Vec<(Grip, Spot)> {
 const CHORDS: usize = 180;
 
 /// A curve as points joined by lines; those around tips begin ahead of the tip.
-pub(crate) fn outline(along: &Along, cracks: &[Crack]) -> Vec<Spot> {
+pub(crate) fn outline(along: &ProfileCurve, cracks: &[Crack]) -> Vec<Location> {
     let round = |center: Vec2, axis: Vec2, radius: f64| {
         let at = |k: usize| {
             let (sin, cos) = (k as f64 / CHORDS as f64 * std::f64::consts::TAU).sin_cos();
-            Spot::new(center, (axis * cos + axis.left() * sin) * radius)
+            Location::new(center, (axis * cos + axis.left() * sin) * radius)
         };
         (0..=CHORDS).map(at).collect()
     };
@@ -360,23 +375,25 @@ pub(crate) fn outline(along: &Along, cracks: &[Crack]) -> Vec<Spot> {
         Some((crack.end_point(tip.end), crack.growth_direction(tip.end), crack.length()))
     };
     match *along {
-        Along::Line { anchor, from, to } => {
-            [from, to].map(|end| Spot::new(anchor.into(), end.into())).to_vec()
+        ProfileCurve::Line { anchor, from, to } => {
+            [from, to].map(|end| Location::new(anchor.into(), end.into())).to_vec()
         }
-        Along::Circle { center, radius } => round(center.into(), Vec2 { x: 1.0, y: 0.0 }, radius),
-        Along::Crack { index } => {
+        ProfileCurve::Circle { center, radius } => {
+            round(center.into(), Vec2 { x: 1.0, y: 0.0 }, radius)
+        }
+        ProfileCurve::Crack { index } => {
             let points = cracks.get(index).map(|crack| &crack.points[..]).unwrap_or_default();
-            points.iter().map(|&p| Spot::new(p, Vec2::ZERO)).collect()
+            points.iter().map(|&p| Location::new(p, Vec2::ZERO)).collect()
         }
-        Along::Around { tip, radius } => match numbered(tip) {
+        ProfileCurve::Around { tip, radius } => match numbered(tip) {
             Some((at, axis, length)) => round(at, axis, radius.unwrap_or(0.01 * length)),
             None => Vec::new(),
         },
-        Along::Ray { tip, angle, far } => match numbered(tip) {
+        ProfileCurve::Ray { tip, angle, far } => match numbered(tip) {
             Some((at, axis, length)) => {
                 let (sin, cos) = angle.to_radians().sin_cos();
                 let way = (axis * cos + axis.left() * sin) * far.unwrap_or(0.1 * length);
-                vec![Spot::new(at, Vec2::ZERO), Spot::new(at, way)]
+                vec![Location::new(at, Vec2::ZERO), Location::new(at, way)]
             }
             None => Vec::new(),
         },

@@ -2,24 +2,24 @@
 
 use egui::{Sense, Stroke, Ui};
 use ppum::vec2::vec2;
-use ppum_figure::canvas::{Canvas, Item};
-use ppum_figure::plot::{Area, LEAST, Plot, plot};
+use ppum_figure::canvas::{Canvas, CanvasItem};
+use ppum_figure::plot::{LEAST, Plot, PlotArea, plot};
 use ppum_render::image::Rgba;
 
-use crate::shapes::{self, Placed};
+use crate::shapes::{self, ImagePlacement};
 
 /// A plot that was shown: what the mouse does with it, and where its values lie.
 #[derive(Clone, Debug)]
-pub struct Chart {
+pub struct PlotWidget {
     /// Its clicks and hovers.
     pub response: egui::Response,
-    placed: Placed,
-    area: Area,
+    placed: ImagePlacement,
+    area: PlotArea,
 }
 
 /// Shows a plot under a name in a room of some size \[points\]; a small room shows all of
 /// it, smaller.
-pub fn chart(ui: &mut Ui, name: &str, figure: &Plot, size: egui::Vec2) -> Chart {
+pub fn chart(ui: &mut Ui, name: &str, figure: &Plot, size: egui::Vec2) -> PlotWidget {
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
     let scale = [size.x / LEAST[0] as f32, size.y / LEAST[1] as f32];
@@ -31,12 +31,12 @@ pub fn chart(ui: &mut Ui, name: &str, figure: &Plot, size: egui::Vec2) -> Chart 
     }
     let painter = ui.painter_at(rect);
     painter.rect_filled(rect, 2.0, shapes::color(canvas.paper));
-    let placed = Placed::new(rect.min, scale);
+    let placed = ImagePlacement::new(rect.min, scale);
     shapes::draw(&painter, placed, &canvas.items);
-    Chart { response, placed, area: Area::new(figure, pixels) }
+    PlotWidget { response, placed, area: PlotArea::new(figure, pixels) }
 }
 
-impl Chart {
+impl PlotWidget {
     /// The value of the horizontal axis at a position in the window.
     #[must_use]
     pub fn across(&self, x: f32) -> f64 {
@@ -46,7 +46,7 @@ impl Chart {
     /// Draws a line at a value of the horizontal axis, from the lower to the upper end of the
     /// other one.
     pub fn mark(&self, ui: &Ui, value: f64) {
-        let Area { corner, size, .. } = self.area;
+        let PlotArea { corner, size, .. } = self.area;
         let across = self.area.size.x * (value - self.area.across(corner.x));
         let span = self.area.across(corner.x + size.x) - self.area.across(corner.x);
         let top = self.placed.at(corner + vec2(across / span, 0.0));
@@ -60,19 +60,21 @@ impl Chart {
 #[must_use]
 pub fn darkened(page: Canvas) -> Canvas {
     let items = page.items.into_iter().map(|item| match item {
-        Item::Line { path, mut pen } => {
+        CanvasItem::Line { path, mut pen } => {
             pen.color = turned(pen.color);
             if let Some(halo) = &mut pen.halo {
                 halo.color = turned(halo.color);
             }
-            Item::Line { path, pen }
+            CanvasItem::Line { path, pen }
         }
-        Item::Fill { outline, color } => Item::Fill { outline, color: turned(color) },
-        Item::Text(mut line) => {
+        CanvasItem::Fill { outline, color } => CanvasItem::Fill { outline, color: turned(color) },
+        CanvasItem::Text(mut line) => {
             line.color = turned(line.color);
-            Item::Text(line)
+            CanvasItem::Text(line)
         }
-        Item::Inset { corner, canvas } => Item::Inset { corner, canvas: darkened(canvas) },
+        CanvasItem::Inset { corner, canvas } => {
+            CanvasItem::Inset { corner, canvas: darkened(canvas) }
+        }
         other => other,
     });
     Canvas { size: page.size, paper: turned(page.paper), items: items.collect() }

@@ -7,10 +7,10 @@ use super::note;
 
 /// Something that can be chosen.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Choice {
-    /// What is chosen, as it is written.
+pub struct ChooserItem {
+    /// The chosen value, as it is written.
     pub value: String,
-    /// What it means.
+    /// The meaning of it.
     pub about: String,
     /// The heading that it stands below; all of one heading stand together.
     pub group: &'static str,
@@ -61,8 +61,8 @@ impl Chooser {
         ui: &mut Ui,
         name: &str,
         current: &str,
-        choices: &[Choice],
-        row: impl Fn(&mut Ui, &Choice, bool) -> Response,
+        choices: &[ChooserItem],
+        row: impl Fn(&mut Ui, &ChooserItem, bool) -> Response,
     ) -> Option<String> {
         if !self.is_open {
             return None;
@@ -140,13 +140,13 @@ impl Chooser {
 
 /// The choices that have all words of a text; those whose own name begins with it come first in
 /// their group.
-fn matching_choices<'a>(text: &str, choices: &'a [Choice]) -> Vec<&'a Choice> {
+fn matching_choices<'a>(text: &str, choices: &'a [ChooserItem]) -> Vec<&'a ChooserItem> {
     let text = text.to_lowercase();
-    let fits = |choice: &&Choice| {
+    let fits = |choice: &&ChooserItem| {
         let all = format!("{} {} {}", choice.value, choice.about, choice.group).to_lowercase();
         text.split_whitespace().all(|word| all.contains(word))
     };
-    let mut found: Vec<&Choice> = choices.iter().filter(fits).collect();
+    let mut found: Vec<&ChooserItem> = choices.iter().filter(fits).collect();
     if let Some(best) =
         found.iter().position(|choice| !text.is_empty() && choice.value.starts_with(text.trim()))
     {
@@ -156,7 +156,7 @@ fn matching_choices<'a>(text: &str, choices: &'a [Choice]) -> Vec<&'a Choice> {
 }
 
 /// A row with a name and its meaning.
-pub fn named(ui: &mut Ui, choice: &Choice, is_at: bool) -> Response {
+pub fn named(ui: &mut Ui, choice: &ChooserItem, is_at: bool) -> Response {
     let about = note(ui, &choice.about);
     let name = RichText::new(&choice.value).monospace();
     let button = Button::selectable(is_at, name).right_text(about).truncate();
@@ -168,8 +168,8 @@ pub fn named(ui: &mut Ui, choice: &Choice, is_at: bool) -> Response {
 mod tests {
     use super::*;
 
-    fn choice(value: &str, about: &str) -> Choice {
-        Choice { value: value.into(), about: about.into(), group: "all" }
+    fn choice(value: &str, about: &str) -> ChooserItem {
+        ChooserItem { value: value.into(), about: about.into(), group: "all" }
     }
 
     #[test]

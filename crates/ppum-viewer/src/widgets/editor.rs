@@ -1,5 +1,5 @@
-//! Formulas that are written: checked at every letter, mistakes marked at their place,
-//! names completed.
+//! Formulas that are written: checked at every letter, errors marked at their place, names
+//! completed.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -13,22 +13,22 @@ use ppum::formula::FormulaError;
 use ppum::quantity::{QuantityError, QuantityFormulaError};
 use ppum::replace::ReplaceError;
 use ppum::weight::WeightError;
-use ppum_scene::scene::ShownError;
+use ppum_scene::scene::DisplayError;
 
 use super::wrong;
 
-/// A text that is written. What is right is the session's at once; what is wrong stays here until
-/// it is mended, and so does the picture.
+/// A text that is edited. A valid text enters the session at once; an invalid one stays here until
+/// it is corrected, and the image stays as it is.
 #[derive(Clone, Debug, Default)]
 pub struct Editor {
     draft: String,
     /// The text that the draft began with.
     base: Option<String>,
-    checked: Option<Checked>,
+    checked: Option<EditorCheck>,
 }
 
 #[derive(Clone, Debug)]
-struct Checked {
+struct EditorCheck {
     text: String,
     version: usize,
     mistake: Option<TextDiagnostic>,
@@ -48,7 +48,7 @@ pub struct TextDiagnostic {
 pub struct EditedText<'a> {
     /// The name for those who do not see it.
     pub name: &'a str,
-    /// What the session has.
+    /// The text in the session.
     pub current: &'a str,
     /// Names that may be completed.
     pub names: &'a [String],
@@ -135,10 +135,10 @@ impl Editor {
         check: impl FnOnce(&str) -> Result<(), TextDiagnostic>,
     ) -> Option<&TextDiagnostic> {
         let is_checked =
-            |checked: &Checked| checked.text == self.draft && checked.version == version;
+            |checked: &EditorCheck| checked.text == self.draft && checked.version == version;
         if !self.checked.as_ref().is_some_and(is_checked) {
             let mistake = check(&self.draft).err();
-            self.checked = Some(Checked { text: self.draft.clone(), version, mistake });
+            self.checked = Some(EditorCheck { text: self.draft.clone(), version, mistake });
         }
         self.checked.as_ref().and_then(|checked| checked.mistake.as_ref())
     }
@@ -159,7 +159,7 @@ fn suggestions(word: &str, names: &[String]) -> Vec<Suggestion> {
     begin.chain(hold).take(MOST).map(Suggestion::new).collect()
 }
 
-/// The text in letters of one width, its mistake underlined.
+/// The text in letters of one width, its error underlined.
 fn laid_out(ui: &Ui, text: &str, mark: Option<Range<usize>>, width: f32) -> Arc<Galley> {
     let mut job = LayoutJob::default();
     job.wrap.max_width = width;
@@ -183,11 +183,13 @@ impl TextDiagnostic {
         Self { message: error.to_string(), place: Some(0..text.len()) }
     }
 
-    /// What keeps a text from being a quantity.
+    /// Explains why a text is no quantity.
     #[must_use]
-    pub fn of_quantity(error: &ShownError, text: &str) -> Self {
+    pub fn of_quantity(error: &DisplayError, text: &str) -> Self {
         match error {
-            ShownError::Quantity(QuantityError::Formula(QuantityFormulaError::Formula(error))) => {
+            DisplayError::Quantity(QuantityError::Formula(QuantityFormulaError::Formula(
+                error,
+            ))) => {
                 // the text was trimmed before it was read
                 let before = text.len() - text.trim_start().len();
                 let mistake = Self::of_formula(error, text.trim());
@@ -195,8 +197,8 @@ impl TextDiagnostic {
                 Self { place: mistake.place.map(shifted), ..mistake }
             }
             // the names that there are stand in the list
-            ShownError::Quantity(error) => Self::of_name(error, text),
-            ShownError::Unknown { error, .. } => Self::of_name(error, text),
+            DisplayError::Quantity(error) => Self::of_name(error, text),
+            DisplayError::Unknown { error, .. } => Self::of_name(error, text),
             other => Self::of_all(other, text),
         }
     }
@@ -211,7 +213,7 @@ impl TextDiagnostic {
         }
     }
 
-    /// What keeps a text from being the formula of a named quantity.
+    /// Explains why a text is no formula of a named quantity.
     #[must_use]
     pub fn of_definition(error: &QuantityFormulaError, text: &str) -> Self {
         match error {
@@ -220,7 +222,7 @@ impl TextDiagnostic {
         }
     }
 
-    /// What keeps a text from taking the place of a function or of the weight.
+    /// Explains why a text cannot replace a function or the weight.
     #[must_use]
     pub fn of_replacement(error: &ReplaceError, text: &str) -> Self {
         match error {

@@ -1,4 +1,4 @@
-//! Parts that panels are made of; they know nothing of plates.
+//! Parts that panels are made of; they know nothing of datasets.
 
 pub mod chart;
 pub mod chooser;
@@ -25,7 +25,7 @@ pub(crate) fn elided(text: &str, most: usize) -> String {
     }
 }
 
-/// The colour of mistakes: red that is read on both grounds.
+/// The colour of errors: red that is read on both grounds.
 pub(crate) fn wrong(ui: &Ui) -> Color32 {
     red(ui.visuals().dark_mode)
 }
@@ -46,7 +46,7 @@ pub(crate) fn make_readable(visuals: &mut Visuals) {
     visuals.weak_text_alpha = PALE;
 }
 
-/// The colour around the plate: dark windows have a grey there, in which black ends of colour maps
+/// The colour around the image: dark windows have a grey there, in which black ends of colour maps
 /// and black cracks are seen to end.
 pub(crate) fn ground(visuals: &Visuals) -> Color32 {
     if visuals.dark_mode { Color32::from_gray(GROUND) } else { visuals.extreme_bg_color }
@@ -57,7 +57,7 @@ const GROUND: u8 = 46;
 /// Opacity of words that stand beside others.
 const PALE: f32 = 0.75;
 
-/// The same of a theme.
+/// Returns the red of a theme.
 fn red(is_dark: bool) -> Color32 {
     match is_dark {
         true => Color32::from_rgb(255, 120, 110),
@@ -74,8 +74,8 @@ fn pale(ui: &Ui) -> Color32 {
     ui.visuals().text_color().gamma_multiply(PALE)
 }
 
-/// The same in a room that is always so many lines high, for words that change all the time; what
-/// has no room is told on hover.
+/// Shows a note in a space that is always so many lines high, for words that change all the time; a
+/// tooltip has the text that does not fit.
 pub(crate) fn note_of(ui: &mut Ui, text: &str, lines: usize) {
     let width = ui.available_width();
     let mut job = LayoutJob::simple(text.to_owned(), FontId::proportional(NOTE), pale(ui), width);

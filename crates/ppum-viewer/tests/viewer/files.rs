@@ -8,7 +8,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use ppum_viewer::files::examples;
-use ppum_viewer::files::kept::WindowState;
+use ppum_viewer::files::window_state::WindowState;
 use ppum_viewer::session::VisibleRegion;
 
 use crate::kit::{plate, show_until};
@@ -226,8 +226,8 @@ fn damaged_settings_harm_nothing() {
         fs::write(config.join("last.ppum-session"), text).expect("written");
         let kept = WindowState::read(&config);
         assert_eq!(kept, WindowState::default(), "{text}");
-        let start = ppum_viewer::window::Start::default();
-        let start = ppum_viewer::window::Start { folder: Some(config.clone()), ..start };
+        let start = ppum_viewer::window::WindowStart::default();
+        let start = ppum_viewer::window::WindowStart { folder: Some(config.clone()), ..start };
         let viewer = start.viewer(&egui::Context::default());
         assert_eq!(viewer.session, ppum_viewer::session::Session::default(), "{text}");
         assert!(
@@ -261,7 +261,7 @@ fn a_file_that_has_become_another_plate_is_shown_as_that() {
         lab.open(&path);
         let pane = &mut lab.state().session.panes[0];
         pane.scene.quantity = Some(quantity.into());
-        pane.scene.deformed = Some(ppum_scene::deformed::Factor::Auto);
+        pane.scene.deformed = Some(ppum_scene::deformed::Magnification::Auto);
         pane.place = Some(VisibleRegion { center: [0.5, 0.0], width: 1e-3 });
         lab.settle();
         let slit = other();
@@ -328,7 +328,7 @@ fn a_quantity_that_a_file_no_longer_has_is_left() {
 fn what_cannot_be_remembered_is_told_once() {
     let mut lab = Lab::with(|folder| {
         fs::write(folder.join("config"), "no folder").expect("written");
-        ppum_viewer::window::Start::default()
+        ppum_viewer::window::WindowStart::default()
     });
     let path = lab.write("plate.h5", &named("First"));
     lab.open(&path);

@@ -57,7 +57,7 @@ pub(crate) fn show_until(
 pub(crate) fn settle(window: &mut Harness<'static, Viewer>) {
     show_until(window, "the window comes to rest", |window| {
         let is_working =
-            |stage: &ppum_viewer::stage::Stage| stage.is_drawing() || stage.reading.is_working();
+            |stage: &ppum_viewer::stage::ViewPane| stage.is_drawing() || stage.reading.is_working();
         !window.state().stages.iter().any(is_working)
     });
     window.step();

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use egui_kittest::Harness;
 use ppum::dataset::Dataset;
 use ppum_viewer::Viewer;
-use ppum_viewer::window::Start;
+use ppum_viewer::window::WindowStart;
 use tempfile::TempDir;
 
 use crate::kit::show_until;
@@ -20,11 +20,11 @@ pub(crate) struct Lab {
 impl Lab {
     /// A window in which nothing is open.
     pub(crate) fn new() -> Self {
-        Self::with(|_| Start::default())
+        Self::with(|_| WindowStart::default())
     }
 
     /// A window that begins with what `start` makes of the folder.
-    pub(crate) fn with(start: impl FnOnce(&Path) -> Start) -> Self {
+    pub(crate) fn with(start: impl FnOnce(&Path) -> WindowStart) -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         let start = start(folder.path());
         let window = Self::window(folder.path(), start);
@@ -33,8 +33,8 @@ impl Lab {
         lab
     }
 
-    fn window(folder: &Path, start: Start) -> Harness<'static, Viewer> {
-        let start = Start { folder: Some(folder.join("config")), ..start };
+    fn window(folder: &Path, start: WindowStart) -> Harness<'static, Viewer> {
+        let start = WindowStart { folder: Some(folder.join("config")), ..start };
         // names of files and what is written may have letters that no font has
         let builder = Harness::builder().with_size([1000.0, 700.0]).with_max_steps(1000);
         let builder = builder.allow_missing_glyphs();
@@ -42,13 +42,13 @@ impl Lab {
     }
 
     /// Closes the window and opens it again, as on the next day.
-    pub(crate) fn reopen(&mut self, start: Start) {
+    pub(crate) fn reopen(&mut self, start: WindowStart) {
         self.begin_again(start);
         self.settle();
     }
 
     /// The same, without waiting for what it shows.
-    pub(crate) fn begin_again(&mut self, start: Start) {
+    pub(crate) fn begin_again(&mut self, start: WindowStart) {
         self.state().leave();
         self.window = Self::window(self.folder.path(), start);
     }
@@ -68,7 +68,7 @@ impl Lab {
         self.window.state()
     }
 
-    /// The same, to be changed.
+    /// Returns the pane, to be changed.
     pub(crate) fn state(&mut self) -> &mut Viewer {
         self.window.state_mut()
     }

@@ -9,7 +9,7 @@ use ppum::dataset::Dataset;
 use ppum_viewer::Viewer;
 use ppum_viewer::actions::Action;
 use ppum_viewer::session::ProblemDraft;
-use ppum_viewer::window::Start;
+use ppum_viewer::window::WindowStart;
 
 use crate::kit::plate;
 use crate::lab::Lab;
@@ -270,7 +270,7 @@ fn no_work_is_lost_whatever_is_done() {
         }
         act(&mut lab, Action::CancelSolving);
         lab.settle();
-        lab.reopen(Start::default());
+        lab.reopen(WindowStart::default());
         if let Some(text) = &work.text {
             assert!(has_text(lab.viewer(), text), "{states:?}: the text is lost at the end");
         }
@@ -367,10 +367,10 @@ fn changed_texts_outlast_the_window() {
     }
     act(&mut lab, Action::CloseProblem);
     assert!(closes(&mut lab), "nothing is lost, nothing is asked");
-    lab.reopen(Start::default());
+    lab.reopen(WindowStart::default());
     // with another file, too
     let other = lab.write("other.h5", &plate());
-    lab.reopen(Start { files: vec![other], ..Start::default() });
+    lab.reopen(WindowStart { files: vec![other], ..WindowStart::default() });
     for mine in &mine {
         assert!(has_text(lab.viewer(), mine));
     }
@@ -396,7 +396,7 @@ fn changed_texts_outlast_the_window() {
     discard(&mut lab);
     click(&mut lab, "Discard the changes");
     assert!(!has_text(lab.viewer(), &mine[1]) && has_text(lab.viewer(), &mine[0]));
-    lab.reopen(Start::default());
+    lab.reopen(WindowStart::default());
     assert!(!has_text(lab.viewer(), &mine[1]) && has_text(lab.viewer(), &mine[0]));
     assert_eq!(draft(&mut lab).text, mine[2]);
     // once it is in its file it is changed no more

@@ -13,7 +13,7 @@ use ppum::vec2::vec2 as v;
 use ppum_fracture::solve::solve;
 use ppum_problem::Problem;
 use ppum_scene::overlays::Overlay;
-use ppum_scene::profile::Along;
+use ppum_scene::profile::ProfileCurve;
 use ppum_viewer::Viewer;
 use ppum_viewer::reading::words;
 use ppum_viewer::session::{DrawerPage, VisibleRegion};
@@ -255,7 +255,7 @@ fn a_line_drawn_with_shift_is_plotted() {
 #[test]
 fn radii_are_short_and_refused_with_a_reason() {
     let mut window = window(plate(), [1200.0, 700.0]);
-    let curve = Along::Circle { center: [0.1 + 0.2, 0.5], radius: 0.2700000000000001 };
+    let curve = ProfileCurve::Circle { center: [0.1 + 0.2, 0.5], radius: 0.2700000000000001 };
     window.state_mut().session.panes[0].curve = Some(curve);
     window.state_mut().session.drawer = Some(DrawerPage::Plot);
     settle(&mut window);
@@ -284,7 +284,7 @@ fn radii_are_short_and_refused_with_a_reason() {
     }
     write(&mut window, "0.3, 0.6, 0.25");
     // what was not written anew has kept its digits
-    let changed = Along::Circle { center: [0.1 + 0.2, 0.6], radius: 0.25 };
+    let changed = ProfileCurve::Circle { center: [0.1 + 0.2, 0.6], radius: 0.25 };
     assert_eq!(window.state().session.panes[0].curve, Some(changed));
     assert!(!has(&window, "centre, radius") && !has(&window, "leaves the plate"));
 }

@@ -12,7 +12,7 @@ use ppum::polynomial::PolynomialSpace::Total;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 use ppum_scene::owner::Owner;
-use ppum_testkit::meshes::{Elements, Polynomial, field, random_polynomial};
+use ppum_testkit::meshes::{BivariatePolynomial, MeshBuilder, field, random_polynomial};
 use ppum_testkit::random::Random;
 use ppum_viewer::Viewer;
 use ppum_viewer::reading::tool::Tool;
@@ -25,8 +25,9 @@ const SIZE: [f32; 2] = [1000.0, 700.0];
 
 fn mesh() -> Dataset {
     let mut random = Random(3);
-    let plane = [Polynomial::linear(0.0, 1.0, 0.1), Polynomial::linear(0.0, -0.1, 1.0)];
-    let mut elements = Elements::grid([5, 4], 1, &plane);
+    let plane =
+        [BivariatePolynomial::linear(0.0, 1.0, 0.1), BivariatePolynomial::linear(0.0, -0.1, 1.0)];
+    let mut elements = MeshBuilder::grid([5, 4], 1, &plane);
     let n = elements.mesh.len() as u32;
     elements.mesh.element = (0..n).map(|k| 100 + k).collect();
     let mut part = |k: u32| {

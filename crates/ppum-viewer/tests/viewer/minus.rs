@@ -15,19 +15,19 @@ use ppum::quantity::Quantity;
 use ppum::vec2::{Vec2, vec2 as v};
 use ppum_fracture::solve::solve;
 use ppum_problem::Problem;
-use ppum_render::range::Range;
-use ppum_render::resample::norms::Norms;
+use ppum_render::range::RangeChoice;
+use ppum_render::resample::norms::DifferenceNorms;
 use ppum_render::scatter::render;
-use ppum_scene::colors::Colors;
-use ppum_scene::deformed::Factor;
+use ppum_scene::colors::ColorOptions;
+use ppum_scene::deformed::Magnification;
 use ppum_scene::drawing::RasterValues;
-use ppum_scene::spot::Spot;
+use ppum_scene::location::Location;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::growing;
 use ppum_viewer::Viewer;
 use ppum_viewer::export::PageSize;
-use ppum_viewer::frames::{Backend, Fault, Frame};
-use ppum_viewer::reading::probe::Probed;
+use ppum_viewer::frames::{Backend, FaultOrigin, RenderedFrame};
+use ppum_viewer::reading::probe::ProbeReading;
 use ppum_viewer::session::{Session, VisibleRegion};
 
 use crate::kit::{plate, settle, show_until};
@@ -70,7 +70,7 @@ fn pair(left: Dataset, right: Dataset, size: [f32; 2], backend: Backend) -> Wind
 
 const SIZE: [f32; 2] = [1200.0, 700.0];
 
-fn frame(window: &Window) -> Arc<Frame> {
+fn frame(window: &Window) -> Arc<RenderedFrame> {
     Arc::clone(window.state().stages[1].frames.newest().expect("a picture on the right"))
 }
 
@@ -81,19 +81,19 @@ fn values(window: &Window) -> Vec<f64> {
     }
 }
 
-fn norms(window: &Window) -> Norms {
+fn norms(window: &Window) -> DifferenceNorms {
     frame(window).subtracted.as_ref().and_then(|left| left.norms).expect("it is drawn")
 }
 
 /// A value of a quantity at a point of a dataset.
-fn value(dataset: &Dataset, step: usize, text: &str, spot: &Spot) -> f64 {
+fn value(dataset: &Dataset, step: usize, text: &str, spot: &Location) -> f64 {
     let field = Field::new(dataset, step).expect("a field");
     let quantity = Quantity::parse(text, &field).expect("a quantity");
     quantity.at(&mut field.at(spot.anchor()), spot.offset(), Side::Above)
 }
 
 /// Moves the pointer to a place of the right view.
-fn hover(window: &mut Window, offset: Vec2) -> Probed {
+fn hover(window: &mut Window, offset: Vec2) -> ProbeReading {
     let stage = &window.state().stages[1];
     let view = stage.view.expect("it is shown");
     let rect = window.query_all_by_label("Plate").last().expect("two plates").rect();
@@ -123,7 +123,7 @@ fn a_key_shows_the_difference_and_takes_it_back() {
     assert_eq!(frame(&window).words()[0], "von Mises stress (right − left)");
     // its colours are its own
     assert_eq!(frame(&window).default_map(), "coolwarm");
-    assert_eq!(window.state().session.panes[1].scene.colors, Colors::default());
+    assert_eq!(window.state().session.panes[1].scene.colors, ColorOptions::default());
     window.state_mut().session.panes[1].scene.colors.colormap = Some("vik".into());
     window.state_mut().session.active = 0;
     settle(&mut window);
@@ -388,18 +388,18 @@ fn what_cannot_be_subtracted_is_told_on_the_plate() {
     let mut window = pair(refined(3), refined(4), SIZE, Backend::Cpu);
     let before = frame(&window);
     // the deformed plate
-    window.state_mut().session.panes[1].scene.deformed = Some(Factor::Auto);
+    window.state_mut().session.panes[1].scene.deformed = Some(Magnification::Auto);
     settle(&mut window);
     let fault =
         |window: &Window| window.state().stages[1].frames.failure().map(|failure| failure.fault);
-    assert_eq!(fault(&window), Some(Fault::Minus));
+    assert_eq!(fault(&window), Some(FaultOrigin::Minus));
     assert!(has_label(&window, "of the deformed plate there is no difference"));
     assert!(Arc::ptr_eq(&before, &frame(&window)), "the last picture stays");
     window.state_mut().session.panes[1].scene.deformed = None;
     // a mistake on the left
     window.state_mut().session.panes[0].scene.quantity = Some("uy +".into());
     settle(&mut window);
-    assert_eq!(fault(&window), Some(Fault::Minus));
+    assert_eq!(fault(&window), Some(FaultOrigin::Minus));
     assert!(has_label(&window, "on the left: "));
     // units
     window.state_mut().session.panes[0].scene.quantity = Some("energy".into());
@@ -429,7 +429,7 @@ fn pictures_of_differences_are_saved() {
     let mut scene = window.state().session.panes[1].scene.clone();
     // they lie over the picture in the window, and in it in the file
     scene.overlays = ppum_scene::overlays::Overlays::default();
-    let order = ppum_viewer::export::Order {
+    let order = ppum_viewer::export::ImageExport {
         field: Arc::clone(&frame.field),
         file: Some(PathBuf::from("plate.h5")),
         left: frame.left(),
@@ -443,7 +443,7 @@ fn pictures_of_differences_are_saved() {
         .expect("it is drawn");
     let seen = ppum_render::png::encode(&frame.picture.image, &[]).expect("it is encoded");
     assert!(pixels(&bytes) == pixels(&seen), "what is seen is what is saved");
-    let figure = ppum_viewer::export::Order {
+    let figure = ppum_viewer::export::ImageExport {
         kind: ppum_viewer::export::ExportKind::Figure,
         page: PageSize::pixels([500, 400]),
         ..order
@@ -465,10 +465,10 @@ fn the_range_of_the_whole_plate_is_of_the_difference() {
     let mut window = pair(refined(3), refined(4), [1200.0, 1400.0], Backend::Cpu);
     window.get_by_label("whole plate").click();
     show_until(&mut window, "the range is found", |window| {
-        window.state().session.panes[1].scene.colors.range != Range::Auto
+        window.state().session.panes[1].scene.colors.range != RangeChoice::Auto
     });
     settle(&mut window);
-    let Range::Fixed(min, max) = window.state().session.panes[1].scene.colors.range else {
+    let RangeChoice::Fixed(min, max) = window.state().session.panes[1].scene.colors.range else {
         panic!("it is found")
     };
     assert_eq!(min, -max);

@@ -7,9 +7,9 @@ use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::vec2 as v;
-use ppum_scene::profile::Along;
+use ppum_scene::profile::ProfileCurve;
 use ppum_viewer::Viewer;
-use ppum_viewer::reading::plotted::CurveValues;
+use ppum_viewer::reading::plot_request::CurveValues;
 use ppum_viewer::reading::tool::Tool;
 use ppum_viewer::session::{DrawerPage, VisibleRegion};
 
@@ -19,7 +19,7 @@ type Window = Harness<'static, Viewer>;
 
 const SIZE: [f32; 2] = [1000.0, 700.0];
 
-fn curve(window: &Window) -> Option<Along> {
+fn curve(window: &Window) -> Option<ProfileCurve> {
     window.state().session.panes[0].curve
 }
 
@@ -57,7 +57,7 @@ fn a_line_is_drawn_and_its_ends_can_be_moved() {
     let view = window.state().stages[0].view.expect("a view");
     let [a, b] = [v(-0.8, 0.3), v(0.7, -0.2)].map(|p| at(&window, p));
     draw(&mut window, Some(Tool::Line), a, b);
-    let Some(Along::Line { anchor, from, to }) = curve(&window) else { panic!("no line") };
+    let Some(ProfileCurve::Line { anchor, from, to }) = curve(&window) else { panic!("no line") };
     assert_eq!(anchor, [0.0; 2]);
     let near = |p: [f64; 2], x: f64, y: f64| (p[0] - x).hypot(p[1] - y) < 2.0 * view.pixel_size();
     assert!(near(from, -0.8, 0.3) && near(to, 0.7, -0.2), "{from:?} {to:?}");
@@ -67,7 +67,7 @@ fn a_line_is_drawn_and_its_ends_can_be_moved() {
     let near = |p: [f64; 2], x: f64, y: f64| (p[0] - x).hypot(p[1] - y) < 2.0 * view.pixel_size();
     let [b, c] = [v(0.7, -0.2), v(0.2, 0.9)].map(|p| at(&window, p));
     draw(&mut window, None, b, c);
-    let Some(Along::Line { from: same, to, .. }) = curve(&window) else { panic!("no line") };
+    let Some(ProfileCurve::Line { from: same, to, .. }) = curve(&window) else { panic!("no line") };
     assert!(same == from && near(to, 0.2, 0.9), "{to:?}");
     // the numbers are short
     assert!(to.iter().all(|v| format!("{v}").len() < 9), "{to:?}");
@@ -79,7 +79,7 @@ fn a_line_is_drawn_and_its_ends_can_be_moved() {
 fn a_line_has_the_values_that_the_program_samples() {
     let dataset = plate();
     let mut window = window(dataset.clone(), SIZE);
-    let along = Along::Line { anchor: [0.0; 2], from: [0.1, -0.5], to: [0.1, 0.5] };
+    let along = ProfileCurve::Line { anchor: [0.0; 2], from: [0.1, -0.5], to: [0.1, 0.5] };
     let state = window.state_mut();
     state.session.panes[0].curve = Some(along);
     state.session.panes[0].plot.quantities = Some("uy, max(sxx, syy)".into());
@@ -110,7 +110,7 @@ fn a_line_has_the_values_that_the_program_samples() {
 fn a_mistake_in_a_quantity_is_told_beside_the_plot() {
     let mut window = window(plate(), SIZE);
     let state = window.state_mut();
-    state.session.panes[0].curve = Some(Along::Crack { index: 0 });
+    state.session.panes[0].curve = Some(ProfileCurve::Crack { index: 0 });
     state.session.panes[0].plot.quantities = Some("uy + ".into());
     state.session.drawer = Some(DrawerPage::Plot);
     assert!(plotted(&mut window).is_err());
@@ -119,7 +119,7 @@ fn a_mistake_in_a_quantity_is_told_beside_the_plot() {
     let names: Vec<_> = found.as_ref().as_ref().expect("values").plot([false; 2]).curves;
     let names: Vec<_> = names.into_iter().map(|curve| curve.label).collect();
     assert_eq!(names, ["opening", "sliding"]);
-    window.state_mut().session.panes[0].curve = Some(Along::Crack { index: 7 });
+    window.state_mut().session.panes[0].curve = Some(ProfileCurve::Crack { index: 7 });
     assert!(plotted(&mut window).is_err());
 }
 
@@ -128,7 +128,7 @@ fn a_mistake_in_a_quantity_is_told_beside_the_plot() {
 fn a_ray_has_the_exponent_of_the_singularity() {
     let mut window = window(plate(), SIZE);
     let state = window.state_mut();
-    state.session.panes[0].curve = Some(Along::Ray { tip: 1, angle: 0.0, far: Some(1e-6) });
+    state.session.panes[0].curve = Some(ProfileCurve::Ray { tip: 1, angle: 0.0, far: Some(1e-6) });
     state.session.panes[0].plot.quantities = Some("syy".into());
     state.session.panes[0].plot.log = [true; 2];
     state.session.drawer = Some(DrawerPage::Plot);
@@ -148,7 +148,7 @@ fn circles_around_a_tip_have_its_factors() {
     let mut window = window(dataset, SIZE);
     for (part, tolerance) in [(1.0, 1e-10), (0.4, 1e-2), (0.15, 2e-2)] {
         let radius = Some(part * own);
-        window.state_mut().session.panes[0].curve = Some(Along::Around { tip: 1, radius });
+        window.state_mut().session.panes[0].curve = Some(ProfileCurve::Around { tip: 1, radius });
         settle(&mut window);
         settle(&mut window);
         let found = window.state_mut().stages[0].reading.integral.newest_factors();
@@ -164,11 +164,14 @@ fn circles_around_a_tip_have_its_factors() {
 fn a_circle_without_factors_says_why() {
     let mut window = window(plate(), SIZE);
     let cases = [
-        (Along::Circle { center: [0.0, 0.7], radius: 0.1 }, "holds no tip"),
-        (Along::Circle { center: [0.45, 0.05], radius: 0.2 }, "drag the circle's centre to tip 1"),
-        (Along::Circle { center: [0.0, 0.0], radius: 0.9 }, "holds 2 tips"),
-        (Along::Around { tip: 1, radius: Some(5.0) }, "the circle meets"),
-        (Along::Around { tip: 9, radius: Some(0.1) }, "no tip 9"),
+        (ProfileCurve::Circle { center: [0.0, 0.7], radius: 0.1 }, "holds no tip"),
+        (
+            ProfileCurve::Circle { center: [0.45, 0.05], radius: 0.2 },
+            "drag the circle's centre to tip 1",
+        ),
+        (ProfileCurve::Circle { center: [0.0, 0.0], radius: 0.9 }, "holds 2 tips"),
+        (ProfileCurve::Around { tip: 1, radius: Some(5.0) }, "the circle meets"),
+        (ProfileCurve::Around { tip: 9, radius: Some(0.1) }, "no tip 9"),
     ];
     for (along, reason) in cases {
         window.state_mut().session.panes[0].curve = Some(along);
@@ -190,7 +193,7 @@ fn k_draws_the_circle_that_the_solver_takes() {
     settle(&mut window);
     window.key_press(Key::K);
     settle(&mut window);
-    let Some(Along::Around { tip: 0, radius: Some(radius) }) = curve(&window) else {
+    let Some(ProfileCurve::Around { tip: 0, radius: Some(radius) }) = curve(&window) else {
         panic!("{:?}", curve(&window))
     };
     assert!((radius / own - 1.0).abs() < 1e-12 || radius < own, "{radius} {own}");
@@ -210,14 +213,14 @@ fn a_circle_drawn_from_a_tip_is_around_it() {
     draw(&mut window, Some(Tool::Circle), tip + vec2(3.0, 2.0), tip + vec2(50.0, 0.0));
     let view = window.state().stages[0].view.expect("a view");
     match curve(&window) {
-        Some(Along::Around { tip: 1, radius: Some(radius) }) => {
+        Some(ProfileCurve::Around { tip: 1, radius: Some(radius) }) => {
             assert!((radius - 50.0 * view.pixel_size()).abs() < 2.0 * view.pixel_size());
         }
         other => panic!("{other:?}"),
     }
     let free = at(&window, v(0.0, 0.6));
     draw(&mut window, Some(Tool::Circle), free, free + vec2(0.0, 30.0));
-    assert!(matches!(curve(&window), Some(Along::Circle { .. })), "{:?}", curve(&window));
+    assert!(matches!(curve(&window), Some(ProfileCurve::Circle { .. })), "{:?}", curve(&window));
 }
 
 /// Deep inside a line is counted from a tip, and keeps its digits there.
@@ -237,7 +240,7 @@ fn a_line_of_a_deep_view_keeps_its_digits() {
         middle + vec2(-150.0, 100.0),
         middle + vec2(-150.0, -100.0),
     );
-    let Some(Along::Line { anchor, from, to }) = curve(&window) else { panic!("no line") };
+    let Some(ProfileCurve::Line { anchor, from, to }) = curve(&window) else { panic!("no line") };
     assert_eq!(anchor, [tip.x, tip.y]);
     assert!(from[1] < 0.0 && to[1] > 0.0 && from[1] > -1e-11);
     window.state_mut().session.drawer = Some(DrawerPage::Plot);
@@ -280,7 +283,7 @@ fn files_are_written_but_never_over_the_dataset() {
     std::fs::write(&own, "the dataset").expect("written");
     let state = window.state_mut();
     state.stages[0].opened.as_mut().expect("open").path = Some(own.clone());
-    state.session.panes[0].curve = Some(Along::Crack { index: 0 });
+    state.session.panes[0].curve = Some(ProfileCurve::Crack { index: 0 });
     state.session.drawer = Some(DrawerPage::Plot);
     let found = plotted(&mut window);
     let values = found.as_ref().as_ref().expect("values");

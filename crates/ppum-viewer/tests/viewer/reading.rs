@@ -13,10 +13,10 @@ use ppum::quantity::{Quantity, QuantityGradient};
 use ppum::vec2::{Vec2, vec2 as v};
 use ppum_fracture::solve::solve;
 use ppum_problem::Problem;
+use ppum_scene::location::Location;
 use ppum_scene::owner::Owner;
-use ppum_scene::spot::Spot;
 use ppum_viewer::Viewer;
-use ppum_viewer::reading::probe::Probed;
+use ppum_viewer::reading::probe::ProbeReading;
 use ppum_viewer::session::VisibleRegion;
 
 use crate::kit::{at, hover, plate, settle, window};
@@ -25,7 +25,7 @@ type Window = Harness<'static, Viewer>;
 
 const SIZE: [f32; 2] = [1000.0, 700.0];
 
-fn hovered(window: &Window) -> Probed {
+fn hovered(window: &Window) -> ProbeReading {
     window.state().stages[0].reading.hover.clone().expect("the pointer is over the plate")
 }
 
@@ -144,7 +144,7 @@ fn deep_inside_no_digit_is_lost() {
     settle(&mut window);
     let spot = window.state().session.panes[0].probes[0];
     let texts = spot.texts();
-    let again = Spot::default().with_text(0, &texts[0]).and_then(|s| s.with_text(1, &texts[1]));
+    let again = Location::default().with_text(0, &texts[0]).and_then(|s| s.with_text(1, &texts[1]));
     assert_eq!(again.map(|s| s.from(tip)), Some(spot.from(tip)));
 }
 
@@ -200,7 +200,7 @@ fn probes_follow_the_quantity() {
     let mut window = window(dataset.clone(), [SIZE[0], SIZE[1] + 120.0]);
     let field = Field::new(&dataset, 0).expect("a field");
     window.state_mut().session.panes[0].probes =
-        vec![Spot::new(v(0.25, 0.75), Vec2::ZERO), Spot::new(v(0.0, 0.0), Vec2::ZERO)];
+        vec![Location::new(v(0.25, 0.75), Vec2::ZERO), Location::new(v(0.0, 0.0), Vec2::ZERO)];
     for name in ["ux", "von-mises", "sqrt(ux^2 + uy^2)"] {
         show(&mut window, name, None);
         let probes = window.state().stages[0].reading.probes.clone();
@@ -251,7 +251,8 @@ fn what_is_read_is_copied_with_all_digits() {
 #[test]
 fn the_deformed_plate_is_read_where_it_is_seen() {
     let mut window = window(plate(), SIZE);
-    window.state_mut().session.panes[0].scene.deformed = Some(ppum_scene::deformed::Factor::Auto);
+    window.state_mut().session.panes[0].scene.deformed =
+        Some(ppum_scene::deformed::Magnification::Auto);
     show(&mut window, "uy", None);
     let rect = window.get_by_label("Plate").rect();
     let (mut seen, mut missing) = (0, 0);
@@ -342,7 +343,7 @@ fn go_anywhere(dataset: Dataset, quantities: &[&str], center: Vec2) {
             let pane = &mut window.state_mut().session.panes[0];
             pane.scene.quantity = Some(quantities[(k / 6) as usize % quantities.len()].into());
             let is_deformed = is_elastic && k % 12 == 0;
-            pane.scene.deformed = is_deformed.then_some(ppum_scene::deformed::Factor::Auto);
+            pane.scene.deformed = is_deformed.then_some(ppum_scene::deformed::Magnification::Auto);
             let deep = 10f64.powf(-12.0 * number(k + 1000).abs());
             let width = if k >= 24 { deep } else { whole };
             pane.place = Some(VisibleRegion { center: center.into(), width });

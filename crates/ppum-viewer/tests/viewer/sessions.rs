@@ -4,17 +4,19 @@ use std::fs;
 use std::path::Path;
 
 use egui::{Key, Modifiers};
-use ppum_render::range::Range;
+use ppum_render::range::RangeChoice;
 use ppum_render::scale::Scale;
-use ppum_scene::deformed::Factor;
-use ppum_scene::overlays::{Levels, Overlay};
-use ppum_scene::spot::Spot;
+use ppum_scene::deformed::Magnification;
+use ppum_scene::location::Location;
+use ppum_scene::overlays::{IsolineLevels, Overlay};
 use ppum_testkit::random::Random;
 use ppum_testkit::skipped::skipped;
 use ppum_viewer::files::session_file::{parse, text};
 use ppum_viewer::offscreen::{ScreenshotError, screenshot};
-use ppum_viewer::session::{DrawerPage, Minus, Pane, ProblemDraft, Session, Theme, VisibleRegion};
-use ppum_viewer::window::Start;
+use ppum_viewer::session::{
+    DifferenceChoice, DrawerPage, Pane, ProblemDraft, Session, VisibleRegion, WindowTheme,
+};
+use ppum_viewer::window::WindowStart;
 
 use crate::kit::plate;
 use crate::lab::Lab;
@@ -38,14 +40,14 @@ fn words(random: &mut Random) -> String {
     (0..random.below(12)).map(|_| random.pick(&letters)).collect()
 }
 
-fn range(random: &mut Random) -> Range {
+fn range(random: &mut Random) -> RangeChoice {
     match random.below(4) {
-        0 => Range::Auto,
-        1 => Range::Full,
-        2 => Range::Percentiles(random.between(0.0, 49.0), random.between(51.0, 100.0)),
+        0 => RangeChoice::Auto,
+        1 => RangeChoice::Full,
+        2 => RangeChoice::Percentiles(random.between(0.0, 49.0), random.between(51.0, 100.0)),
         _ => {
             let from = random.between(-1e9, 1e9);
-            Range::Fixed(from, from + random.between(1e-3, 1e12))
+            RangeChoice::Fixed(from, from + random.between(1e-3, 1e12))
         }
     }
 }
@@ -67,20 +69,24 @@ fn pane(random: &mut Random) -> Pane {
     scene.overlays.shown = Overlay::ALL.into_iter().filter(|_| random.below(2) == 1).collect();
     scene.overlays.no_cracks = random.below(2) == 1;
     scene.overlays.isolines = some(random, |r| match r.below(3) {
-        0 => Levels::Auto,
-        1 => Levels::Count(1 + r.below(50)),
-        _ => Levels::At((0..3).map(|k| f64::from(k) + r.unit()).collect()),
+        0 => IsolineLevels::Auto,
+        1 => IsolineLevels::Count(1 + r.below(50)),
+        _ => IsolineLevels::At((0..3).map(|k| f64::from(k) + r.unit()).collect()),
     });
     scene.overlays.level_labels = random.below(2) == 1;
     scene.overlays.arrows = some(random, number);
     scene.deformed = some(random, |r| {
-        if r.below(2) == 1 { Factor::Auto } else { Factor::Given(r.between(0.0, 1e6)) }
+        if r.below(2) == 1 {
+            Magnification::Auto
+        } else {
+            Magnification::Given(r.between(0.0, 1e6))
+        }
     });
     scene.outline = random.below(2) == 1;
     pane.place =
         some(random, |r| VisibleRegion { center: [number(r), number(r)], width: number(r) });
     pane.extrema = random.below(2) == 1;
-    let spot = |r: &mut Random| Spot {
+    let spot = |r: &mut Random| Location {
         anchor: [number(r), number(r)],
         offset: [number(r), number(r)],
         on: some(r, |r| [r.below(9) as u32, r.below(9) as u32]),
@@ -103,12 +109,15 @@ fn session(random: &mut Random) -> Session {
         active: random.below(panes.len()),
         panes,
         linked: random.below(2) == 1,
-        minus: Minus { is_shown: two && random.below(2) == 1, colors: pane(random).scene.colors },
+        minus: DifferenceChoice {
+            is_shown: two && random.below(2) == 1,
+            colors: pane(random).scene.colors,
+        },
         panels: random.below(2) == 1,
         drawer: some(random, |r| {
             r.pick(&[DrawerPage::Plot, DrawerPage::Series, DrawerPage::Problem])
         }),
-        theme: random.pick(&[Theme::System, Theme::Light, Theme::Dark]),
+        theme: random.pick(&[WindowTheme::System, WindowTheme::Light, WindowTheme::Dark]),
         draft: some(random, draft),
     }
 }
@@ -133,12 +142,12 @@ fn a_number_that_is_none_costs_no_session() {
     let mut session = Session::default();
     session.panes[0].place = Some(VisibleRegion { center: [0.0, f64::NAN], width: 1.0 });
     session.panes[0].scene.quantity = Some("syy".into());
-    session.panes[0].scene.colors.range = Range::Fixed(2.0, 1.0);
-    session.panes[0].probes = vec![Spot { anchor: [f64::NAN; 2], ..Spot::default() }];
+    session.panes[0].scene.colors.range = RangeChoice::Fixed(2.0, 1.0);
+    session.panes[0].probes = vec![Location { anchor: [f64::NAN; 2], ..Location::default() }];
     let text = text(&session, Path::new("/")).expect("it has a text");
     let back = parse(&text, Path::new("/")).expect("it is a session");
     assert_eq!(back.panes[0].probes, []);
-    assert_eq!((back.panes[0].place, back.panes[0].scene.colors.range), (None, Range::Auto));
+    assert_eq!((back.panes[0].place, back.panes[0].scene.colors.range), (None, RangeChoice::Auto));
     assert_eq!(back.panes[0].scene.quantity.as_deref(), Some("syy"));
 }
 
@@ -185,7 +194,10 @@ fn a_saved_session_opens_where_it_lies_with_its_files() {
 
     fs::rename(lab.path("here"), lab.path("there")).expect("moved");
     let there = lab.path("there");
-    lab.reopen(Start { files: vec![there.join("plate.ppum-session")], ..Start::default() });
+    lab.reopen(WindowStart {
+        files: vec![there.join("plate.ppum-session")],
+        ..WindowStart::default()
+    });
     let mut expected = before;
     expected.panes[0].file = Some(there.join("plate.h5"));
     assert_eq!(lab.viewer().session, expected, "{}", lab.notes());
@@ -193,7 +205,10 @@ fn a_saved_session_opens_where_it_lies_with_its_files() {
 
     // without its dataset: told, and everything else is there
     fs::remove_file(there.join("plate.h5")).expect("removed");
-    lab.reopen(Start { files: vec![there.join("plate.ppum-session")], ..Start::default() });
+    lab.reopen(WindowStart {
+        files: vec![there.join("plate.ppum-session")],
+        ..WindowStart::default()
+    });
     assert!(lab.notes().contains("plate.h5 of the session cannot be read"), "{}", lab.notes());
     assert!(lab.dataset(0).is_none());
     assert_eq!(lab.state().session, expected);
@@ -210,18 +225,18 @@ fn the_window_reopens_as_it_was() {
     let path = lab.write("plate.h5", &plate());
     lab.open(&path);
     lab.state().session.panes[0].scene.quantity = Some("sxy".into());
-    lab.state().session.theme = Theme::Dark;
+    lab.state().session.theme = WindowTheme::Dark;
     lab.state().session.draft =
         Some(ProblemDraft { text: "title = \"σ\"".into(), ..ProblemDraft::default() });
     lab.settle();
     let before = lab.state().session.clone();
-    lab.reopen(Start::default());
+    lab.reopen(WindowStart::default());
     assert_eq!(lab.state().session, before);
     assert!(lab.dataset(0).is_some());
     // with a file of its own it has the looks alone
     let other = lab.write("other.h5", &plate());
-    lab.reopen(Start { files: vec![other.clone()], ..Start::default() });
-    assert_eq!(lab.state().session.theme, Theme::Dark);
+    lab.reopen(WindowStart { files: vec![other.clone()], ..WindowStart::default() });
+    assert_eq!(lab.state().session.theme, WindowTheme::Dark);
     assert_eq!(lab.state().session.panes[0].file, Some(other));
     assert_eq!(lab.state().session.panes[0].scene.quantity, None);
 }
@@ -248,24 +263,24 @@ fn a_session_names_datasets_alone() {
         ("plate.toml", "the text of a problem"),
     ] {
         let path = written(&lab, "itself.ppum-session", file, "");
-        lab.reopen(Start { files: vec![path.clone()], ..Start::default() });
+        lab.reopen(WindowStart { files: vec![path.clone()], ..WindowStart::default() });
         let told = format!("it is {is}, where a dataset should be");
         assert!(lab.notes().contains(&told), "{file}: {}", lab.notes());
         assert!(lab.notes().contains(&lab.path(file).display().to_string()), "{}", lab.notes());
         assert!(lab.dataset(0).is_none() && lab.viewer().session.draft.is_none());
-        refused(Start { files: vec![path], ..Start::default() }, &told);
+        refused(WindowStart { files: vec![path], ..WindowStart::default() }, &told);
     }
     let draft = Some(ProblemDraft { path: Some("plate.h5".into()), ..ProblemDraft::default() });
     let session = Session { draft, ..Session::default() };
     let path = lab.path("draft.ppum-session");
     fs::write(&path, text(&session, lab.folder.path()).expect("a text")).expect("written");
-    lab.reopen(Start { files: vec![path], ..Start::default() });
+    lab.reopen(WindowStart { files: vec![path], ..WindowStart::default() });
     assert!(lab.notes().contains("it is a dataset, where a problem"), "{}", lab.notes());
     assert!(lab.dataset(0).is_none());
 }
 
 /// There is no picture of a window that does not show what was chosen.
-fn refused(start: Start, reason: &str) {
+fn refused(start: WindowStart, reason: &str) {
     match screenshot(start) {
         Err(ScreenshotError::NoDriver(words)) => skipped(&words),
         Err(error) => assert!(error.to_string().contains(reason), "{error}"),
@@ -288,7 +303,7 @@ fn places_that_nothing_can_show_are_the_whole_plate() {
     ] {
         let rest = format!(r#", "place": {{{place}}}"#);
         let path = written(&lab, "a.ppum-session", "plate.h5", &rest);
-        lab.reopen(Start { files: vec![path], ..Start::default() });
+        lab.reopen(WindowStart { files: vec![path], ..WindowStart::default() });
         assert_eq!(lab.viewer().session.panes[0].place, None, "{place}");
         assert!(lab.notes().contains("the whole plate is"), "{place}: {}", lab.notes());
         let is_final = |lab: &Lab| lab.viewer().stages[0].frames.newest().map(|f| f.is_final);
@@ -328,10 +343,10 @@ fn what_a_session_asks_in_vain_is_told() {
     ] {
         let rest = format!(r#", "scene": {{{scene}}}"#);
         let path = written(&lab, "a.ppum-session", "plate.h5", &rest);
-        lab.reopen(Start { files: vec![path.clone()], ..Start::default() });
+        lab.reopen(WindowStart { files: vec![path.clone()], ..WindowStart::default() });
         assert!(lab.notes().contains(reason), "{scene}: {}", lab.notes());
         let stage = &lab.viewer().stages[0];
         assert!(stage.frames.newest().is_some() && stage.frames.failure().is_none(), "{scene}");
-        refused(Start { files: vec![path], ..Start::default() }, reason);
+        refused(WindowStart { files: vec![path], ..WindowStart::default() }, reason);
     }
 }

@@ -16,7 +16,7 @@ use ppum_viewer::Viewer;
 use ppum_viewer::actions::{ALL, Action};
 use ppum_viewer::session::VisibleRegion;
 use ppum_viewer::solving::SolutionOutcome;
-use ppum_viewer::window::Start;
+use ppum_viewer::window::WindowStart;
 
 use crate::kit::{plate, show_until};
 use crate::lab::{Lab, shot};
@@ -196,7 +196,7 @@ fn what_cannot_be_solved_is_refused_with_the_reason() {
         }
     };
     let error = solve(&mut lab);
-    assert!(error.contains("1.0 MiB") && error.contains("use fewer cells"), "{error}");
+    assert!(error.contains("does not hold") && error.contains("use fewer cells"), "{error}");
     lab.window.get_by_label(&error);
     *draft(&mut lab) = "title = \"none\"\n[domain]\n".into();
     let error = solve(&mut lab);
@@ -271,7 +271,7 @@ fn no_text_is_lost() {
     lab.window.run_steps(2);
     assert_eq!(*draft(&mut lab), mine);
     // nor by the end of the day
-    lab.reopen(Start::default());
+    lab.reopen(WindowStart::default());
     assert_eq!(*draft(&mut lab), mine);
 }
 
@@ -292,7 +292,7 @@ fn an_example_is_a_click_away() {
 #[test]
 fn a_problem_has_room_in_a_small_window() {
     let mut lab = lab(&text(2).replace("young", "yong"));
-    lab.state().session.theme = ppum_viewer::session::Theme::Light;
+    lab.state().session.theme = ppum_viewer::session::WindowTheme::Light;
     lab.window.ctx.set_theme(egui::Theme::Light);
     lab.window.set_size(egui::vec2(700.0, 500.0));
     lab.settle();

@@ -6,7 +6,7 @@
 //! for some patch, s the position in its support in units of half extents. Cells with their own
 //! supports, 1.01 times as large or more, obey at once. For others a line sweeps over the plane.
 
-use super::errors::{Checked, fail};
+use super::errors::{CheckResult, fail};
 use super::line::IntervalSums;
 use super::ranks::{Ranks, in_order};
 use super::tiling;
@@ -19,7 +19,7 @@ use crate::vec2::{Rect, Vec2, vec2};
 const CORE: f64 = 0.991;
 
 /// Checks that supports cover cells that tile the domain, or without cells the domain itself.
-pub(super) fn check(partition: &BoxPartition, domain: &Domain) -> Checked {
+pub(super) fn check(partition: &BoxPartition, domain: &Domain) -> CheckResult {
     let patches = 0..partition.len();
     let core = |patch| Rect::around(partition.center[patch], partition.half[patch] * CORE);
     let holds = |(patch, cell): (usize, &Rect)| core(patch).intersection(cell) == *cell;
@@ -50,8 +50,8 @@ fn uncovered(boxes: impl Iterator<Item = Rect>, bounds: &Rect, holes: &[Hole]) -
     let y = Ranks::new(corners().map(|p| p.y), 0.0);
     let column = |at: f64| x.up_to(at) - 1;
     let row = |at: f64| y.up_to(at) as usize - 1;
-    // minus the number of boxes that cover an interval between two borders; what lies beyond the
-    // last is of no concern
+    // minus the number of boxes that cover an interval between two edge coordinates; intervals
+    // beyond the last do not matter
     let mut line = IntervalSums::new(y.len());
     line.add(row(bounds.max.y), y.len().next_power_of_two(), -1);
     let (mut at, mut looks) = (0, tiling::most_gaps(holes));
@@ -85,7 +85,7 @@ mod tests {
 
     const BOX: Rect = Rect::new(vec2(-1.0, 0.1), vec2(2.0, 1.6));
 
-    /// Boxes of random sizes on a lattice, so that borders coincide, against the middles of the
+    /// Boxes of random sizes on a lattice, so that boundaries coincide, against the middles of the
     /// lattice's cells.
     #[test]
     fn what_is_uncovered_is_found() {
@@ -115,7 +115,7 @@ mod tests {
         assert!((60..240).contains(&covered), "{covered}");
     }
 
-    /// What is uncovered may lie in a hole, and nowhere else, if there are no cells.
+    /// Without cells, uncovered parts may lie in holes and nowhere else.
     #[test]
     fn holes_need_no_cover() {
         let mut random = Random(5);

@@ -1,6 +1,6 @@
 //! The rules for a dataset's domain.
 
-use super::errors::{Checked, Errors, check_box, check_number, check_points, require};
+use super::errors::{CheckResult, Errors, check_box, check_number, check_points, require};
 use crate::domain::{Domain, Hole};
 
 /// Most circles and corners of polygons that holes may have together: whether a point lies in a
@@ -20,7 +20,7 @@ pub(super) fn check(domain: &Domain, errors: &mut Errors) {
     errors.each("holes", &domain.holes, |_, hole| check_hole(hole));
 }
 
-fn check_hole(hole: &Hole) -> Checked {
+fn check_hole(hole: &Hole) -> CheckResult {
     match hole {
         Hole::Circle { center, radius } => {
             check_points("center", &[*center])?;

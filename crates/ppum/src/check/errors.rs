@@ -14,11 +14,11 @@ const MOST_ERRORS: usize = 100;
 pub struct CheckError {
     /// The place, as a path through the dataset's fields, e.g. `steps[0].partition.half[17]`.
     pub place: String,
-    /// The mistake, and what was expected.
+    /// A description of the error, with the expected value.
     pub mistake: String,
 }
 
-pub(super) type Checked = Result<(), CheckError>;
+pub(super) type CheckResult = Result<(), CheckError>;
 
 /// A list of errors, all seen from the same object of the dataset.
 #[derive(Debug, Default)]
@@ -26,7 +26,7 @@ pub(super) struct Errors(Vec<CheckError>);
 
 impl Errors {
     /// Keeps the error, if there is one. True if there is none.
-    pub(super) fn add(&mut self, checked: Checked) -> bool {
+    pub(super) fn add(&mut self, checked: CheckResult) -> bool {
         let is_fine = checked.is_ok();
         self.0.extend(checked.err().filter(|_| self.0.len() < MOST_ERRORS));
         is_fine
@@ -48,7 +48,7 @@ impl Errors {
         &mut self,
         list: &str,
         parts: &[T],
-        check: impl Fn(usize, &T) -> Checked,
+        check: impl Fn(usize, &T) -> CheckResult,
     ) -> bool {
         let errors = parts.iter().enumerate().filter_map(|(k, part)| {
             let error = check(k, part).err()?;
@@ -67,18 +67,22 @@ impl Errors {
 }
 
 impl CheckError {
-    /// The same error seen from the object that holds its place.
+    /// Prefixes the place with the object that holds it.
     fn inside(self, outer: &str) -> Self {
         let separator = if self.place.is_empty() { "" } else { "." };
         Self { place: format!("{outer}{separator}{}", self.place), ..self }
     }
 }
 
-pub(super) fn fail(place: &str, mistake: String) -> Checked {
+pub(super) fn fail(place: &str, mistake: String) -> CheckResult {
     Err(CheckError { place: place.to_owned(), mistake })
 }
 
-pub(super) fn require(condition: bool, place: &str, mistake: impl FnOnce() -> String) -> Checked {
+pub(super) fn require(
+    condition: bool,
+    place: &str,
+    mistake: impl FnOnce() -> String,
+) -> CheckResult {
     if condition { Ok(()) } else { fail(place, mistake()) }
 }
 
@@ -88,32 +92,32 @@ pub(super) fn check_all<T>(
     values: &[T],
     good: impl Fn(&T) -> bool,
     mistake: impl Fn(&T) -> String,
-) -> Checked {
+) -> CheckResult {
     check_each(name, values.len(), |k| good(&values[k]), |k| mistake(&values[k]))
 }
 
-/// The same of what belongs to each of so many entries.
+/// Checks each of so many entries, and reports the first bad one.
 pub(super) fn check_each(
     name: &str,
     count: usize,
     good: impl Fn(usize) -> bool,
     mistake: impl Fn(usize) -> String,
-) -> Checked {
+) -> CheckResult {
     match (0..count).find(|&k| !good(k)) {
         None => Ok(()),
         Some(k) => fail(&format!("{name}[{k}]"), mistake(k)),
     }
 }
 
-pub(super) fn check_number(place: &str, value: f64) -> Checked {
+pub(super) fn check_number(place: &str, value: f64) -> CheckResult {
     require(value.is_finite(), place, || format!("{value} is not a finite number"))
 }
 
-pub(super) fn check_numbers(name: &str, values: &[f64]) -> Checked {
+pub(super) fn check_numbers(name: &str, values: &[f64]) -> CheckResult {
     check_all(name, values, |v| v.is_finite(), |v| format!("{v} is not a finite number"))
 }
 
-pub(super) fn check_points(name: &str, points: &[Vec2]) -> Checked {
+pub(super) fn check_points(name: &str, points: &[Vec2]) -> CheckResult {
     check_all(
         name,
         points,
@@ -122,7 +126,7 @@ pub(super) fn check_points(name: &str, points: &[Vec2]) -> Checked {
     )
 }
 
-pub(super) fn check_extents(name: &str, extents: &[Vec2]) -> Checked {
+pub(super) fn check_extents(name: &str, extents: &[Vec2]) -> CheckResult {
     check_all(
         name,
         extents,
@@ -136,23 +140,23 @@ pub(super) fn is_box(b: &Rect) -> bool {
     b.min.is_finite() && b.max.is_finite() && size.is_finite() && size.x > 0.0 && size.y > 0.0
 }
 
-pub(super) fn check_box(place: &str, b: &Rect) -> Checked {
+pub(super) fn check_box(place: &str, b: &Rect) -> CheckResult {
     require(is_box(b), place, || {
         format!("({}, {}) to ({}, {}) is not a box", b.min.x, b.min.y, b.max.x, b.max.y)
     })
 }
 
-pub(super) fn check_length(place: &str, length: usize, expected: usize, of: &str) -> Checked {
+pub(super) fn check_length(place: &str, length: usize, expected: usize, of: &str) -> CheckResult {
     require(length == expected, place, || {
         format!("has {length} entries, expected {expected} ({of})")
     })
 }
 
-pub(super) fn check_index(place: &str, index: usize, count: usize, of: &str) -> Checked {
+pub(super) fn check_index(place: &str, index: usize, count: usize, of: &str) -> CheckResult {
     require(index < count, place, || format!("index {index}, but there are {count} {of}"))
 }
 
-pub(super) fn check_names<'a>(place: &str, names: impl Iterator<Item = &'a String>) -> Checked {
+pub(super) fn check_names<'a>(place: &str, names: impl Iterator<Item = &'a String>) -> CheckResult {
     let mut seen = BTreeSet::new();
     for name in names {
         require(!name.trim().is_empty(), place, || "a name is empty".into())?;

@@ -1,12 +1,13 @@
 //! Fields: components, blocks and their coefficients.
 
 use super::errors::{
-    Checked, Errors, check_all, check_each, check_length, check_names, check_numbers, fail, require,
+    CheckResult, Errors, check_all, check_each, check_length, check_names, check_numbers, fail,
+    require,
 };
 use crate::dataset::{Equation, FieldData, MAX_DEGREE, Step};
 use crate::polynomial::PolynomialSpace;
 
-/// Most components of a field: each pixel of a picture holds all of them with their derivatives.
+/// Most components of a field: each pixel of an image holds all of them with their derivatives.
 pub(super) const MAX_COMPONENTS: usize = 64;
 
 pub(super) fn check_field(
@@ -41,7 +42,7 @@ pub(super) fn check_field(
     }
 }
 
-fn check_components(field: &FieldData, equation: &Equation) -> Checked {
+fn check_components(field: &FieldData, equation: &Equation) -> CheckResult {
     let components = field.components.len();
     require(components > 0, "components", || "a field needs at least one".into())?;
     require(components <= MAX_COMPONENTS, "components", || {
@@ -60,7 +61,7 @@ fn check_components(field: &FieldData, equation: &Equation) -> Checked {
 }
 
 /// Compressed rows: start at zero, never fall, end at the number of blocks.
-fn check_rows(field: &FieldData, patches: usize) -> Checked {
+fn check_rows(field: &FieldData, patches: usize) -> CheckResult {
     let rows = &field.patch_blocks;
     check_length("patch_blocks", rows.len(), patches + 1, "one more than patches")?;
     require(rows[0] == 0, "patch_blocks[0]", || format!("is {}, expected 0", rows[0]))?;
@@ -78,7 +79,7 @@ fn check_rows(field: &FieldData, patches: usize) -> Checked {
     check_length("block_offset", field.block_offset.len(), blocks, "one per block")
 }
 
-fn check_coefficients(field: &FieldData) -> Checked {
+fn check_coefficients(field: &FieldData) -> CheckResult {
     check_length("coefficients", field.coefficients.len(), field.components.len(), "components")?;
     let Some(count) = field.coefficients.first().map(Vec::len) else { return Ok(()) };
     for (k, values) in field.coefficients.iter().enumerate() {
@@ -90,7 +91,7 @@ fn check_coefficients(field: &FieldData) -> Checked {
 }
 
 /// Tensor products belong to meshes: covers of boxes and what draws them know total degrees alone.
-fn check_spaces(field: &FieldData, step: &Step) -> Checked {
+fn check_spaces(field: &FieldData, step: &Step) -> CheckResult {
     let (spaces, blocks) = (&field.block_space, field.block_function.len());
     if spaces.is_empty() {
         return Ok(());
@@ -105,7 +106,7 @@ fn check_spaces(field: &FieldData, step: &Step) -> Checked {
 
 /// Each block has coefficients of its own: blocks that shared them could ask for far more than a
 /// file holds.
-fn check_offsets(field: &FieldData) -> Checked {
+fn check_offsets(field: &FieldData) -> CheckResult {
     let count = field.coefficients.first().map_or(0, Vec::len) as u64;
     let offsets = &field.block_offset;
     let size = |block: usize| field.block_size(block) as u64;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::sync::Arc;
 
-use super::errors::{CheckError, Checked, Errors, check_names, fail, require};
+use super::errors::{CheckError, CheckResult, Errors, check_names, fail, require};
 use super::fields::MAX_COMPONENTS;
 use crate::dataset::{
     Dataset, FieldData, MAX_QUANTITIES, MAX_QUANTITY_TEXT, MAX_TABLES, NamedQuantity, Step,
@@ -35,7 +35,7 @@ pub(super) fn check(dataset: &Dataset, errors: &mut Errors) -> bool {
     is_fine
 }
 
-fn at_most(place: &str, count: usize, most: usize, of: &str) -> Checked {
+fn at_most(place: &str, count: usize, most: usize, of: &str) -> CheckResult {
     require(count <= most, place, || format!("there are {count} {of}, but at most {most} may be"))
 }
 
@@ -47,7 +47,7 @@ fn mistake(place: &str, mistake: &dyn Display) -> CheckError {
     CheckError { place: place.to_owned(), mistake: mistake.to_string() }
 }
 
-fn parse(place: &str, text: &str, scope: &Scope) -> Checked {
+fn parse(place: &str, text: &str, scope: &Scope) -> CheckResult {
     Formula::parse(text, scope).map(drop).map_err(|error| mistake(place, &error))
 }
 
@@ -64,7 +64,7 @@ fn check_step(step: &Step, tables: &[Arc<Table>], plane: &Scope, errors: &mut Er
     }
 }
 
-fn check_functions(step: &Step, tables: &[Arc<Table>]) -> Checked {
+fn check_functions(step: &Step, tables: &[Arc<Table>]) -> CheckResult {
     let Err(error) = FunctionTable::new(&step.functions, step.cracks.len(), tables) else {
         return Ok(());
     };
@@ -85,7 +85,7 @@ pub(super) fn check_quantities(dataset: &Dataset, errors: &mut Errors) {
     errors.add(all());
 }
 
-fn check_quantity_names(dataset: &Dataset) -> Checked {
+fn check_quantity_names(dataset: &Dataset) -> CheckResult {
     at_most("quantities", dataset.quantities.len(), MAX_QUANTITIES, "quantities")?;
     let bytes = dataset.quantities.iter().map(|quantity| quantity.text.len()).sum();
     at_most("quantities", bytes, MAX_QUANTITY_TEXT, "bytes of formulas")?;
@@ -104,7 +104,7 @@ fn check_quantity_names(dataset: &Dataset) -> Checked {
     Ok(())
 }
 
-fn check_quantity_texts(dataset: &Dataset) -> Checked {
+fn check_quantity_texts(dataset: &Dataset) -> CheckResult {
     let mut seen = BTreeSet::new();
     let first = dataset.steps.iter().filter_map(|step| step.fields.first());
     for field in first.filter(is_bounded) {
@@ -121,7 +121,7 @@ fn is_bounded(field: &&FieldData) -> bool {
     field.components.len() <= MAX_COMPONENTS
 }
 
-fn check_names_of(dataset: &Dataset, components: &[String]) -> Checked {
+fn check_names_of(dataset: &Dataset, components: &[String]) -> CheckResult {
     let built_in = names(&dataset.equation, components);
     for NamedQuantity { name, .. } in &dataset.quantities {
         let place = format!("quantities `{name}`");
@@ -132,7 +132,7 @@ fn check_names_of(dataset: &Dataset, components: &[String]) -> Checked {
     Ok(())
 }
 
-fn check_texts(dataset: &Dataset, components: &[String]) -> Checked {
+fn check_texts(dataset: &Dataset, components: &[String]) -> CheckResult {
     let Dataset { equation, tables, quantities, .. } = dataset;
     let parse = |place: &str, text: &str, named| {
         let vocabulary = Vocabulary { equation, components, tables, named };
@@ -159,7 +159,7 @@ mod tests {
     use crate::check::tests::dataset;
     use crate::equation::{Elasticity, Equation, StressState};
     use crate::expression::Expression;
-    use crate::function::{Declared, Frame, Function, FunctionKind, Role};
+    use crate::function::{Frame, Function, FunctionKind, NonsmoothPoints, Role};
 
     fn table(name: &str) -> Arc<Table> {
         Arc::new(Table::curve(name, vec![0.0, 1.0], vec![1.0, 2.0]).expect("a table"))
@@ -171,7 +171,7 @@ mod tests {
 
     fn function(text: &str) -> FunctionKind {
         let parameters = vec![("a".to_owned(), 2.0)];
-        let (text, declared) = (text.to_owned(), Declared::default());
+        let (text, declared) = (text.to_owned(), NonsmoothPoints::default());
         FunctionKind::Formula { text, frame: Frame::World, parameters, declared, role: Role::User }
     }
 
@@ -208,8 +208,8 @@ mod tests {
     #[test]
     fn tables_are_known_in_every_formula() {
         assert_eq!(good().check(), Ok(()));
-        type Change = fn(&mut Dataset);
-        let places: [(&str, Change); 5] = [
+        type DatasetChange = fn(&mut Dataset);
+        let places: [(&str, DatasetChange); 5] = [
             ("equation.young", |_| {}),
             ("steps[0].partition.weight", |d| d.equation = dataset().equation),
             ("steps[0].functions[1].formula", |d| {

@@ -1,13 +1,13 @@
 //! Cracks, and the functions that belong to them.
 
 use super::errors::{
-    Checked, check_all, check_index, check_names, check_number, check_points, require,
+    CheckResult, check_all, check_index, check_names, check_number, check_points, require,
 };
 use crate::crack::{Crack, SegmentId};
-use crate::function::{Cut, Frame, Function, FunctionKind, Part};
+use crate::function::{Cut, CutSide, Frame, Function, FunctionKind};
 use crate::vec2::Vec2;
 
-pub(super) fn check_crack(crack: &Crack) -> Checked {
+pub(super) fn check_crack(crack: &Crack) -> CheckResult {
     check_points("points", &crack.points)?;
     require(crack.points.len() >= 2, "", || {
         format!("has {} points, a crack needs two or more", crack.points.len())
@@ -21,7 +21,7 @@ pub(super) fn check_crack(crack: &Crack) -> Checked {
     )
 }
 
-pub(super) fn check_function(function: &Function, cracks: &[Crack]) -> Checked {
+pub(super) fn check_function(function: &Function, cracks: &[Crack]) -> CheckResult {
     let count = cracks.len();
     match &function.kind {
         FunctionKind::One => Ok(()),
@@ -41,7 +41,7 @@ pub(super) fn check_function(function: &Function, cracks: &[Crack]) -> Checked {
 }
 
 /// Each cut is by a segment of a crack, and all that follow from it stand behind it.
-fn check_cuts(cuts: &[Cut], cracks: &[Crack]) -> Checked {
+fn check_cuts(cuts: &[Cut], cracks: &[Crack]) -> CheckResult {
     require(!cuts.is_empty(), "cuts", || "a component needs at least one".into())?;
     for (k, cut) in cuts.iter().enumerate() {
         let SegmentId { crack, segment } = cut.segment;
@@ -49,7 +49,7 @@ fn check_cuts(cuts: &[Cut], cracks: &[Crack]) -> Checked {
         let segments = cracks[crack as usize].points.len().saturating_sub(1);
         check_index(&format!("cuts[{k}].segment"), segment as usize, segments, "segments")?;
         for (name, part) in [("left", cut.left), ("right", cut.right)] {
-            let Part::Cut(next) = part else { continue };
+            let CutSide::Cut(next) = part else { continue };
             let place = format!("cuts[{k}].{name}");
             check_index(&place, next as usize, cuts.len(), "cuts")?;
             require(next as usize > k, &place, || {
@@ -60,7 +60,7 @@ fn check_cuts(cuts: &[Cut], cracks: &[Crack]) -> Checked {
     Ok(())
 }
 
-fn check_frame(frame: &Frame, cracks: usize) -> Checked {
+fn check_frame(frame: &Frame, cracks: usize) -> CheckResult {
     match *frame {
         Frame::World | Frame::Levels(_) => Ok(()),
         Frame::Fixed { origin, angle } => {

@@ -2,10 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::errors::{Checked, Errors, fail};
+use super::errors::{CheckResult, Errors, fail};
 use crate::crack::tips;
 use crate::dataset::Step;
-use crate::growth::Advance;
+use crate::growth::TipIncrement;
 
 /// The rows belong to tips of the step, each to another; lengths are none or positive, everything
 /// but strengths is finite.
@@ -28,8 +28,8 @@ pub(super) fn check_growth(step: &Step, errors: &mut Errors) {
     });
 }
 
-fn check_row(row: &Advance) -> Checked {
-    if row.strength.is_infinite() {
+fn check_row(row: &TipIncrement) -> CheckResult {
+    if row.k_eq.is_infinite() {
         return fail("strength", "must be finite, or NaN where there is none".into());
     }
     for (name, value) in [("direction", row.direction), ("curvature", row.curvature)] {

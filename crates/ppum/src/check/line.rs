@@ -29,7 +29,7 @@ impl IntervalSums {
             }
             (low, high) = (low / 2, high / 2);
         }
-        ends.into_iter().for_each(|leaf| self.mend(leaf));
+        ends.into_iter().for_each(|leaf| self.pull_up(leaf));
     }
 
     fn put(&mut self, node: usize, work: i64) {
@@ -38,7 +38,7 @@ impl IntervalSums {
     }
 
     /// Forms the sums of the nodes above a leaf again.
-    fn mend(&mut self, leaf: usize) {
+    fn pull_up(&mut self, leaf: usize) {
         let mut node = leaf / 2;
         while node > 0 {
             let below = self.most[2 * node].max(self.most[2 * node + 1]);

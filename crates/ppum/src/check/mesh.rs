@@ -1,8 +1,8 @@
 //! Meshes: the arrays of their elements, their maps, and the level fields that cut them.
 
 use super::errors::{
-    Checked, Errors, check_all, check_each, check_index, check_length, check_numbers, check_points,
-    fail, require,
+    CheckResult, Errors, check_all, check_each, check_index, check_length, check_numbers,
+    check_points, fail, require,
 };
 use crate::dataset::{FieldData, MAX_DEGREE, Partition, Step};
 use crate::domain::Domain;
@@ -46,7 +46,7 @@ pub(super) fn check_mesh(mesh: &Mesh, errors: &mut Errors) {
     }
 }
 
-fn check_offsets(mesh: &Mesh, columns: usize) -> Checked {
+fn check_offsets(mesh: &Mesh, columns: usize) -> CheckResult {
     let size = |k: usize| mesh.map_space[k].size(mesh.map_degree[k].into()) as u64 - 1;
     let fits =
         |k: usize| mesh.map_offset[k].checked_add(size(k)).is_some_and(|end| end <= columns as u64);
@@ -57,7 +57,7 @@ fn check_offsets(mesh: &Mesh, columns: usize) -> Checked {
 }
 
 /// Elements have a finite box, and maps that do not fold.
-fn check_maps(mesh: &Mesh) -> Checked {
+fn check_maps(mesh: &Mesh) -> CheckResult {
     let is_finite = |k: usize| {
         let bounds = mesh.bounds(k);
         bounds.min.is_finite() && bounds.max.is_finite() && bounds.size().is_finite()
@@ -87,7 +87,7 @@ fn check_maps(mesh: &Mesh) -> Checked {
     Ok(())
 }
 
-fn check_clips(mesh: &Mesh) -> Checked {
+fn check_clips(mesh: &Mesh) -> CheckResult {
     let (offsets, clips, n) = (&mesh.clip_offsets, mesh.clips.len(), mesh.len());
     if offsets.is_empty() && clips == 0 {
         return Ok(());
@@ -105,7 +105,7 @@ fn check_clips(mesh: &Mesh) -> Checked {
 }
 
 /// Checks that the corners of the elements lie in the domain's box, which has no holes.
-pub(super) fn check_domain(mesh: &Mesh, domain: &Domain) -> Checked {
+pub(super) fn check_domain(mesh: &Mesh, domain: &Domain) -> CheckResult {
     require(domain.holes.is_empty(), "", || {
         "a mesh is its own domain, without holes: leave the holes out".into()
     })?;
@@ -145,7 +145,7 @@ pub(super) fn check_levels(step: &Step, errors: &mut Errors) {
     });
 }
 
-fn check_use(place: &str, field: u32, step: &Step) -> Checked {
+fn check_use(place: &str, field: u32, step: &Step) -> CheckResult {
     require(step.partition.mesh().is_some(), place, || {
         "level fields belong to meshes; the patches of this step are boxes".into()
     })?;
@@ -153,7 +153,7 @@ fn check_use(place: &str, field: u32, step: &Step) -> Checked {
 }
 
 /// A level field is a polynomial of one component on each patch.
-fn check_level(place: &str, index: u32, step: &Step) -> Checked {
+fn check_level(place: &str, index: u32, step: &Step) -> CheckResult {
     check_index(place, index as usize, step.fields.len(), "fields")?;
     let field: &FieldData = &step.fields[index as usize];
     let count = field.components.len();

@@ -1,13 +1,13 @@
 //! The patches of a partition.
 
 use super::errors::{
-    Checked, Errors, check_all, check_each, check_extents, check_length, check_points, is_box,
+    CheckResult, Errors, check_all, check_each, check_extents, check_length, check_points, is_box,
     require,
 };
 use super::mesh::check_mesh;
 use crate::dataset::{BoxPartition, Partition};
 
-/// Most patches: their borders are counted in 32 bits.
+/// Most patches: their boundaries are counted in 32 bits.
 const MOST_PATCHES: usize = 1 << 30;
 
 pub(super) fn check_partition(partition: &Partition, errors: &mut Errors) {
@@ -55,7 +55,7 @@ fn check_boxes(partition: &BoxPartition, errors: &mut Errors) {
     ));
 }
 
-fn check_count(place: &str, patches: usize) -> Checked {
+fn check_count(place: &str, patches: usize) -> CheckResult {
     require(patches > 0, place, || "there is no patch".into())?;
     require(patches <= MOST_PATCHES, place, || format!("{patches} patches are too many"))
 }

@@ -1,9 +1,9 @@
-//! Numbers in their order, where there are many and most occur again and again: the borders of
-//! cells and supports.
+//! Numbers in their order, where there are many and most occur again and again: the edges of cells
+//! and supports.
 //!
-//! A cover of a million cells has some thousand different borders. So they are sorted after most
-//! repetitions have been left out, found by a table of the parts of their range, and counted
-//! instead of compared.
+//! A cover of a million cells has some thousand different edge coordinates. So they are sorted
+//! after most repetitions have been left out, found by a table of the parts of their range, and
+//! counted instead of compared.
 
 /// Numbers that increase, among which others are found at once.
 pub(super) struct Ranks {

@@ -1,9 +1,9 @@
-//! What is known of a solution: stress intensity factors, warnings, reactions.
+//! The stored results of a solution: stress intensity factors, warnings, reactions.
 
 use std::collections::BTreeMap;
 
 use super::errors::{
-    Checked, Errors, check_all, check_index, check_length, check_number, check_numbers,
+    CheckResult, Errors, check_all, check_index, check_length, check_number, check_numbers,
     check_points, require,
 };
 use crate::crack::{Crack, CrackEnd, End, TipId};
@@ -23,7 +23,7 @@ pub(super) fn check_intensities(step: &Step, errors: &mut Errors) {
     });
 }
 
-fn check_intensity(intensity: &TipIntensity, cracks: &[Crack]) -> Checked {
+fn check_intensity(intensity: &TipIntensity, cracks: &[Crack]) -> CheckResult {
     let TipId { crack, end } = intensity.tip;
     check_index("crack", crack as usize, cracks.len(), "cracks")?;
     let kind = cracks[crack as usize].ends[usize::from(end == End::Last)];
@@ -49,7 +49,7 @@ fn check_intensity(intensity: &TipIntensity, cracks: &[Crack]) -> Checked {
     )
 }
 
-pub(super) fn check_warning(warning: &Warning) -> Checked {
+pub(super) fn check_warning(warning: &Warning) -> CheckResult {
     require(!warning.kind.to_string().trim().is_empty(), "kind", || "is empty".into())?;
     check_points("at", warning.at.as_slice())?;
     check_number("value", warning.value)?;
@@ -60,7 +60,7 @@ pub(super) fn check_reaction(
     reaction: &Reaction,
     components: usize,
     equation: &Equation,
-) -> Checked {
+) -> CheckResult {
     require(!reaction.on.trim().is_empty(), "on", || "is empty".into())?;
     let of = "one per component of the first field";
     check_length("held", reaction.held.len(), components, of)?;

@@ -1,18 +1,18 @@
 //! The cells of a partition tile the box of the domain; where holes are, cells may be missing.
 //!
-//! A line sweeps over the box from left to right. What it crosses is a list of intervals in y, each
-//! of a cell or of a gap, and it changes only where a cell begins or ends: linear in n cells, but
-//! for the sorting of different borders.
+//! A line sweeps over the box from left to right. At any place it crosses a list of intervals in y,
+//! each of a cell or of a gap, and the list changes only where a cell begins or ends: linear in n
+//! cells, except for the sorting of the different edge coordinates.
 
-use super::errors::{CheckError, Checked, fail};
+use super::errors::{CheckError, CheckResult, fail};
 use super::marks::Marks;
 use super::ranks::{Ranks, in_order};
 use crate::dataset::BoxPartition;
 use crate::domain::{Domain, Hole};
 use crate::vec2::{Rect, Vec2, vec2};
 
-/// Borders nearer to each other than this part of the box are one: rounding. The smallest cells of
-/// a cover are 2⁻³⁰ of its largest.
+/// Edges of cells nearer to each other than this part of the box count as one: rounding. The
+/// smallest cells of a cover are 2⁻³⁰ of its largest.
 const ROUNDING: f64 = 1e-12;
 
 /// Most circles and sides of holes that are looked at for the gaps of a partition, the largest
@@ -28,8 +28,8 @@ const BESIDE: f64 = 1e-9;
 
 /// Checks that cells, which are boxes, lie in the domain's box, do not overlap, and leave no gap
 /// beside holes.
-pub(super) fn check(partition: &BoxPartition, domain: &Domain) -> Checked {
-    let layout = Layout::new(&partition.cell, &domain.bounds)?;
+pub(super) fn check(partition: &BoxPartition, domain: &Domain) -> CheckResult {
+    let layout = CellBorders::new(&partition.cell, &domain.bounds)?;
     if layout.covers_once() {
         return Ok(());
     }
@@ -43,7 +43,7 @@ pub(super) fn check(partition: &BoxPartition, domain: &Domain) -> Checked {
 
 /// The rectangles of the domain's box that no cell of a tiling covers.
 pub(super) fn gaps(partition: &BoxPartition, domain: &Domain) -> Vec<Rect> {
-    let layout = Layout::new(&partition.cell, &domain.bounds).ok();
+    let layout = CellBorders::new(&partition.cell, &domain.bounds).ok();
     let found = layout.filter(|layout| !layout.covers_once());
     let rects = found.and_then(|layout| {
         let gaps = layout.gaps().ok()?;
@@ -52,23 +52,24 @@ pub(super) fn gaps(partition: &BoxPartition, domain: &Domain) -> Vec<Rect> {
     rects.unwrap_or_default()
 }
 
-/// Cells by the numbers of their borders.
-struct Layout {
+/// Cells by the numbers of their boundaries.
+struct CellBorders {
     x: Borders,
     y: Borders,
     extents: Vec<CellExtent>,
 }
 
-/// The numbers of a cell's first and last border in each direction.
+/// The numbers of a cell's first and last boundary in each direction.
 struct CellExtent {
     columns: [u32; 2],
     rows: [u32; 2],
 }
 
-/// Most intervals between borders, as multiples of the number of cells, that are marked one by one.
+/// Most intervals between boundaries, as multiples of the number of cells, that are marked one by
+/// one.
 const MARKED: u64 = 64;
 
-impl Layout {
+impl CellBorders {
     fn new(cells: &[Rect], bounds: &Rect) -> Result<Self, CheckError> {
         let x = Borders::new(cells, bounds, |p| p.x);
         let y = Borders::new(cells, bounds, |p| p.y);
@@ -90,8 +91,8 @@ impl Layout {
         Rect::new(vec2(self.x.at(x0), self.y.at(y0)), vec2(self.x.at(x1), self.y.at(y1)))
     }
 
-    /// True if each interval between two borders in both directions is covered once. Of covers with
-    /// many different borders that is not asked.
+    /// True if each interval between two edge coordinates in both directions is covered once.
+    /// False, untested, for covers with many different ones.
     fn covers_once(&self) -> bool {
         let [width, height] = [&self.x, &self.y].map(Borders::intervals);
         let all = width * height;
@@ -114,10 +115,10 @@ impl Layout {
         })
     }
 
-    /// What no cell covers, or a cell that overlaps another.
+    /// Returns the boxes that no cell covers, or a cell that overlaps another as an error.
     fn gaps(&self) -> Result<Vec<[u32; 4]>, usize> {
         let Self { x, y, extents } = self;
-        // of those at one border cells that end come first
+        // of those at one coordinate cells that end come first
         let keys = extents.iter().flat_map(|extent| {
             let [begin, end] = extent.columns;
             [2 * begin + 1, 2 * end]
@@ -142,7 +143,7 @@ impl CellExtent {
     }
 }
 
-fn wrong(index: usize, cell: &Rect, mistake: &str) -> Checked {
+fn wrong(index: usize, cell: &Rect, mistake: &str) -> CheckResult {
     fail(&format!("cell[{index}]"), format!("{} {mistake}", corners(cell)))
 }
 
@@ -150,7 +151,7 @@ fn corners(b: &Rect) -> String {
     format!("({}, {}) to ({}, {})", b.min.x, b.min.y, b.max.x, b.max.y)
 }
 
-/// The borders of cells and of the box in one direction, increasing; those that rounding parts
+/// The boundaries of cells and of the box in one direction, increasing; those that rounding parts
 /// are one.
 struct Borders {
     ranks: Ranks,
@@ -174,12 +175,12 @@ impl Borders {
         self.ranks.at(index)
     }
 
-    /// Intervals between the borders in the box.
+    /// Intervals between the boundaries in the box.
     fn intervals(&self) -> u64 {
         u64::from(self.bounds[1] - self.bounds[0])
     }
 
-    /// The last borders at the ends of a cell or before them.
+    /// The last boundaries at the ends of a cell or before them.
     fn ends(&self, b: &Rect) -> [u32; 2] {
         [b.min, b.max].map(|p| self.ranks.up_to((self.along)(p)).saturating_sub(1))
     }
@@ -192,14 +193,14 @@ impl Borders {
 /// The cells and gaps that a line parallel to the y axis crosses, as it moves to the right.
 struct Sweep {
     /// Intervals that follow each other, each at its lower end, and marks where one begins.
-    line: Vec<Interval>,
+    line: Vec<BorderInterval>,
     starts: Marks,
     /// Rectangles that no cell covers.
     gaps: Vec<[u32; 4]>,
 }
 
 #[derive(Clone, Copy)]
-struct Interval {
+struct BorderInterval {
     end: u32,
     /// The beginning of the gap; none of a cell.
     gap: Option<u32>,
@@ -207,20 +208,20 @@ struct Interval {
 
 impl Sweep {
     fn new(at: u32, [from, to]: [u32; 2], borders: usize) -> Self {
-        let line = vec![Interval { end: to, gap: Some(at) }; borders];
+        let line = vec![BorderInterval { end: to, gap: Some(at) }; borders];
         let mut starts = Marks::new(borders);
         starts.set(from);
         Self { line, starts, gaps: Vec::new() }
     }
 
-    fn put(&mut self, start: u32, interval: Interval) {
+    fn put(&mut self, start: u32, interval: BorderInterval) {
         self.line[start as usize] = interval;
         self.starts.set(start);
     }
 
     /// A cell ends: a gap begins, if only of no width.
     fn end(&mut self, at: u32, [from, to]: [u32; 2]) {
-        self.put(from, Interval { end: to, gap: Some(at) });
+        self.put(from, BorderInterval { end: to, gap: Some(at) });
     }
 
     /// A cell begins: the gaps before it end. False if there is a cell.
@@ -228,22 +229,22 @@ impl Sweep {
         let mut extent = from;
         while extent < to {
             let Some(start) = self.starts.last_up_to(extent) else { return false };
-            let Interval { end, gap: Some(since) } = self.line[start as usize] else {
+            let BorderInterval { end, gap: Some(since) } = self.line[start as usize] else {
                 return false;
             };
             self.starts.clear(start);
             let gap = Some(since);
             if start < extent {
-                self.put(start, Interval { end: extent, gap });
+                self.put(start, BorderInterval { end: extent, gap });
             }
             if to < end {
-                self.put(to, Interval { end, gap });
+                self.put(to, BorderInterval { end, gap });
             }
             let until = end.min(to);
             self.leave([since, extent, at, until]);
             extent = until;
         }
-        self.put(from, Interval { end: to, gap: None });
+        self.put(from, BorderInterval { end: to, gap: None });
         true
     }
 
@@ -257,7 +258,7 @@ impl Sweep {
     fn gaps(mut self, at: u32) -> Vec<[u32; 4]> {
         for from in 0..self.line.len() as u32 {
             if self.starts.last_up_to(from) == Some(from) {
-                let Interval { end, gap } = self.line[from as usize];
+                let BorderInterval { end, gap } = self.line[from as usize];
                 self.leave([gap.unwrap_or(at), from, at, end]);
             }
         }
@@ -271,7 +272,7 @@ pub(super) fn most_gaps(holes: &[Hole]) -> usize {
     LOOKS / (rims * PLACES.len() * PLACES.len()).max(1)
 }
 
-fn check_gaps(mut gaps: Vec<Rect>, holes: &[Hole]) -> Checked {
+fn check_gaps(mut gaps: Vec<Rect>, holes: &[Hole]) -> CheckResult {
     let area = |gap: &Rect| gap.size().x * gap.size().y;
     gaps.sort_by(|a, b| area(b).total_cmp(&area(a)));
     for gap in gaps.iter().take(most_gaps(holes)) {
@@ -331,7 +332,7 @@ mod tests {
         for seed in 0..50 {
             let mut partition = cover(seed);
             assert_eq!(mistake(&partition, vec![]), None, "seed {seed}");
-            let layout = Layout::new(&partition.cell, &BOX).expect("cells of the box");
+            let layout = CellBorders::new(&partition.cell, &BOX).expect("cells of the box");
             assert!(layout.covers_once() && layout.gaps() == Ok(vec![]), "seed {seed}");
             partition.cell.reverse();
             let ulp = |x: f64| x + f64::EPSILON * x;

@@ -1,6 +1,6 @@
 //! Coarser covers: cells twice as wide where that can be.
 
-use super::{Cover, CoverError, Node, NodeCell};
+use super::{Cover, CoverError, CoverNode, NodeCell};
 use crate::vec2::{Rect, Vec2};
 
 impl Cover {
@@ -75,7 +75,7 @@ impl Cover {
             self.roots.iter().map(|&cell| (self.root(cell), coarse.root(cell))).collect();
         while let Some((old, new)) = waiting.pop() {
             let children = || (0..4).map(|quadrant| self.child(old, quadrant));
-            let stays = |node: Node| !node.is_leaf();
+            let stays = |node: CoverNode| !node.is_leaf();
             if stays(self.nodes[old.node]) && children().any(|c| stays(self.nodes[c.node])) {
                 coarse.split(new)?;
                 let pairs = children().zip((0..4).map(|quadrant| coarse.child(new, quadrant)));

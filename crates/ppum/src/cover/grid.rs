@@ -1,4 +1,4 @@
-//! Integer coordinates of quadtree cells, and the one place where they become borders.
+//! Integer coordinates of quadtree cells, and the one place where they become coordinates of edges.
 
 use crate::vec2::{Rect, Vec2, vec2};
 
@@ -37,7 +37,7 @@ pub(super) struct RootGrid {
 }
 
 impl RootGrid {
-    /// The cell as a box. Cells of any levels that share a border get the same bits for it.
+    /// The cell as a box. Cells of any levels that share a boundary get the same bits for it.
     pub(super) fn rect(&self, cell: TreeCell) -> Rect {
         let corner = |x, y| vec2(self.border(0, x, cell.level), self.border(1, y, cell.level));
         Rect::new(corner(cell.x, cell.y), corner(cell.x + 1, cell.y + 1))
@@ -66,7 +66,7 @@ impl RootGrid {
         vec2(self.border(0, centre.x, centre.level), self.border(1, centre.y, centre.level))
     }
 
-    /// The quadrant of `cell` that holds `p`; borders belong to the right and upper one.
+    /// The quadrant of `cell` that holds `p`; boundaries belong to the right and upper one.
     pub(super) fn quadrant_of(&self, cell: TreeCell, p: Vec2) -> u32 {
         let middle = self.middle(cell);
         u32::from(p.x >= middle.x) + 2 * u32::from(p.y >= middle.y)

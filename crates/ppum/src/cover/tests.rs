@@ -208,13 +208,13 @@ fn patches_are_stretched_cells() {
 fn has_flat_tops(partition: &BoxPartition) -> bool {
     let supports: Vec<_> = (0..partition.len()).map(|i| partition.support(i)).collect();
     let tree = BoxTree::new(&supports);
-    let mut coverers = Vec::new();
+    let mut covering_patches = Vec::new();
     let mut found = Vec::new();
     (0u32..).zip(&partition.cell).all(|(i, cell)| {
-        coverers.clear();
-        tree.query_box(cell, &mut coverers);
+        covering_patches.clear();
+        tree.query_box(cell, &mut covering_patches);
         let cuts = |lo: f64, hi: f64, ends: fn(&Rect) -> [f64; 2]| {
-            let borders = coverers.iter().flat_map(|&k| ends(&supports[k as usize]));
+            let borders = covering_patches.iter().flat_map(|&k| ends(&supports[k as usize]));
             let mut cuts: Vec<_> = borders.filter(|v| lo < *v && *v < hi).collect();
             cuts.extend([lo, hi]);
             cuts.sort_by(f64::total_cmp);

@@ -46,7 +46,7 @@ impl LocalSegment {
         Self { tangent, normal: tangent.left(), distance, lo, hi }
     }
 
-    /// The same segment for points that lie on it: none has a distance.
+    /// Returns the segment for points that lie on it, whose distance is zero.
     pub(crate) fn touched(self) -> Self {
         Self { normal: Vec2::ZERO, distance: 0.0, ..self }
     }
@@ -55,13 +55,14 @@ impl LocalSegment {
     #[inline(always)]
     pub(crate) fn distance_of<R: Real>(&self, offset: [R; 2]) -> R {
         let [x, y] = offset;
-        x.lit(self.normal.y).mul_add(y, x.lit(self.normal.x).mul_add(x, x.lit(self.distance)))
+        x.broadcast(self.normal.y)
+            .mul_add(y, x.broadcast(self.normal.x).mul_add(x, x.broadcast(self.distance)))
     }
 
     #[inline(always)]
     fn along<R: Real>(&self, offset: [R; 2]) -> R {
         let [x, y] = offset;
-        x.lit(self.tangent.x).mul_add(x, x.lit(self.tangent.y) * y)
+        x.broadcast(self.tangent.x).mul_add(x, x.broadcast(self.tangent.y) * y)
     }
 
     /// How far a point lies beyond the end of the segment, along it; negative before its begin,
@@ -69,7 +70,7 @@ impl LocalSegment {
     #[inline(always)]
     fn beyond<R: Real>(&self, offset: [R; 2]) -> R {
         let along = self.along(offset);
-        along - along.max(along.lit(self.lo)).min(along.lit(self.hi))
+        along - along.max(along.broadcast(self.lo)).min(along.broadcast(self.hi))
     }
 }
 
@@ -123,8 +124,8 @@ impl LocalCrack {
         if last == 0 {
             return own;
         }
-        let zero = own.lit(0.0);
-        let (mut before, mut nearest, mut least) = (own, own, own.lit(f64::INFINITY));
+        let zero = own.broadcast(0.0);
+        let (mut before, mut nearest, mut least) = (own, own, own.broadcast(f64::INFINITY));
         let mut k = 0;
         while k <= last {
             let after = self.segments[(k + 1).min(last)].distance_of(offset);
@@ -143,7 +144,7 @@ impl LocalCrack {
 /// +1 or −1 by a signed distance; zero counts as the given side.
 #[inline(always)]
 fn sign<R: Real>(distance: R, side: Side) -> R {
-    let (zero, one) = (distance.lit(0.0), distance.lit(1.0));
+    let (zero, one) = (distance.broadcast(0.0), distance.broadcast(1.0));
     match side {
         Side::Above => R::sign(distance.ge(zero), one),
         Side::Below => R::sign(distance.gt(zero), one),
@@ -216,9 +217,9 @@ impl LocalTip {
     /// come from the same number.
     #[inline(always)]
     pub fn point<R: Real>(&self, offset: [R; 2], side: Side) -> TipPoint<R> {
-        let one = offset[0].lit(1.0);
-        let dx = offset[0] + one.lit(self.from_tip.x);
-        let dy = offset[1] + one.lit(self.from_tip.y);
+        let one = offset[0].broadcast(1.0);
+        let dx = offset[0] + one.broadcast(self.from_tip.x);
+        let dy = offset[1] + one.broadcast(self.from_tip.y);
         let distance = self.line.distance_of(offset);
         let line_side = sign(distance, side);
         let branch = if self.bends {
@@ -226,9 +227,9 @@ impl LocalTip {
         } else {
             one
         };
-        let orientation = one.lit(self.orientation);
+        let orientation = one.broadcast(self.orientation);
         TipPoint {
-            x: one.lit(self.axis.x).mul_add(dx, one.lit(self.axis.y) * dy),
+            x: one.broadcast(self.axis.x).mul_add(dx, one.broadcast(self.axis.y) * dy),
             y: orientation * distance,
             sign: orientation * line_side,
             branch,
@@ -240,7 +241,8 @@ impl<R: Real> TipPoint<R> {
     /// r = √(x² + y²), without overflow or underflow.
     #[inline(always)]
     pub fn radius(&self) -> R {
-        let (x, y, zero, one) = (self.x.abs(), self.y.abs(), self.x.lit(0.0), self.x.lit(1.0));
+        let (x, y, zero, one) =
+            (self.x.abs(), self.y.abs(), self.x.broadcast(0.0), self.x.broadcast(1.0));
         let large = x.max(y);
         let slope = x.min(y) / large;
         R::select(large.gt(zero), large * slope.mul_add(slope, one).sqrt(), large)
@@ -252,7 +254,7 @@ impl<R: Real> TipPoint<R> {
     /// cancels near θ = ±π. Both are zero at r = 0.
     #[inline(always)]
     pub fn half_root(&self, r: R) -> [R; 2] {
-        let (zero, half) = (r.lit(0.0), r.lit(0.5));
+        let (zero, half) = (r.broadcast(0.0), r.broadcast(0.5));
         let large = ((r + self.x.abs()) * half).sqrt();
         let small = R::select(r.gt(zero), half * self.y.abs() / large, zero);
         let ahead = self.x.ge(zero);
@@ -267,7 +269,7 @@ impl<R: Real> TipPoint<R> {
     #[inline(always)]
     pub fn half_angle(&self, r: R) -> [R; 2] {
         let [c, s] = self.half_root(r);
-        let (apart, root) = (r.gt(r.lit(0.0)), r.sqrt());
+        let (apart, root) = (r.gt(r.broadcast(0.0)), r.sqrt());
         [R::select(apart, c / root, self.branch), R::select(apart, s / root, s)]
     }
 
@@ -275,8 +277,8 @@ impl<R: Real> TipPoint<R> {
     /// 4 arctan(tan(θ/4)).
     #[inline(always)]
     pub fn theta([cos_half, sin_half]: [R; 2]) -> R {
-        let one = cos_half.lit(1.0);
-        R::in_double([sin_half / (one + cos_half)], Atan) * one.lit(4.0)
+        let one = cos_half.broadcast(1.0);
+        R::via_f64([sin_half / (one + cos_half)], Atan) * one.broadcast(4.0)
     }
 }
 
@@ -339,7 +341,8 @@ mod tests {
         assert_eq!(theta, std::f64::consts::PI);
     }
 
-    /// Walks round the tip of a kinked crack: θ is continuous but for one jump of 2π, on the crack.
+    /// Walks round the tip of a kinked crack: θ is continuous except for one jump of 2π, on the
+    /// crack.
     #[test]
     fn the_angle_jumps_on_the_crack_only() {
         let c = crack(&[(-1.0, 0.6), (-0.4, 0.3), (0.0, 0.0)]);

@@ -10,7 +10,7 @@
 //!
 //! so that smooth parts (f = 1), jumps (f = side of a crack) and tip functions differ in nothing
 //! but the function their [blocks](FieldData) name. `ppum-format` stores this structure,
-//! `ppum-solve` makes it, [`Field`](crate::field::Field) evaluates it.
+//! `ppum-fracture` makes it, [`Field`](crate::field::Field) evaluates it.
 
 mod blocks;
 mod partition;
@@ -26,7 +26,7 @@ pub use crate::equation::{
     EIGENSTRAINS, EXPANSION, Eigenstrain, Elasticity, Equation, Material, StressState, TEMPERATURE,
 };
 use crate::function::{Function, FunctionKind};
-pub use crate::growth::{Advance, Fate, Growth, GrowthStop};
+pub use crate::growth::{Growth, GrowthStop, TipIncrement, TipStatus};
 use ppum_formula::Table;
 
 pub use crate::polynomial::{MAX_DEGREE, monomials};
@@ -103,7 +103,7 @@ pub struct Step {
     pub history: Vec<Record>,
     /// Warnings of the diagnostics.
     pub warnings: Vec<Warning>,
-    /// Resultants of the forces the supports exert on the plate, one per boundary condition that
+    /// Resultants of the forces the supports exert on the body, one per boundary condition that
     /// gives values.
     pub reactions: Vec<Reaction>,
     /// How the cracks grow on from here, in a series of growth.

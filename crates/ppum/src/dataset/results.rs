@@ -1,4 +1,4 @@
-//! What a solver tells of a step: attributes, history, reactions, intensities.
+//! Results of the solver for a step: attributes, history, reactions, intensities.
 
 use crate::crack::TipId;
 use crate::equation::Material;
@@ -23,22 +23,22 @@ pub struct Record {
     pub unit: String,
 }
 
-/// The resultant of what a support exerts on the plate: R_i = ∫ t_i, M = ∫ (x − c) × t over the
-/// part of the border where values are given. For elasticity t are the tractions of the components
-/// that are held, c the centre of the domain's box; for a potential t is the flow κ ∂u/∂n into
-/// the plate.
+/// The resultant of what a support exerts on the body: R_i = ∫ t_i, M = ∫ (x − c) × t over the part
+/// of the boundary where values are given. For elasticity t are the tractions of the components
+/// that are held, c the centre of the domain's box; for a potential t is the flow κ ∂u/∂n into the
+/// body.
 ///
 /// The solver's t is the conservative one, (σ n)_i − β (u_i − g_i) with Nitsche's β (Hughes et al.
-/// 2000): the reactions and the loads on a plate add up to zero, to rounding. On an edge with a
+/// 2000): the reactions and the loads on a body add up to zero, to rounding. On an edge with a
 /// crack it is σ n, and they add up to zero up to the error of the solution.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Reaction {
     /// The place in words, e.g. `bottom`, `top from -0.1 to 0.1`, `hole 0`.
     pub on: String,
-    /// Of each component of the first field, whether the support holds it.
+    /// For each component of the first field, whether the support holds it.
     pub held: Vec<bool>,
     /// Force per thickness \[stress·length\], one per component, zero where not held; of a
-    /// potential the flow into the plate.
+    /// potential the flow into the body.
     pub force: Vec<f64>,
     /// Moment per thickness about the centre of the domain's box, counter-clockwise
     /// \[stress·length²\]; zero for a potential.
@@ -111,7 +111,7 @@ impl TipIntensity {
         self.largest_difference() / self.k1.hypot(self.k2)
     }
 
-    /// The same, not in parts of K.
+    /// Returns the largest difference itself, not relative to K.
     #[must_use]
     pub fn largest_difference(&self) -> f64 {
         let difference = |a: &Ring, b: &Ring| (a.k1 - b.k1).hypot(a.k2 - b.k2);

@@ -15,7 +15,7 @@ pub struct Warning {
     pub value: f64,
     /// The bound that the number passes.
     pub limit: f64,
-    /// The mistake and its remedy, on one line, with the place.
+    /// The problem and its remedy, on one line, with the place.
     pub message: String,
 }
 
@@ -55,7 +55,7 @@ warning_kinds! {
     Spread "spread",
     /// T is that of the segments of a crack that may be meant as a curve.
     Curve "curve",
-    /// A tip is close to the border, measured by the length of its crack.
+    /// A tip is close to the boundary, measured by the length of its crack.
     TipNearBorder "tip-near-border",
     /// A crack is as long as a few cells only.
     Coarse "coarse",
@@ -73,19 +73,19 @@ warning_kinds! {
     Interface "interface",
     /// Coefficients cancel, and few digits of the stresses remain.
     Digits "digits",
-    /// The order is too low for a plate that is nearly incompressible.
+    /// The order is too low for a body that is nearly incompressible.
     Locking "locking",
-    /// The pressure of a plate that is nearly incompressible oscillates.
+    /// The pressure of a body that is nearly incompressible oscillates.
     Pressure "pressure",
     /// Patches remain that the rim of a hole crosses twice.
     CrossedTwice "crossed-twice",
-    /// The cells at a singular point of the border are too large for its field.
+    /// The cells at a singular point of the boundary are too large for its field.
     SingularPoint "singular-point",
     /// An adaptation has ended before the estimated error was as small as wanted.
     Tolerance "tolerance",
     /// The cells at the rim of a hole are too large for the stress there.
     CoarseHole "coarse-hole",
-    /// A load or what is given on the border varies too fast to be integrated.
+    /// A load or what is given on the boundary varies too fast to be integrated.
     Load "load",
     /// A function or a coefficient varies too fast to be integrated.
     Quadrature "quadrature",

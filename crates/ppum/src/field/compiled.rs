@@ -88,7 +88,7 @@ pub enum FieldError {
     Exact {
         /// The field.
         name: String,
-        /// The mistake.
+        /// The error.
         source: Box<FormulaError>,
     },
 }

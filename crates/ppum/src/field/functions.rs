@@ -25,7 +25,7 @@ pub(super) struct FunctionJets<'a, 'f, R> {
 impl<'a, 'f, R: Real> FunctionJets<'a, 'f, R> {
     #[inline(always)]
     pub(super) fn new(functions: &'a LocalFunctions<'f>, offset: [R; 2], side: Side) -> Self {
-        let zero = Jet::constant(offset[0].lit(0.0));
+        let zero = Jet::constant(offset[0].broadcast(0.0));
         let (groups, jets) = ([u32::MAX; PLACES], [[zero; GROUP]; PLACES]);
         Self { functions, offset, side, groups, jets, next: 0, others: BTreeMap::new() }
     }
@@ -33,7 +33,7 @@ impl<'a, 'f, R: Real> FunctionJets<'a, 'f, R> {
     #[inline(always)]
     pub(super) fn jet<const D: usize>(&mut self, slot: Slot) -> Jet<R> {
         let Slot::Jet { group, entry } = slot else {
-            return Jet::constant(self.offset[0].lit(1.0));
+            return Jet::constant(self.offset[0].broadcast(1.0));
         };
         let mut place = 0;
         while place < PLACES && self.groups[place] != group {

@@ -5,17 +5,17 @@ use crate::crack::Side;
 use crate::jet::Jet;
 use crate::mesh::grid::PointGrid;
 use crate::vec2::Vec2;
-use ppum_formula::real::{Job, Real, Scalar};
+use ppum_formula::real::{LaneJob, LaneNumber, Real};
 
 /// [`LocalField::evaluate_into`] on lanes.
-struct Many<'a, 'f, const D: usize> {
+struct FieldOnLanes<'a, 'f, const D: usize> {
     local: &'a mut LocalField<'f>,
     offsets: &'a [Vec2],
     side: Side,
     out: &'a mut [Jet<f64>],
 }
 
-impl<const D: usize> Job<f64> for Many<'_, '_, D> {
+impl<const D: usize> LaneJob<f64> for FieldOnLanes<'_, '_, D> {
     type Output = ();
 
     #[inline(always)]
@@ -45,7 +45,7 @@ struct LaneEvaluation<'a, 'f, const D: usize> {
     out: &'a mut [Jet<f64>],
 }
 
-impl<const D: usize> Job<f64> for LaneEvaluation<'_, '_, D> {
+impl<const D: usize> LaneJob<f64> for LaneEvaluation<'_, '_, D> {
     type Output = ();
 
     #[inline(always)]
@@ -82,10 +82,10 @@ impl LocalField<'_> {
         if self.outer == Some(side) {
             return out.fill(Jet::NAN);
         }
-        f64::dispatch(Many::<D> { local: self, offsets, side, out });
+        f64::dispatch(FieldOnLanes::<D> { local: self, offsets, side, out });
         if self.is_sided::<D>() {
             let mut values = out.to_vec();
-            f64::dispatch(Many::<0> { local: self, offsets, side, out: &mut values });
+            f64::dispatch(FieldOnLanes::<0> { local: self, offsets, side, out: &mut values });
             take_values(out, &values);
         }
     }
@@ -108,7 +108,7 @@ impl LocalField<'_> {
 
     /// Evaluates at many points over a given list of patches, which must contain all that cover any
     /// of the points: like [`evaluate_into`](Self::evaluate_into), without searching for patches or
-    /// checking the border.
+    /// checking the boundary.
     ///
     /// # Panics
     /// If `out` is shorter than points × components.

@@ -22,7 +22,7 @@ pub struct LocalField<'f> {
     /// The side of the segment that it is seen on that lies outside of the domain, if one does.
     pub(super) outer: Option<Side>,
     /// A way of a few roundings from the segment that it is seen on to the side above it; zero if
-    /// on none. Where the segment runs along the border of a patch, on which the slope of its
+    /// on none. Where the segment runs along the boundary of a patch, on which the slope of its
     /// weight jumps, each face has the slopes on its side.
     above: Vec2,
     pub(super) functions: LocalFunctions<'f>,
@@ -34,7 +34,7 @@ pub struct LocalField<'f> {
 
 /// The part of one patch in a field at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Part {
+pub struct PatchPart {
     /// φ_i with derivatives.
     pub share: Jet<f64>,
     /// The components of v_i with derivatives; zero beyond those of the field.
@@ -43,7 +43,7 @@ pub struct Part {
 
 /// The partition of unity at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Covering {
+pub struct PartitionOfUnity {
     /// S = Σ W_i with derivatives.
     pub weight_sum: Jet<f64>,
     /// Number of patches that cover the point.
@@ -67,8 +67,8 @@ impl Field<'_> {
     }
 
     /// The field as seen from an anchor, for points on a segment of a crack: there an evaluation
-    /// takes the side of this crack that it is told, wherever rounding has put the points. Of a
-    /// segment on the border of the domain one side lies outside, where there are no values.
+    /// takes the requested side of this crack, wherever rounding has put the points. If a segment
+    /// lies on the boundary of the domain, one side is outside, where there are no values.
     ///
     /// # Panics
     /// If there is no such segment.
@@ -168,7 +168,8 @@ impl<'f> LocalField<'f> {
     }
 
     /// True where the field was evaluated in the domain: on a mesh values say so, since finding the
-    /// element is most of the work, and on a crack at the border, which has one face in the domain.
+    /// element is most of the work, and on a crack at the boundary, which has one face in the
+    /// domain.
     #[must_use]
     pub(crate) fn has_values(&self, offset: Vec2, jets: &[Jet<f64>]) -> bool {
         let any = || jets.iter().any(|jet| !jet.v.is_nan());
@@ -194,12 +195,12 @@ impl<'f> LocalField<'f> {
     }
 
     /// The partition of unity at `anchor + offset`; `None` outside the domain.
-    pub fn covering<const D: usize>(&mut self, offset: Vec2) -> Option<Covering> {
+    pub fn covering<const D: usize>(&mut self, offset: Vec2) -> Option<PartitionOfUnity> {
         if !self.contains(offset) {
             return None;
         }
         if self.mesh.is_some() {
-            return Some(Covering { weight_sum: Jet::constant(1.0), overlap: 1 });
+            return Some(PartitionOfUnity { weight_sum: Jet::constant(1.0), overlap: 1 });
         }
         let patches = self.covering_any(&[offset], Side::Above);
         let weight = |&p: &u32| self.partition_weight::<f64, D>(p as usize, [offset.x, offset.y]);
@@ -207,10 +208,10 @@ impl<'f> LocalField<'f> {
         let weight_sum = patches.iter().map(weight).fold(zero, Jet::plus::<D>);
         let overlap = patches.len();
         self.patches = patches;
-        Some(Covering { weight_sum, overlap })
+        Some(PartitionOfUnity { weight_sum, overlap })
     }
 
-    /// True if derivatives are those of a side, while values, which are continuous but for the
+    /// True if derivatives are those of a side, while values, which are continuous except for the
     /// functions, are those of the point itself.
     pub(super) fn is_sided<const D: usize>(&self) -> bool {
         D > 0 && self.above != Vec2::ZERO
@@ -223,7 +224,7 @@ impl<'f> LocalField<'f> {
             return [x, y];
         }
         let way = if side == Side::Above { self.above } else { -self.above };
-        [x + x.lit(way.x), y + y.lit(way.y)]
+        [x + x.broadcast(way.x), y + y.broadcast(way.y)]
     }
 
     /// The patches that cover at least one of the points, ascending.
@@ -251,7 +252,7 @@ impl<'f> LocalField<'f> {
         if self.mesh.is_some() {
             return self.over_elements::<R, D>(offset, side, patches, out);
         }
-        let zero = Jet::constant(offset[0].lit(0.0));
+        let zero = Jet::constant(offset[0].broadcast(0.0));
         let mut functions = FunctionJets::new(&self.functions, offset, side);
         let aside = self.aside::<R, D>(offset, side);
         let components = self.field.components();
@@ -310,10 +311,10 @@ impl<'f> LocalField<'f> {
         mesh: &LocalMesh<'_>,
         (offset, side): (Vec2, Side),
         patches: &[u32],
-        out: &mut Vec<Part>,
+        out: &mut Vec<PatchPart>,
     ) {
         let zero = Jet::constant(0.0);
-        out.resize(patches.len(), Part { share: zero, local: [zero; 2] });
+        out.resize(patches.len(), PatchPart { share: zero, local: [zero; 2] });
         let Some(place) = mesh.owner_among(offset, side, patches) else { return };
         let mut jets = vec![zero; self.field.components()];
         mesh.evaluate::<D>(&place, &self.functions, (offset, side), &mut jets);
@@ -324,14 +325,14 @@ impl<'f> LocalField<'f> {
     }
 
     /// The parts φ_i and v_i of some patches at `anchor + offset`, which must be all that cover the
-    /// point: what [`over_patches`](Self::over_patches) sums up to v = Σ φ_i v_i. Of a field of
-    /// more than two components the first two.
+    /// point: what [`over_patches`](Self::over_patches) sums up to v = Σ φ_i v_i. Uses the first
+    /// two components of a field that has more.
     pub fn parts<const D: usize>(
         &self,
         offset: Vec2,
         side: Side,
         patches: &[u32],
-        out: &mut Vec<Part>,
+        out: &mut Vec<PatchPart>,
     ) {
         out.clear();
         if let Some(mesh) = &self.mesh {
@@ -350,7 +351,7 @@ impl<'f> LocalField<'f> {
             for (component, v) in local.iter_mut().enumerate().take(components) {
                 *v = self.local_field::<f64, D>(patch, component, at, &mut functions);
             }
-            out.push(Part { share, local });
+            out.push(PatchPart { share, local });
         }
         out.iter_mut().for_each(|part| part.share = part.share.over::<D>(weight_sum));
     }
@@ -370,15 +371,15 @@ impl<'f> LocalField<'f> {
         let support = self.field.boxes.support(patch);
         let (lo, hi) = (support.min - self.anchor, support.max - self.anchor);
         let [x, y] = offset;
-        let part = part.only::<D>(x.ge(x.lit(lo.x))).only::<D>(x.lit(hi.x).gt(x));
-        part.only::<D>(y.ge(y.lit(lo.y))).only::<D>(y.lit(hi.y).gt(y))
+        let part = part.only::<D>(x.ge(x.broadcast(lo.x))).only::<D>(x.broadcast(hi.x).gt(x));
+        part.only::<D>(y.ge(y.broadcast(lo.y))).only::<D>(y.broadcast(hi.y).gt(y))
     }
 
     /// W_i; constant 1 where the patch is alone, since φ_i = 1 there whatever W_i is.
     #[inline(always)]
     fn weight<R: Real, const D: usize>(&self, patch: usize, offset: [R; 2], alone: bool) -> Jet<R> {
         if alone {
-            return Jet::constant(offset[0].lit(1.0));
+            return Jet::constant(offset[0].broadcast(1.0));
         }
         self.partition_weight::<R, D>(patch, offset)
     }
@@ -404,7 +405,7 @@ impl<'f> LocalField<'f> {
             let owner = mesh.owner(offset, Side::Above)?.patch;
             return Some(Jet::constant(f64::from(u8::from(owner == patch))));
         }
-        let Covering { weight_sum, .. } = self.covering::<D>(offset)?;
+        let PartitionOfUnity { weight_sum, .. } = self.covering::<D>(offset)?;
         let weight = self.partition_weight::<f64, D>(patch, [offset.x, offset.y]);
         Some(weight.over::<D>(weight_sum))
     }
@@ -422,7 +423,7 @@ impl<'f> LocalField<'f> {
         let scale = partition.scale[patch];
         let inverse = [1.0 / scale.x, 1.0 / scale.y];
         let xi = self.scaled(offset, partition.origin[patch], inverse);
-        let mut v = Jet::constant(offset[0].lit(0.0));
+        let mut v = Jet::constant(offset[0].broadcast(0.0));
         for block in data.blocks(patch) {
             let coefficients = data.block_coefficients(block, component);
             let degree = data.block_degree[block] as usize;
@@ -440,10 +441,10 @@ impl<'f> LocalField<'f> {
     #[inline(always)]
     fn scaled<R: Real>(&self, offset: [R; 2], origin: Vec2, inverse: [f64; 2]) -> [R; 2] {
         let d = self.anchor - origin;
-        let one = offset[0].lit(1.0);
+        let one = offset[0].broadcast(1.0);
         [
-            (offset[0] + one.lit(d.x)) * one.lit(inverse[0]),
-            (offset[1] + one.lit(d.y)) * one.lit(inverse[1]),
+            (offset[0] + one.broadcast(d.x)) * one.broadcast(inverse[0]),
+            (offset[1] + one.broadcast(d.y)) * one.broadcast(inverse[1]),
         ]
     }
 }
@@ -451,7 +452,7 @@ impl<'f> LocalField<'f> {
 /// Chain rule for ξ = (x − origin) · inverse.
 #[inline(always)]
 fn stretched<R: Real, const D: usize>(p: Jet<R>, inverse: [f64; 2]) -> Jet<R> {
-    let (ix, iy) = (p.v.lit(inverse[0]), p.v.lit(inverse[1]));
+    let (ix, iy) = (p.v.broadcast(inverse[0]), p.v.broadcast(inverse[1]));
     let mut out = p;
     if D >= 1 {
         (out.x, out.y) = (p.x * ix, p.y * iy);

@@ -15,4 +15,4 @@ mod lanes;
 mod local;
 
 pub use compiled::{Field, FieldError};
-pub use local::{Covering, LocalField, Part};
+pub use local::{LocalField, PartitionOfUnity, PatchPart};

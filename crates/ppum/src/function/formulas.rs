@@ -9,20 +9,20 @@ use crate::crack::{Crack, LocalCrack, LocalTip, Side, TipPoint};
 use crate::jet::Jet;
 use crate::vec2::{Vec2, vec2};
 use ppum_formula::real::{Lanes, Real};
-use ppum_formula::{Block, DerivativeError, Formula, FormulaJets, Scratch};
+use ppum_formula::{Block, BlockScratch, DerivativeError, Formula, FormulaJets};
 
 /// Largest number of functions in a group.
 pub const GROUP: usize = 4;
 
 /// Up to [`GROUP`] formulas of one scope in one frame.
 #[derive(Clone, Debug)]
-pub(super) struct Formulas {
-    compiled: Arc<Compiled>,
+pub(super) struct FormulaGroup {
+    compiled: Arc<CompiledGroup>,
     frame: Frame,
 }
 
 #[derive(Debug)]
-struct Compiled {
+struct CompiledGroup {
     formulas: Vec<Formula>,
     /// With 0, 1 and 2 derivatives.
     jets: [FormulaJets; 3],
@@ -36,7 +36,7 @@ const THETA: usize = 3;
 /// Number of inputs before the sides of cracks.
 const POLAR: usize = 6;
 
-impl Formulas {
+impl FormulaGroup {
     /// Compiles formulas of one scope.
     pub(super) fn new(formulas: Vec<Formula>, frame: Frame) -> Result<Self, DerivativeError> {
         let all: Vec<_> = formulas.iter().collect();
@@ -45,11 +45,11 @@ impl Formulas {
         // Derivatives use inputs that values do not.
         let mut uses = vec![false; formulas[0].scope().inputs().count()];
         jets[2].used().for_each(|input| uses[input] = true);
-        let compiled = Compiled { uses, jets, formulas };
+        let compiled = CompiledGroup { uses, jets, formulas };
         Ok(Self { compiled: Arc::new(compiled), frame })
     }
 
-    /// The same functions in another frame, if these are the same formulas.
+    /// Returns the functions in another frame, if these are the same formulas.
     pub(super) fn with_frame(&self, formulas: &[Formula], frame: Frame) -> Option<Self> {
         let compiled = Arc::clone(&self.compiled);
         (compiled.formulas == formulas).then_some(Self { compiled, frame })
@@ -71,7 +71,7 @@ impl Formulas {
     /// Operations of an evaluation with the first derivatives, inputs and the segments of cracks
     /// whose sides are needed counted too.
     pub(super) fn cost(&self, cracks: &[Crack]) -> usize {
-        let Compiled { jets, uses, .. } = &*self.compiled;
+        let CompiledGroup { jets, uses, .. } = &*self.compiled;
         let sides = cracks.iter().zip(&uses[POLAR..]).filter(|(_, used)| **used);
         let frame = match self.frame {
             Frame::Tip(tip) => cracks[tip.crack as usize].points.len(),
@@ -128,16 +128,16 @@ impl LocalFrame {
     fn point<R: Real>(&self, offset: [R; 2], side: Side) -> TipPoint<R> {
         match self {
             Self::Fixed { from_origin, axis } => {
-                let one = offset[0].lit(1.0);
-                let (c, s) = (one.lit(axis.x), one.lit(axis.y));
-                let dx = offset[0] + one.lit(from_origin.x);
-                let dy = offset[1] + one.lit(from_origin.y);
+                let one = offset[0].broadcast(1.0);
+                let (c, s) = (one.broadcast(axis.x), one.broadcast(axis.y));
+                let dx = offset[0] + one.broadcast(from_origin.x);
+                let dy = offset[1] + one.broadcast(from_origin.y);
                 let (x, y) = (c.mul_add(dx, s * dy), c * dy - s * dx);
-                TipPoint { x, y, sign: R::sign(y.ge(one.lit(0.0)), one), branch: one }
+                TipPoint { x, y, sign: R::sign(y.ge(one.broadcast(0.0)), one), branch: one }
             }
             Self::Tip(tip) => tip.point(offset, side),
             Self::Levels => {
-                let [nan, one] = [f64::NAN, 1.0].map(|v| offset[0].lit(v));
+                let [nan, one] = [f64::NAN, 1.0].map(|v| offset[0].broadcast(v));
                 TipPoint { x: nan, y: nan, sign: one, branch: one }
             }
         }
@@ -155,7 +155,7 @@ impl LocalFrame {
 /// Formulas seen from an anchor.
 #[derive(Clone, Debug)]
 pub(super) struct LocalFormulas<'t> {
-    compiled: &'t Compiled,
+    compiled: &'t CompiledGroup,
     frame: LocalFrame,
     /// The cracks whose sides are used.
     cracks: Vec<Option<LocalCrack>>,
@@ -243,13 +243,13 @@ impl LocalFormulas<'_> {
         let (like, axis) = (offset[0], self.frame.axis());
         let mut entry = 0;
         while entry < self.len().min(out.len()) {
-            let (mut values, mut j) = ([like.lit(0.0); 6], 0);
+            let (mut values, mut j) = ([like.broadcast(0.0); 6], 0);
             while j < SIZE[D] {
                 let row = &workspace.results[entry * SIZE[D] + j];
                 values[j] = like.with_lanes(|lane| row[lane]);
                 j += 1;
             }
-            out[entry] = jet(values).turned::<D>(like.lit(axis.x), like.lit(axis.y));
+            out[entry] = jet(values).turned::<D>(like.broadcast(axis.x), like.broadcast(axis.y));
             entry += 1;
         }
     }
@@ -260,7 +260,7 @@ impl LocalFormulas<'_> {
         &self,
         offsets: &[[R; 2]],
         side: Side,
-        scratch: &mut Scratch<R::Scalar>,
+        scratch: &mut BlockScratch<R::Scalar>,
         out: &mut [[Jet<R>; GROUP]],
     ) {
         let mut block = self.compiled.jets[D].block(scratch);
@@ -286,10 +286,10 @@ impl LocalFormulas<'_> {
             k = 0;
             while k < n {
                 let like = offsets[first + k][0];
-                let (c, s) = (like.lit(axis.x), like.lit(axis.y));
+                let (c, s) = (like.broadcast(axis.x), like.broadcast(axis.y));
                 let mut entry = 0;
                 while entry < self.len() {
-                    let (mut values, mut j) = ([like.lit(0.0); 6], 0);
+                    let (mut values, mut j) = ([like.broadcast(0.0); 6], 0);
                     while j < SIZE[D] {
                         let row = block.output(entry * SIZE[D] + j);
                         values[j] = like.load(&row[k * R::LANES..]);

@@ -22,15 +22,15 @@ use ppum_formula::real::Real;
 pub struct Cut {
     /// The segment.
     pub segment: SegmentId,
-    /// What follows on the left of the segment's direction, and on the line itself.
-    pub left: Part,
-    /// What follows on the right.
-    pub right: Part,
+    /// The part on the left of the segment's direction, and on the line itself.
+    pub left: CutSide,
+    /// The part on the right.
+    pub right: CutSide,
 }
 
 /// A part of the plane behind a cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
+pub enum CutSide {
     /// Not in the component: the function is 0.
     Outside,
     /// In the component: the function is 1.
@@ -43,7 +43,7 @@ pub enum Part {
 const OUTSIDE: f64 = -1.0;
 const INSIDE: f64 = -2.0;
 
-impl Part {
+impl CutSide {
     /// The number of a part: that of a cut, −1 outside, −2 inside.
     #[must_use]
     pub fn number(self) -> i64 {
@@ -96,16 +96,16 @@ impl LocalIndicator {
     /// to its part.
     #[inline(always)]
     pub(super) fn value<R: Real>(&self, offset: [R; 2], side: Side) -> R {
-        let (zero, one) = (offset[0].lit(0.0), offset[0].lit(1.0));
-        let (half, mut at, mut k) = (one.lit(0.5), zero, 0);
+        let (zero, one) = (offset[0].broadcast(0.0), offset[0].broadcast(1.0));
+        let (half, mut at, mut k) = (one.broadcast(0.5), zero, 0);
         while k < self.cuts.len() {
             let cut = &self.cuts[k];
             let next = cut.next(offset, side);
-            let is_here = half.gt((at - one.lit(k as f64)).abs());
+            let is_here = half.gt((at - one.broadcast(k as f64)).abs());
             at = R::select(is_here, next, at);
             k += 1;
         }
-        let is_inside = half.gt((at - one.lit(INSIDE)).abs());
+        let is_inside = half.gt((at - one.broadcast(INSIDE)).abs());
         R::select(is_inside, one, zero)
     }
 }
@@ -115,8 +115,11 @@ impl LocalCut {
     #[inline(always)]
     fn next<R: Real>(&self, offset: [R; 2], side: Side) -> R {
         let distance = self.line.distance_of(offset);
-        let (zero, left, right) =
-            (distance.lit(0.0), distance.lit(self.left), distance.lit(self.right));
+        let (zero, left, right) = (
+            distance.broadcast(0.0),
+            distance.broadcast(self.left),
+            distance.broadcast(self.right),
+        );
         // on the line the left is what lies above a segment, and below one that runs the other way
         let is_left = if (side == Side::Above) == self.reversed {
             distance.gt(zero)

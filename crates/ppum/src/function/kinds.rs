@@ -45,13 +45,13 @@ pub enum FunctionKind {
         /// Named constants the formula may use.
         parameters: Vec<(String, f64)>,
         /// Lines and points where it is not smooth, beside those the formula itself shows.
-        declared: Declared,
-        /// What it stands for.
+        declared: NonsmoothPoints,
+        /// The role of the formula.
         role: Role,
     },
 }
 
-/// What a formula stands for in a field. Values do not depend on it.
+/// The role of a formula in a field. Values do not depend on it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Role {
@@ -96,7 +96,7 @@ impl FunctionKind {
         frame.into_iter().flatten().chain(sign)
     }
 
-    /// What a formula stands for; none of other kinds.
+    /// Returns the role of a formula; `None` for other kinds.
     #[must_use]
     pub fn role(&self) -> Option<Role> {
         match self {
@@ -108,7 +108,8 @@ impl FunctionKind {
     /// A user-defined formula without parameters and declarations.
     #[must_use]
     pub fn formula(text: &str, frame: Frame) -> Self {
-        let (text, parameters, declared) = (text.to_owned(), Vec::new(), Declared::default());
+        let (text, parameters, declared) =
+            (text.to_owned(), Vec::new(), NonsmoothPoints::default());
         Self::Formula { text, frame, parameters, declared, role: Role::User }
     }
 }
@@ -116,7 +117,7 @@ impl FunctionKind {
 /// Places where a function is not smooth, as its author declares them; in the coordinates of its
 /// frame. Quadrature honours them, evaluation does not need them.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Declared {
+pub struct NonsmoothPoints {
     /// Segments across which the function or a derivative jumps.
     pub kinks: Vec<[Vec2; 2]>,
     /// Points at which the function or a derivative is infinite.

@@ -9,8 +9,8 @@ mod westergaard;
 
 pub use crate::library::WESTERGAARD;
 pub use formulas::GROUP;
-pub use indicator::{Cut, Part};
-pub use kinds::{Declared, Frame, Function, FunctionKind, Role};
+pub use indicator::{Cut, CutSide};
+pub use kinds::{Frame, Function, FunctionKind, NonsmoothPoints, Role};
 pub(crate) use table::LevelUse;
 pub use table::{
     CompileError, FunctionError, FunctionTable, LocalFunctions, Slot, at_tip, function_scope,

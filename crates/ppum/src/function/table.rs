@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
 use super::anchored::AnchoredCracks;
-use super::formulas::{Formulas, GROUP, LocalFormulas};
+use super::formulas::{FormulaGroup, GROUP, LocalFormulas};
 use super::indicator::{Cut, LocalIndicator};
 use super::kinds::{Frame, Function, FunctionKind};
 use super::westergaard::westergaard;
@@ -17,7 +17,9 @@ use crate::jet::Jet;
 use crate::library::WESTERGAARD;
 use crate::vec2::Vec2;
 use ppum_formula::real::Real;
-use ppum_formula::{DerivativeError, Formula, FormulaError, Scope, ScopeError, Scratch, Table};
+use ppum_formula::{
+    BlockScratch, DerivativeError, Formula, FormulaError, Scope, ScopeError, Table,
+};
 
 /// The place of a function's value in a compiled table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,8 +42,8 @@ pub struct FunctionTable {
     groups: Vec<Group>,
 }
 
-/// Least cost of a group in [`FunctionTable::cost`]: it is found, kept for a point or a tile of
-/// a picture, and turned into the world.
+/// Least cost of a group in [`FunctionTable::cost`]: it is found, kept for a point or a tile of an
+/// image, and turned into the world.
 const LEAST_COST: usize = 256;
 
 #[derive(Clone, Debug)]
@@ -50,7 +52,7 @@ enum Group {
     Westergaard(TipId),
     Component(Vec<Cut>),
     Level(u32),
-    Formulas(Formulas),
+    Formulas(FormulaGroup),
 }
 
 /// How a group of functions depends on the level fields of a mesh: the patch that holds a point
@@ -71,7 +73,7 @@ pub struct FunctionError {
     pub index: usize,
     /// Name of the function.
     pub name: String,
-    /// The mistake.
+    /// The error.
     pub source: Box<CompileError>,
 }
 
@@ -162,7 +164,7 @@ impl FunctionTable {
     }
 
     /// Cost of an evaluation of a group with its first derivatives: operations, and segments of
-    /// cracks. What every group costs is in it.
+    /// cracks. The cost of every group is included.
     ///
     /// # Panics
     /// If the cracks are not those of the table's step.
@@ -188,7 +190,8 @@ impl FunctionTable {
         }
     }
 
-    /// The table as seen from an anchor. What a group sees is formed when it is first asked for.
+    /// The table as seen from an anchor. The local form of a group is computed when it is first
+    /// requested.
     #[must_use]
     pub fn at<'t>(&'t self, cracks: &'t [Crack], anchor: Vec2) -> LocalFunctions<'t> {
         LocalFunctions::new(self, AnchoredCracks { cracks, anchor, on: None })
@@ -232,25 +235,25 @@ fn limit(count: usize, what: &'static str, most: usize) -> Result<(), TooLarge> 
 
 /// Formulas that are compiled, found by their texts and parameters.
 #[derive(Default)]
-struct Known {
-    compiled: BTreeMap<String, Formulas>,
+struct CompiledFormulas {
+    compiled: BTreeMap<String, FormulaGroup>,
     operations: usize,
 }
 
-impl Known {
+impl CompiledFormulas {
     /// The formulas in their frame, compiled if they are new. `function` is the first of them.
     fn compile(
         &mut self,
         function: &Function,
         formulas: Vec<Formula>,
         frame: Frame,
-    ) -> Result<Formulas, CompileError> {
+    ) -> Result<FormulaGroup, CompileError> {
         let key = key(function, &formulas);
         let like = self.compiled.get(&key).and_then(|known| known.with_frame(&formulas, frame));
         if let Some(known) = like {
             return Ok(known);
         }
-        let new = Formulas::new(formulas, frame)?;
+        let new = FormulaGroup::new(formulas, frame)?;
         self.operations += new.operations() + FORMULA * new.len();
         limit(self.operations, "operations", MAX_OPERATIONS)?;
         self.compiled.insert(key, new.clone());
@@ -296,7 +299,8 @@ impl<'a> Compiler<'a> {
         for (index, function) in functions.iter().enumerate() {
             slots.push(self.slot(index, &function.kind).map_err(|e| error(index, e))?);
         }
-        let (mut known, mut groups) = (Known::default(), Vec::with_capacity(self.groups.len()));
+        let (mut known, mut groups) =
+            (CompiledFormulas::default(), Vec::with_capacity(self.groups.len()));
         for draft in self.groups {
             groups.push(match draft {
                 GroupDraft::Side(crack) => Group::Side(crack),
@@ -406,10 +410,10 @@ pub struct LocalFunctions<'t> {
     cracks: AnchoredCracks<'t>,
     /// Groups of a page.
     page: usize,
-    pages: Vec<OnceLock<Page<'t>>>,
+    pages: Vec<OnceLock<FunctionPage<'t>>>,
 }
 
-type Page<'t> = Vec<OnceLock<LocalGroup<'t>>>;
+type FunctionPage<'t> = Vec<OnceLock<LocalGroup<'t>>>;
 
 #[derive(Clone, Debug)]
 enum LocalGroup<'t> {
@@ -472,7 +476,7 @@ impl<'t> LocalFunctions<'t> {
                 let [a, b, c, d] = at_tip::<R, D>(tip, offset, side);
                 (out[0], out[1], out[2], out[3]) = (a, b, c, d);
             }
-            LocalGroup::Level => out[0] = Jet::constant(offset[0].lit(f64::NAN)),
+            LocalGroup::Level => out[0] = Jet::constant(offset[0].broadcast(f64::NAN)),
             LocalGroup::Formulas(formulas) => formulas.evaluate::<R, D>(offset, side, out),
         }
     }
@@ -499,7 +503,7 @@ impl<'t> LocalFunctions<'t> {
         group: usize,
         offsets: &[[R; 2]],
         side: Side,
-        scratch: &mut Scratch<R::Scalar>,
+        scratch: &mut BlockScratch<R::Scalar>,
         out: &mut [[Jet<R>; GROUP]],
     ) {
         if let LocalGroup::Formulas(formulas) = self.group(group) {
@@ -514,7 +518,7 @@ impl<'t> LocalFunctions<'t> {
     }
 
     /// The tip of a group, if its functions are the four of [`westergaard()`]: [`at_tip`] evaluates
-    /// them. Who knows this before a loop over points spares the loop the choice, and keeps the
+    /// them. Callers check this before a loop over points, which then needs no choice and keeps the
     /// functions in registers.
     #[inline(always)]
     #[must_use]
@@ -536,6 +540,6 @@ impl<'t> LocalFunctions<'t> {
 #[inline(always)]
 pub fn at_tip<R: Real, const D: usize>(tip: &LocalTip, offset: [R; 2], side: Side) -> [Jet<R>; 4] {
     let [a, b, c, d] = westergaard::<R, D>(&tip.point(offset, side));
-    let (x, y) = (offset[0].lit(tip.axis.x), offset[0].lit(tip.axis.y));
+    let (x, y) = (offset[0].broadcast(tip.axis.x), offset[0].broadcast(tip.axis.y));
     [a.turned::<D>(x, y), b.turned::<D>(x, y), c.turned::<D>(x, y), d.turned::<D>(x, y)]
 }

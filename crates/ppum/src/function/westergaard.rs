@@ -12,8 +12,8 @@ use ppum_formula::real::Real;
 #[inline(always)]
 pub fn westergaard<R: Real, const D: usize>(p: &TipPoint<R>) -> [Jet<R>; 4] {
     let r = p.x.mul_add(p.x, p.y * p.y).sqrt();
-    let inverse = p.x.lit(1.0) / r;
-    let apart = r.gt(p.x.lit(0.0));
+    let inverse = p.x.broadcast(1.0) / r;
+    let apart = r.gt(p.x.broadcast(0.0));
     let [cosine, sine] = p.half_root(r);
     let (c, s) = root_jets::<R, D>(cosine, sine, p.x, p.y, inverse);
     let (ct, st) = (p.x * inverse, p.y * inverse);
@@ -26,13 +26,13 @@ pub fn westergaard<R: Real, const D: usize>(p: &TipPoint<R>) -> [Jet<R>; 4] {
 fn root_jets<R: Real, const D: usize>(c: R, s: R, x: R, y: R, inverse: R) -> (Jet<R>, Jet<R>) {
     let (mut jc, mut js) = (Jet::constant(c), Jet::constant(s));
     if D >= 1 {
-        let half = inverse * x.lit(0.5);
+        let half = inverse * x.broadcast(0.5);
         (jc.x, jc.y) = (c * half, s * half);
         (js.x, js.y) = (-(s * half), c * half);
     }
     if D >= 2 {
         let (ct, st) = (x * inverse, y * inverse);
-        let quarter = inverse * inverse * x.lit(0.25);
+        let quarter = inverse * inverse * x.broadcast(0.25);
         let real = (s * st - c * ct) * quarter;
         let imaginary = (s * ct + c * st) * quarter;
         (jc.xx, jc.xy, jc.yy) = (real, -imaginary, -real);
@@ -44,7 +44,7 @@ fn root_jets<R: Real, const D: usize>(c: R, s: R, x: R, y: R, inverse: R) -> (Je
 /// Jet of sin θ = y / r.
 #[inline(always)]
 fn sine_jet<R: Real, const D: usize>(ct: R, st: R, inverse: R, apart: R::Mask) -> Jet<R> {
-    let mut jet = Jet::constant(R::select(apart, st, st.lit(0.0)));
+    let mut jet = Jet::constant(R::select(apart, st, st.broadcast(0.0)));
     if D >= 1 {
         jet.x = -(st * ct) * inverse;
         jet.y = ct * ct * inverse;
@@ -54,7 +54,7 @@ fn sine_jet<R: Real, const D: usize>(ct: R, st: R, inverse: R, apart: R::Mask) -
         let (cc, ss) = (ct * ct, st * st);
         jet.xx = st * (cc + cc - ss) * square;
         jet.xy = ct * (ss + ss - cc) * square;
-        jet.yy = -(st * cc * st.lit(3.0)) * square;
+        jet.yy = -(st * cc * st.broadcast(3.0)) * square;
     }
     jet
 }

@@ -1,14 +1,15 @@
 //! One element of a mesh by its own coordinate, whoever owns its points.
 //!
-//! What follows a field on one element, up to its edges and to the lines that cut it, must not ask
-//! for the owner of each point: on an edge that is another element, and beside it none.
+//! Code that follows a field on one element, up to its edges and to the lines that cut it, must not
+//! search for the owner of each point: on an edge another element may own the point, and beside it
+//! none does.
 
 use std::borrow::Cow;
 
 use super::evaluate::At;
-use super::local::{LocalMesh, Location, Seen};
-use super::map::Map;
-use crate::compensated::Pair;
+use super::local::{ElementView, LocalMesh, PatchLocation};
+use super::map::PolynomialMap;
+use crate::compensated::RoundedSum;
 use crate::crack::Side;
 use crate::function::LocalFunctions;
 use crate::jet::Jet;
@@ -23,10 +24,10 @@ use crate::vec2::{Vec2, vec2};
 pub struct ElementField<'m, 'f> {
     mesh: &'m LocalMesh<'f>,
     functions: &'m LocalFunctions<'f>,
-    seen: Seen<'m>,
-    map: Cow<'m, Map>,
+    seen: ElementView<'m>,
+    map: Cow<'m, PolynomialMap>,
     /// M(δ) at the anchor.
-    from: [Pair; 2],
+    from: [RoundedSum; 2],
 }
 
 /// A point of an element.
@@ -83,7 +84,7 @@ impl<'m, 'f> ElementField<'m, 'f> {
     #[must_use]
     pub fn point(&self, delta: Vec2) -> ElementPoint {
         let [x, y] = self.map.at::<f64, 1>(delta.into());
-        let part = |value: f64, from: Pair| (value - from.0) - from.1;
+        let part = |value: f64, from: RoundedSum| (value - from.0) - from.1;
         let offset = vec2(part(x.v, self.from[0]), part(y.v, self.from[1]));
         ElementPoint { offset, columns: [vec2(x.x, y.x), vec2(x.y, y.y)] }
     }
@@ -109,7 +110,7 @@ impl<'m, 'f> ElementField<'m, 'f> {
     #[must_use]
     pub fn is_kept(&self, delta: Vec2, side: Side) -> bool {
         let (patch, near) = self.seen;
-        self.mesh.is_kept(&Location { patch, delta: delta.into(), near }, side)
+        self.mesh.is_kept(&PatchLocation { patch, delta: delta.into(), near }, side)
     }
 
     /// The value of a level field of the step, by its index.

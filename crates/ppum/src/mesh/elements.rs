@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::map::Map;
+use super::map::PolynomialMap;
 use super::shape::Shape;
 use crate::polynomial::PolynomialSpace;
 use crate::vec2::{Rect, Vec2, vec2};
@@ -95,8 +95,8 @@ impl Mesh {
         }
     }
 
-    pub(super) fn map(&self, patch: usize) -> Map {
-        Map::new(self.map_space[patch], self.map_degree[patch], self.map_of(patch))
+    pub(super) fn map(&self, patch: usize) -> PolynomialMap {
+        PolynomialMap::new(self.map_space[patch], self.map_degree[patch], self.map_of(patch))
     }
 
     /// x = origin + M(ξ), and det DM(ξ).

@@ -3,8 +3,8 @@
 
 use std::borrow::Cow;
 
-use super::local::{LocalMesh, Location, Seen, sign};
-use super::map::Map;
+use super::local::{ElementView, LocalMesh, PatchLocation, sign};
+use super::map::PolynomialMap;
 use crate::crack::{Side, TipPoint};
 use crate::function::{GROUP, LevelUse, LocalFunctions, Slot};
 use crate::jet::Jet;
@@ -16,7 +16,7 @@ impl LocalMesh<'_> {
     /// All components of the field at a place, with derivatives in the world.
     pub(crate) fn evaluate<const D: usize>(
         &self,
-        place: &Location<'_>,
+        place: &PatchLocation<'_>,
         functions: &LocalFunctions<'_>,
         (offset, side): (Vec2, Side),
         out: &mut [Jet<f64>],
@@ -27,25 +27,25 @@ impl LocalMesh<'_> {
     }
 
     /// The map of a patch in δ.
-    pub(super) fn map_of<'m>(&self, (patch, near): Seen<'m>) -> Cow<'m, Map> {
+    pub(super) fn map_of<'m>(&self, (patch, near): ElementView<'m>) -> Cow<'m, PolynomialMap> {
         match near {
             Some(near) => Cow::Borrowed(&near.inverse.map),
             None => Cow::Owned(self.mesh.map(patch)),
         }
     }
 
-    /// The same at a vector of places in one patch, with its map in δ.
+    /// Evaluates at a vector of places in one patch, with its map in δ.
     #[inline(always)]
     pub(super) fn evaluate_at<R: Real, const D: usize>(
         &self,
-        (seen, map): (Seen<'_>, &Map),
+        (seen, map): (ElementView<'_>, &PolynomialMap),
         functions: &LocalFunctions<'_>,
         at: &At<R>,
         out: &mut [Jet<R>],
     ) {
         let world = World::new(map.at::<R, D>(at.delta));
         let (own, data) = (self.field.index, self.field.data);
-        let zero = Jet::constant(at.delta[0].lit(0.0));
+        let zero = Jet::constant(at.delta[0].broadcast(0.0));
         let mut known: Vec<(u32, [Jet<R>; GROUP])> = Vec::new();
         let mut component = 0;
         while component < out.len() {
@@ -77,12 +77,12 @@ impl LocalMesh<'_> {
     #[inline(always)]
     pub(super) fn level<R: Real, const D: usize>(
         &self,
-        seen: Seen<'_>,
+        seen: ElementView<'_>,
         field: usize,
         delta: [R; 2],
     ) -> Jet<R> {
         let blocks = self.field.step.fields[field].blocks(seen.0);
-        let (first, mut sum) = (blocks.start, Jet::constant(delta[0].lit(0.0)));
+        let (first, mut sum) = (blocks.start, Jet::constant(delta[0].broadcast(0.0)));
         for block in blocks {
             let p = self.block::<R, D>(seen, (field, block - first, block), 0, delta);
             sum = sum.plus::<D>(p);
@@ -94,7 +94,7 @@ impl LocalMesh<'_> {
     #[inline(always)]
     fn block<R: Real, const D: usize>(
         &self,
-        (patch, near): Seen<'_>,
+        (patch, near): ElementView<'_>,
         (field, k, block): (usize, usize, usize),
         component: usize,
         delta: [R; 2],
@@ -112,13 +112,13 @@ impl LocalMesh<'_> {
     #[inline(always)]
     fn group<R: Real, const D: usize>(
         &self,
-        seen: Seen<'_>,
+        seen: ElementView<'_>,
         functions: &LocalFunctions<'_>,
         at: &At<R>,
         world: &World<R>,
         group: usize,
     ) -> [Jet<R>; GROUP] {
-        let mut jets = [Jet::constant(at.delta[0].lit(0.0)); GROUP];
+        let mut jets = [Jet::constant(at.delta[0].broadcast(0.0)); GROUP];
         match functions.table().level_use(group) {
             None => functions.evaluate::<R, D>(group, at.offset, at.side, &mut jets),
             Some(LevelUse::Sign(field)) => {
@@ -128,7 +128,7 @@ impl LocalMesh<'_> {
             Some(LevelUse::Frame([x, y])) => {
                 let x = world.jet::<D>(self.level::<R, D>(seen, x as usize, at.delta));
                 let y = world.jet::<D>(self.level::<R, D>(seen, y as usize, at.delta));
-                let (sign, branch) = (sign(y.v, at.side), y.v.lit(1.0));
+                let (sign, branch) = (sign(y.v, at.side), y.v.broadcast(1.0));
                 let point = TipPoint { x: x.v, y: y.v, sign, branch };
                 functions.evaluate_in_frame::<R, D>(group, &point, (at.offset, at.side), &mut jets);
                 let mut k = 0;
@@ -161,7 +161,7 @@ impl<R: Real> World<R> {
     #[inline(always)]
     fn new(image: [Jet<R>; 2]) -> Self {
         let [x, y] = image;
-        let inverse = x.v.lit(1.0) / (x.x * y.y - x.y * y.x);
+        let inverse = x.v.broadcast(1.0) / (x.x * y.y - x.y * y.x);
         let transposed = [[y.y * inverse, -(y.x * inverse)], [-(x.y * inverse), x.x * inverse]];
         Self { image, transposed }
     }

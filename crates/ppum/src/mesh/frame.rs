@@ -1,21 +1,21 @@
 //! An element as seen from a point, and the places of many points in it.
 
 use super::elements::Mesh;
-use super::local::{Candidate, Seen, moved};
-use super::map::{Inverse, NEAR, TOLERANCE, largest};
+use super::local::{Candidate, ElementView, moved};
+use super::map::{MapInverse, NEAR, TOLERANCE, largest};
 use super::shape::Shape;
-use crate::compensated::Pair;
+use crate::compensated::RoundedSum;
 use ppum_formula::real::Real;
 
 /// An element as it is, or as seen from a ξ beside the anchor.
 pub(super) struct SeenElement<'a, 'm> {
-    pub(super) seen: Seen<'m>,
-    pub(super) inverse: &'a Inverse,
+    pub(super) seen: ElementView<'m>,
+    pub(super) inverse: &'a MapInverse,
     shape: Shape,
     /// ξ = at + δ
     at: [f64; 2],
-    /// What M(δ) is at the anchor.
-    from: &'a [Pair; 2],
+    /// The value of M(δ) at the anchor.
+    from: &'a [RoundedSum; 2],
 }
 
 /// The places of points on lanes.
@@ -48,12 +48,12 @@ impl SeenElement<'_, '_> {
     pub(super) fn places<R: Real>(&self, offset: [R; 2]) -> LanePlaces<R> {
         let (delta, certainty) = self.inverse.solve(moved(self.from, offset));
         let margin = self.shape.margin(self.at, delta);
-        let (zero, one) = (margin.lit(0.0), margin.lit(1.0));
+        let (zero, one) = (margin.broadcast(0.0), margin.broadcast(1.0));
         let decided = match self.seen.1 {
-            Some(_) => one.lit(NEAR) - largest(delta),
+            Some(_) => one.broadcast(NEAR) - largest(delta),
             None => {
                 let is_only = self.inverse.uniqueness(delta).gt(zero);
-                R::select(margin.ge(one.lit(-TOLERANCE)), one, R::sign(is_only, one))
+                R::select(margin.ge(one.broadcast(-TOLERANCE)), one, R::sign(is_only, one))
             }
         };
         let certainty = R::select(certainty.ge(zero), decided, -one);

@@ -6,13 +6,13 @@ use std::ops::Range;
 
 use super::evaluate::At;
 use super::frame::{LanePlaces, SeenElement};
-use super::local::{Candidate, LocalMesh, Location};
+use super::local::{Candidate, LocalMesh, PatchLocation};
 use super::map::TOLERANCE;
 use crate::crack::Side;
 use crate::function::LocalFunctions;
 use crate::jet::Jet;
 use crate::vec2::{Rect, Vec2, vec2};
-use ppum_formula::real::{Job, Lanes, Real, Scalar};
+use ppum_formula::real::{LaneJob, LaneNumber, Lanes, Real};
 
 /// Rounding of the place of a row or column, in rows or columns.
 const ROUNDING: f64 = 1e-6;
@@ -41,14 +41,14 @@ impl PointGrid<'_> {
 
 /// Evenly spaced numbers.
 #[derive(Clone, Copy)]
-struct Spacing {
+struct EvenSpacing {
     first: f64,
     /// How many fit in a unit; negative if they fall.
     density: f64,
     count: usize,
 }
 
-impl Spacing {
+impl EvenSpacing {
     fn new(values: &[f64]) -> Self {
         let (first, last) = (values.first().copied(), values.last().copied());
         let size = last.zip(first).map_or(0.0, |(last, first)| last - first);
@@ -136,24 +136,24 @@ struct OnGrid<'a, 'f, 't, const D: usize> {
     out: &'a mut [Jet<f64>],
 }
 
-/// What is known of the points while elements are looked at.
-struct Found<'m> {
+/// The state of a search for the owners of points, while elements are visited.
+struct GridSearch<'m> {
     /// True of points that have no owner so far.
     is_free: Vec<bool>,
     /// The places of free points in elements that miss them by rounding, with their margins.
-    beside: BTreeMap<usize, (f64, Location<'m>)>,
+    beside: BTreeMap<usize, (f64, PatchLocation<'m>)>,
 }
 
-impl<const D: usize> Job<f64> for OnGrid<'_, '_, '_, D> {
+impl<const D: usize> LaneJob<f64> for OnGrid<'_, '_, '_, D> {
     type Output = ();
 
     #[inline(always)]
     fn run<R: Real<Scalar = f64>>(mut self, zero: R) {
         self.out.fill(Jet::NAN);
         let (mesh, count) = (self.mesh, self.grid.x.len() * self.grid.y.len());
-        let mut found = Found { is_free: vec![true; count], beside: BTreeMap::new() };
+        let mut found = GridSearch { is_free: vec![true; count], beside: BTreeMap::new() };
         let mut lanes = vec![Jet::constant(zero); mesh.field.components()];
-        let axes = [self.grid.x, self.grid.y].map(Spacing::new);
+        let axes = [self.grid.x, self.grid.y].map(EvenSpacing::new);
         let mut points = GridPoints::default();
         for patch in mesh.patches_of(self.grid) {
             let candidate = mesh.candidate(patch);
@@ -164,7 +164,7 @@ impl<const D: usize> Job<f64> for OnGrid<'_, '_, '_, D> {
             }
             self.one_by_one(&candidate, &points, &mut found);
         }
-        let Found { beside, is_free, .. } = found;
+        let GridSearch { beside, is_free, .. } = found;
         let left = beside.into_iter().filter(|(point, _)| is_free[*point]);
         left.for_each(|(point, (_, place))| self.evaluate(point, &place));
     }
@@ -175,7 +175,7 @@ impl<const D: usize> OnGrid<'_, '_, '_, D> {
     #[inline(always)]
     fn add_points(
         &self,
-        [columns, rows]: [Spacing; 2],
+        [columns, rows]: [EvenSpacing; 2],
         candidate: &Candidate<'_>,
         is_free: &[bool],
         points: &mut GridPoints,
@@ -211,10 +211,10 @@ impl<const D: usize> OnGrid<'_, '_, '_, D> {
         &mut self,
         frame: &SeenElement<'_, 'm>,
         points: &mut GridPoints,
-        found: &mut Found<'m>,
+        found: &mut GridSearch<'m>,
         lanes: &mut [Jet<R>],
     ) {
-        let (count, mut left, zero) = (points.index.len(), 0, lanes[0].v.lit(0.0));
+        let (count, mut left, zero) = (points.index.len(), 0, lanes[0].v.broadcast(0.0));
         points.pad(R::LANES);
         for start in (0..count).step_by(R::LANES) {
             let [x, y] = &points.offset;
@@ -236,7 +236,7 @@ impl<const D: usize> OnGrid<'_, '_, '_, D> {
                 } else if margin >= -TOLERANCE {
                     let delta = [delta[0].lanes()[lane], delta[1].lanes()[lane]];
                     let (patch, near) = frame.seen;
-                    found.add_beside(index, margin, Location { patch, delta, near });
+                    found.add_beside(index, margin, PatchLocation { patch, delta, near });
                 }
             }
             if hits > 0 {
@@ -270,7 +270,7 @@ impl<const D: usize> OnGrid<'_, '_, '_, D> {
         &mut self,
         candidate: &Candidate<'m>,
         points: &GridPoints,
-        found: &mut Found<'m>,
+        found: &mut GridSearch<'m>,
     ) {
         for (k, &point) in points.index.iter().enumerate() {
             let offset = vec2(points.offset[0][k], points.offset[1][k]);
@@ -288,7 +288,7 @@ impl<const D: usize> OnGrid<'_, '_, '_, D> {
         }
     }
 
-    fn evaluate(&mut self, point: usize, place: &Location<'_>) {
+    fn evaluate(&mut self, point: usize, place: &PatchLocation<'_>) {
         let (columns, components) = (self.grid.x.len(), self.mesh.field.components());
         let offset = vec2(self.grid.x[point % columns], self.grid.y[point / columns]);
         let out = &mut self.out[point * components..][..components];
@@ -296,10 +296,10 @@ impl<const D: usize> OnGrid<'_, '_, '_, D> {
     }
 }
 
-impl<'m> Found<'m> {
+impl<'m> GridSearch<'m> {
     /// Adds the place of a point in an element that misses it by rounding.
     #[cold]
-    fn add_beside(&mut self, point: usize, margin: f64, place: Location<'m>) {
+    fn add_beside(&mut self, point: usize, margin: f64, place: PatchLocation<'m>) {
         if self.beside.get(&point).is_none_or(|(most, _)| margin > *most) {
             self.beside.insert(point, (margin, place));
         }

@@ -7,10 +7,10 @@
 use std::collections::BTreeMap;
 
 use super::elements::Mesh;
-use super::map::{Inverse, TOLERANCE};
-use super::shape::Edge;
-use super::taylor::Dense;
-use crate::compensated::{Pair, difference, minus};
+use super::map::{MapInverse, TOLERANCE};
+use super::shape::ShapeEdge;
+use super::taylor::DensePolynomial;
+use crate::compensated::{RoundedSum, difference, minus};
 use crate::crack::Side;
 use crate::dataset::FieldData;
 use crate::field::Field;
@@ -29,12 +29,12 @@ pub(crate) struct LocalMesh<'f> {
 /// An element beside the anchor.
 #[derive(Clone, Debug)]
 pub(super) struct Near {
-    /// The ξ of the anchor, but for rounding.
+    /// The ξ of the anchor, except for rounding.
     pub(super) at: [f64; 2],
     /// The map in δ.
-    pub(super) inverse: Inverse,
+    pub(super) inverse: MapInverse,
     /// anchor − origin − M(at): what rounding leaves.
-    pub(super) rest: [Pair; 2],
+    pub(super) rest: [RoundedSum; 2],
     /// The fields that are used, by their index: coefficients in δ of the patch's blocks, for each
     /// component one block after the other.
     fields: BTreeMap<usize, Vec<f64>>,
@@ -42,7 +42,7 @@ pub(super) struct Near {
 
 /// A place in a patch.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Location<'m> {
+pub(crate) struct PatchLocation<'m> {
     pub(crate) patch: usize,
     /// ξ = at + δ, at = 0 for elements that are not near.
     pub(super) delta: [f64; 2],
@@ -53,10 +53,10 @@ pub(crate) struct Location<'m> {
 pub(super) struct Candidate<'m> {
     pub(super) patch: usize,
     pub(super) near: Option<&'m Near>,
-    /// Of the element as it is.
-    pub(super) inverse: Option<Inverse>,
+    /// The inverse of the element's map; `None` if the map is singular at ξ = 0.
+    pub(super) inverse: Option<MapInverse>,
     /// anchor − origin.
-    pub(super) from_origin: [Pair; 2],
+    pub(super) from_origin: [RoundedSum; 2],
     /// A box around the patch and what lies beside it, from the anchor.
     reach: Rect,
 }
@@ -74,7 +74,7 @@ impl<'f> LocalMesh<'f> {
     }
 
     /// The owner of `anchor + offset`; `None` outside.
-    pub(crate) fn owner(&self, offset: Vec2, side: Side) -> Option<Location<'_>> {
+    pub(crate) fn owner(&self, offset: Vec2, side: Side) -> Option<PatchLocation<'_>> {
         let mut patches = Vec::new();
         self.field.tree.query_point(self.anchor + offset, &mut patches);
         self.owner_among(offset, side, &patches)
@@ -86,7 +86,7 @@ impl<'f> LocalMesh<'f> {
         offset: Vec2,
         side: Side,
         patches: &[u32],
-    ) -> Option<Location<'_>> {
+    ) -> Option<PatchLocation<'_>> {
         let all = patches.iter().map(|&patch| self.candidate(patch));
         self.first(side, all.map(|candidate| self.location(&candidate, offset, None)))
     }
@@ -97,9 +97,9 @@ impl<'f> LocalMesh<'f> {
     pub(super) fn first<'m>(
         &self,
         side: Side,
-        places: impl Iterator<Item = Option<Location<'m>>>,
-    ) -> Option<Location<'m>> {
-        let mut best: Option<(f64, Location<'m>)> = None;
+        places: impl Iterator<Item = Option<PatchLocation<'m>>>,
+    ) -> Option<PatchLocation<'m>> {
+        let mut best: Option<(f64, PatchLocation<'m>)> = None;
         for place in places.flatten() {
             let margin = self.margin(&place);
             let is_better = match best {
@@ -118,14 +118,14 @@ impl<'f> LocalMesh<'f> {
     }
 
     /// A patch as it is seen from the anchor, and M(δ) there.
-    pub(super) fn frame(&self, patch: usize) -> (Option<&Near>, [Pair; 2]) {
+    pub(super) fn frame(&self, patch: usize) -> (Option<&Near>, [RoundedSum; 2]) {
         let near = self.near.get(&(patch as u32));
         let from = near.map_or_else(|| self.anchor_from_origin(patch), |near| near.rest);
         (near, from)
     }
 
     /// anchor − origin
-    fn anchor_from_origin(&self, patch: usize) -> [Pair; 2] {
+    fn anchor_from_origin(&self, patch: usize) -> [RoundedSum; 2] {
         let origin = self.mesh.origin[patch];
         [difference(self.anchor.x, origin.x), difference(self.anchor.y, origin.y)]
     }
@@ -133,7 +133,7 @@ impl<'f> LocalMesh<'f> {
     pub(super) fn candidate(&self, patch: u32) -> Candidate<'_> {
         let (k, near) = (patch as usize, self.near.get(&patch));
         let from_origin = self.anchor_from_origin(k);
-        let (reach, inverse) = (self.mesh.reach(k), Inverse::new(self.mesh.map(k)));
+        let (reach, inverse) = (self.mesh.reach(k), MapInverse::new(self.mesh.map(k)));
         let reach = Rect::new(reach.min - self.anchor, reach.max - self.anchor);
         Candidate { patch: k, near, inverse, from_origin, reach }
     }
@@ -145,7 +145,7 @@ impl<'f> LocalMesh<'f> {
         candidate: &Candidate<'m>,
         offset: Vec2,
         start: Option<[f64; 2]>,
-    ) -> Option<Location<'m>> {
+    ) -> Option<PatchLocation<'m>> {
         let patch = candidate.patch;
         if !candidate.reach.contains(offset) {
             return None;
@@ -153,22 +153,22 @@ impl<'f> LocalMesh<'f> {
         if let Some(near) = candidate.near
             && let Some(delta) = near.inverse.near(moved(&near.rest, offset.into()))
         {
-            return Some(Location { patch, delta, near: Some(near) });
+            return Some(PatchLocation { patch, delta, near: Some(near) });
         }
         let t = moved(&candidate.from_origin, offset.into());
         let delta = candidate.inverse.as_ref()?.at(self.mesh.shape[patch], t, start)?;
-        Some(Location { patch, delta, near: None })
+        Some(PatchLocation { patch, delta, near: None })
     }
 
     #[inline]
-    pub(super) fn margin(&self, place: &Location<'_>) -> f64 {
+    pub(super) fn margin(&self, place: &PatchLocation<'_>) -> f64 {
         let at = place.near.map_or([0.0; 2], |near| near.at);
         self.mesh.shape[place.patch].margin(at, place.delta)
     }
 
     /// True if the patch's clips hold at a place.
     #[inline]
-    pub(super) fn is_kept(&self, place: &Location<'_>, side: Side) -> bool {
+    pub(super) fn is_kept(&self, place: &PatchLocation<'_>, side: Side) -> bool {
         self.clipped((place.patch, place.near), place.delta, (1.0, side)) > 0.0
     }
 
@@ -176,14 +176,14 @@ impl<'f> LocalMesh<'f> {
     #[inline(always)]
     pub(super) fn clipped<R: Real>(
         &self,
-        seen: Seen<'_>,
+        seen: ElementView<'_>,
         delta: [R; 2],
         (mut margin, side): (R, Side),
     ) -> R {
         for clip in self.mesh.clips(seen.0) {
             let level = self.level::<R, 0>(seen, clip.field as usize, delta).v;
-            let kept = sign(level, side) * level.lit(if clip.is_above { 1.0 } else { -1.0 });
-            margin = R::select(kept.gt(level.lit(0.0)), margin, level.lit(-1.0));
+            let kept = sign(level, side) * level.broadcast(if clip.is_above { 1.0 } else { -1.0 });
+            margin = R::select(kept.gt(level.broadcast(0.0)), margin, level.broadcast(-1.0));
         }
         margin
     }
@@ -191,10 +191,10 @@ impl<'f> LocalMesh<'f> {
 
 /// A point that is moved by an offset.
 #[inline(always)]
-pub(super) fn moved<R: Real>(from: &[Pair; 2], offset: [R; 2]) -> [(R, R); 2] {
+pub(super) fn moved<R: Real>(from: &[RoundedSum; 2], offset: [R; 2]) -> [(R, R); 2] {
     let [x, y] = offset;
-    let (p, q) = (difference(x.lit(from[0].0), -x), difference(y.lit(from[1].0), -y));
-    [(p.0, p.1 + x.lit(from[0].1)), (q.0, q.1 + y.lit(from[1].1))]
+    let (p, q) = (difference(x.broadcast(from[0].0), -x), difference(y.broadcast(from[1].0), -y));
+    [(p.0, p.1 + x.broadcast(from[0].1)), (q.0, q.1 + y.broadcast(from[1].1))]
 }
 
 impl Candidate<'_> {
@@ -207,7 +207,7 @@ impl Candidate<'_> {
     /// what lies just beside it: those of the edges for the linear part of the map, farther out
     /// by κ. `far` is the farthest that offsets are looked at.
     #[inline]
-    pub(super) fn half_planes(&self, mesh: &Mesh, far: Vec2) -> [Option<Edge>; 4] {
+    pub(super) fn half_planes(&self, mesh: &Mesh, far: Vec2) -> [Option<ShapeEdge>; 4] {
         let mut planes = [None; 4];
         let Some(inverse) = &self.inverse else { return planes };
         let [u, v] = self.from_origin.map(|t| t.0 + t.1);
@@ -227,12 +227,12 @@ impl Near {
         let origin = mesh.origin[patch];
         let t = [difference(anchor.x, origin.x), difference(anchor.y, origin.y)];
         let map = mesh.map(patch);
-        let at = Inverse::new(map.clone())?.beside(mesh.shape[patch], t)?;
+        let at = MapInverse::new(map.clone())?.beside(mesh.shape[patch], t)?;
         let (map, constant) = map.shifted(at);
         let rest = [minus(t[0], constant[0]), minus(t[1], constant[1])];
         let used = field.levels.iter().copied().chain([field.index]);
         let fields = used.map(|k| (k, shifted(&field.step.fields[k], patch, at))).collect();
-        Some(Self { at, inverse: Inverse::new(map)?, rest, fields })
+        Some(Self { at, inverse: MapInverse::new(map)?, rest, fields })
     }
 
     /// The coefficients in δ of the patch's `k`-th block.
@@ -257,7 +257,8 @@ fn shifted(data: &FieldData, patch: usize, at: [f64; 2]) -> Vec<f64> {
     for component in 0..data.coefficients.len() {
         for block in data.blocks(patch) {
             let (space, degree) = (data.space(block), data.block_degree[block].into());
-            let mut dense = Dense::new(space, degree, data.block_coefficients(block, component));
+            let mut dense =
+                DensePolynomial::new(space, degree, data.block_coefficients(block, component));
             dense.shift(at);
             let start = out.len();
             out.resize(start + space.size(degree), 0.0);
@@ -268,15 +269,15 @@ fn shifted(data: &FieldData, patch: usize, at: [f64; 2]) -> Vec<f64> {
 }
 
 /// A patch as it is, or as seen from a ξ beside the anchor.
-pub(super) type Seen<'m> = (usize, Option<&'m Near>);
+pub(super) type ElementView<'m> = (usize, Option<&'m Near>);
 
 /// +1 where a level field is positive, −1 where it is negative; where it is zero, that of the side.
 #[inline(always)]
 pub(super) fn sign<R: Real>(level: R, side: Side) -> R {
-    let zero = level.lit(0.0);
+    let zero = level.broadcast(0.0);
     let is_above = match side {
         Side::Above => level.ge(zero),
         Side::Below => level.gt(zero),
     };
-    R::sign(is_above, level.lit(1.0))
+    R::sign(is_above, level.broadcast(1.0))
 }

@@ -2,12 +2,12 @@
 //! one patch on lanes.
 
 use super::evaluate::At;
-use super::local::{Candidate, LocalMesh, Location};
+use super::local::{Candidate, LocalMesh, PatchLocation};
 use crate::crack::Side;
 use crate::function::LocalFunctions;
 use crate::jet::Jet;
 use crate::vec2::{Rect, Vec2};
-use ppum_formula::real::{Job, Lanes, Real, Scalar};
+use ppum_formula::real::{LaneJob, LaneNumber, Lanes, Real};
 
 /// Points that are looked at together, and the most elements that are asked for all of them.
 const POINTS: usize = 256;
@@ -25,11 +25,11 @@ impl LocalMesh<'_> {
         let components = self.field.components();
         for (offsets, out) in offsets.chunks(POINTS).zip(out.chunks_mut(POINTS * components)) {
             let owners = self.owners(offsets, side);
-            f64::dispatch(Many::<D> { mesh: self, functions, offsets, side, owners, out });
+            f64::dispatch(MeshOnLanes::<D> { mesh: self, functions, offsets, side, owners, out });
         }
     }
 
-    fn owners(&self, offsets: &[Vec2], side: Side) -> Vec<Option<Location<'_>>> {
+    fn owners(&self, offsets: &[Vec2], side: Side) -> Vec<Option<PatchLocation<'_>>> {
         let corner = |of: fn(Vec2, Vec2) -> Vec2| offsets.iter().copied().reduce(of);
         let (Some(min), Some(max)) = (corner(Vec2::min), corner(Vec2::max)) else {
             return Vec::new();
@@ -52,7 +52,7 @@ impl LocalMesh<'_> {
         starts: &mut [Option<[f64; 2]>],
         offset: Vec2,
         side: Side,
-    ) -> Option<Location<'m>> {
+    ) -> Option<PatchLocation<'m>> {
         let places = candidates.iter().zip(starts).map(|(candidate, start)| {
             let place = self.location(candidate, offset, *start);
             *start = place.as_ref().filter(|place| place.near.is_none()).map(|place| place.delta);
@@ -62,16 +62,16 @@ impl LocalMesh<'_> {
     }
 }
 
-struct Many<'a, 'f, 't, 'm, const D: usize> {
+struct MeshOnLanes<'a, 'f, 't, 'm, const D: usize> {
     mesh: &'a LocalMesh<'f>,
     functions: &'a LocalFunctions<'t>,
     offsets: &'a [Vec2],
     side: Side,
-    owners: Vec<Option<Location<'m>>>,
+    owners: Vec<Option<PatchLocation<'m>>>,
     out: &'a mut [Jet<f64>],
 }
 
-impl<const D: usize> Job<f64> for Many<'_, '_, '_, '_, D> {
+impl<const D: usize> LaneJob<f64> for MeshOnLanes<'_, '_, '_, '_, D> {
     type Output = ();
 
     #[inline(always)]
@@ -98,7 +98,7 @@ impl<const D: usize> Job<f64> for Many<'_, '_, '_, '_, D> {
     }
 }
 
-impl<const D: usize> Many<'_, '_, '_, '_, D> {
+impl<const D: usize> MeshOnLanes<'_, '_, '_, '_, D> {
     /// The places of no more points than there are lanes; the last stands in for those missing.
     #[inline(always)]
     fn places<R: Real<Scalar = f64>>(&self, points: &[usize], zero: R) -> At<R> {

@@ -11,8 +11,8 @@
 //! ```
 
 use super::shape::Shape;
-use super::taylor::Dense;
-use crate::compensated::{Pair, difference, exact_product};
+use super::taylor::DensePolynomial;
+use crate::compensated::{RoundedSum, difference, exact_product};
 use crate::jet::Jet;
 use crate::polynomial::{PolynomialSpace, polynomial_in};
 use ppum_formula::real::Real;
@@ -39,14 +39,14 @@ const MOST_PARTS: usize = 1 << 6;
 
 /// The polynomials of a map in ξ, or in δ = ξ − at; the constants are 0.
 #[derive(Clone, Debug)]
-pub(super) struct Map {
+pub(super) struct PolynomialMap {
     degree: usize,
     space: PolynomialSpace,
     x: [f64; MOST],
     y: [f64; MOST],
 }
 
-impl Map {
+impl PolynomialMap {
     /// The map of coefficients without their constants.
     pub(super) fn new(space: PolynomialSpace, degree: u8, [x, y]: [&[f64]; 2]) -> Self {
         let mut map = Self { degree: degree.into(), space, x: [0.0; MOST], y: [0.0; MOST] };
@@ -82,10 +82,10 @@ impl Map {
     }
 
     /// The coefficients of the map seen from `at`, and the constant M(at).
-    pub(super) fn shifted(&self, at: [f64; 2]) -> (Self, [Pair; 2]) {
+    pub(super) fn shifted(&self, at: [f64; 2]) -> (Self, [RoundedSum; 2]) {
         let mut out = self.clone();
         let constants = [(&self.x, &mut out.x), (&self.y, &mut out.y)].map(|(from, to)| {
-            let mut dense = Dense::new(self.space, self.degree, from);
+            let mut dense = DensePolynomial::new(self.space, self.degree, from);
             dense.shift(at);
             let constant = dense.constant();
             dense.store(self.space, self.degree, to);
@@ -105,9 +105,9 @@ impl Map {
         self
     }
 
-    fn bounds(&self) -> Option<Bounds> {
+    fn bounds(&self) -> Option<MapBounds> {
         let inverse = self.linear().inverse()?;
-        let mut bounds = Bounds { inverse, kappa: 0.0, lipschitz: 0.0, curvature: 0.0 };
+        let mut bounds = MapBounds { inverse, kappa: 0.0, lipschitz: 0.0, curvature: 0.0 };
         if self.degree == 1 && self.space == PolynomialSpace::Total {
             return Some(bounds);
         }
@@ -205,14 +205,14 @@ impl Map {
                 break;
             }
         }
-        // borders of parts are those of their neighbours, but for rounding
+        // boundaries of parts are those of their neighbours, except for rounding
         self.newton(u, t).filter(|u| largest(*u) <= 1.0 + 1e-6)
     }
 }
 
 /// J⁻¹, κ, L and Q in the square.
 #[derive(Clone, Copy, Debug)]
-struct Bounds {
+struct MapBounds {
     inverse: Matrix,
     kappa: f64,
     lipschitz: f64,
@@ -221,14 +221,14 @@ struct Bounds {
 
 /// A map, ready to be inverted.
 #[derive(Clone, Debug)]
-pub(super) struct Inverse {
-    pub(super) map: Map,
-    bounds: Bounds,
+pub(super) struct MapInverse {
+    pub(super) map: PolynomialMap,
+    bounds: MapBounds,
 }
 
-impl Inverse {
+impl MapInverse {
     /// `None` if the map is singular at ξ = 0.
-    pub(super) fn new(map: Map) -> Option<Self> {
+    pub(super) fn new(map: PolynomialMap) -> Option<Self> {
         let bounds = map.bounds()?;
         Some(Self { map, bounds })
     }
@@ -239,7 +239,7 @@ impl Inverse {
     pub(super) fn at(
         &self,
         shape: Shape,
-        t: [Pair; 2],
+        t: [RoundedSum; 2],
         start: Option<[f64; 2]>,
     ) -> Option<[f64; 2]> {
         let target = t.map(|t| t.0 + t.1);
@@ -286,7 +286,7 @@ impl Inverse {
         let target = [t[0].0 + t[0].1, t[1].0 + t[1].1];
         let guess = self.bounds.inverse.times(target);
         match self.map.is_affine() {
-            true => (self.map.refined(&self.bounds.inverse, guess, t), target[0].lit(1.0)),
+            true => (self.map.refined(&self.bounds.inverse, guess, t), target[0].broadcast(1.0)),
             false => self.newton_on(guess, target),
         }
     }
@@ -295,7 +295,7 @@ impl Inverse {
     /// times its square, must be rounding.
     #[inline(always)]
     fn newton_on<R: Real>(&self, guess: [R; 2], t: [R; 2]) -> ([R; 2], R) {
-        let (one, (curvature, mut left)) = (t[0].lit(1.0), self.lane_steps());
+        let (one, (curvature, mut left)) = (t[0].broadcast(1.0), self.lane_steps());
         let mut xi = [guess[0].min(one).max(-one), guess[1].min(one).max(-one)];
         let mut size = one;
         while left > 0 {
@@ -307,14 +307,14 @@ impl Inverse {
             xi = [xi[0] - step[0], xi[1] - step[1]];
             size = largest(step);
         }
-        (xi, largest(xi) * one.lit(ROUNDING) - size * size * one.lit(curvature))
+        (xi, largest(xi) * one.broadcast(ROUNDING) - size * size * one.broadcast(curvature))
     }
 
     /// Q and the steps of Newton's method on lanes: errors are at most κ at first. Where DM turns
     /// too far for the bound (L > ½), Q is taken to be 100, and points that need more steps are
     /// looked at one by one.
     fn lane_steps(&self) -> (f64, u32) {
-        let Bounds { kappa, lipschitz, curvature, .. } = self.bounds;
+        let MapBounds { kappa, lipschitz, curvature, .. } = self.bounds;
         let q = if lipschitz <= 0.5 { curvature } else { curvature.max(100.0) };
         let (mut error, mut steps) = (q * kappa * kappa, 1);
         while error > ROUNDING && steps < MOST_STEPS {
@@ -328,8 +328,8 @@ impl Inverse {
     /// other solution lies there where this is positive.
     #[inline(always)]
     pub(super) fn uniqueness<R: Real>(&self, xi: [R; 2]) -> R {
-        let one = xi[0].lit(1.0);
-        let (size, mut contraction) = (largest(xi).max(one), one.lit(self.bounds.lipschitz));
+        let one = xi[0].broadcast(1.0);
+        let (size, mut contraction) = (largest(xi).max(one), one.broadcast(self.bounds.lipschitz));
         for _ in 1..self.map.highest() {
             contraction = contraction * size;
         }
@@ -337,7 +337,7 @@ impl Inverse {
     }
 
     /// The ξ with M(ξ) = t if it lies within a quarter of 0.
-    pub(super) fn near(&self, t: [Pair; 2]) -> Option<[f64; 2]> {
+    pub(super) fn near(&self, t: [RoundedSum; 2]) -> Option<[f64; 2]> {
         let guess = self.bounds.inverse.times(t.map(|t| t.0));
         let found = match self.map.is_affine() {
             true => Some(self.map.refined(&self.bounds.inverse, guess, t)),
@@ -347,7 +347,7 @@ impl Inverse {
     }
 
     /// The ξ with M(ξ) = t in the shape, or one that lies beside it.
-    pub(super) fn beside(&self, shape: Shape, t: [Pair; 2]) -> Option<[f64; 2]> {
+    pub(super) fn beside(&self, shape: Shape, t: [RoundedSum; 2]) -> Option<[f64; 2]> {
         let newton = || {
             let target = t.map(|t| t.0 + t.1);
             let guess = self.bounds.inverse.times(target);
@@ -368,7 +368,7 @@ enum SearchOutcome {
 /// t − (a ξ + b η) with the rounding errors of t and of the products.
 #[inline(always)]
 fn residual<R: Real>([a, b]: [f64; 2], [x, y]: [R; 2], t: (R, R)) -> R {
-    let (p, q) = (exact_product(x.lit(a), x), exact_product(y.lit(b), y));
+    let (p, q) = (exact_product(x.broadcast(a), x), exact_product(y.broadcast(b), y));
     let first = difference(t.0, p.0);
     let second = difference(first.0, q.0);
     second.0 + (first.1 + second.1 + t.1 - (p.1 + q.1))
@@ -397,6 +397,6 @@ impl Matrix {
     #[inline(always)]
     pub(super) fn times<R: Real>(&self, [x, y]: [R; 2]) -> [R; 2] {
         let Self([[a, b], [c, d]]) = *self;
-        [x.lit(a) * x + y.lit(b) * y, x.lit(c) * x + y.lit(d) * y]
+        [x.broadcast(a) * x + y.broadcast(b) * y, x.broadcast(c) * x + y.broadcast(d) * y]
     }
 }

@@ -12,15 +12,16 @@ pub enum Shape {
 }
 
 /// An edge as the half-plane a + b ξ + c η ≥ 0 that holds the shape.
-pub(super) type Edge = [f64; 3];
+pub(super) type ShapeEdge = [f64; 3];
 
-const TRIANGLE: &[Edge] = &[[0.5, 1.0, 0.0], [0.5, 0.0, 1.0], [0.5, -1.0, -1.0]];
-const SQUARE: &[Edge] = &[[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0]];
+const TRIANGLE: &[ShapeEdge] = &[[0.5, 1.0, 0.0], [0.5, 0.0, 1.0], [0.5, -1.0, -1.0]];
+const SQUARE: &[ShapeEdge] =
+    &[[1.0, 1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 0.0, 1.0], [1.0, 0.0, -1.0]];
 
 impl Shape {
     /// The edges.
     #[must_use]
-    pub fn edges(self) -> &'static [Edge] {
+    pub fn edges(self) -> &'static [ShapeEdge] {
         match self {
             Self::Triangle => TRIANGLE,
             Self::Square => SQUARE,
@@ -43,10 +44,10 @@ impl Shape {
     #[inline(always)]
     pub fn margin<R: Real>(self, at: [f64; 2], delta: [R; 2]) -> R {
         let [x, y] = delta;
-        let mut margin = x.lit(f64::INFINITY);
+        let mut margin = x.broadcast(f64::INFINITY);
         for &[a, b, c] in self.edges() {
-            let constant = x.lit(sum(a, b * at[0], c * at[1]));
-            margin = margin.min(constant + (x.lit(b) * x + y.lit(c) * y));
+            let constant = x.broadcast(sum(a, b * at[0], c * at[1]));
+            margin = margin.min(constant + (x.broadcast(b) * x + y.broadcast(c) * y));
         }
         margin
     }
@@ -87,7 +88,7 @@ mod tests {
             assert_eq!(shape.margin([0.0; 2], [0.0; 2]), inner);
             for &corner in shape.corners() {
                 assert_eq!(shape.margin(corner, [0.0; 2]), 0.0);
-                let on = |[a, b, c]: &&Edge| a + b * corner[0] + c * corner[1] == 0.0;
+                let on = |[a, b, c]: &&ShapeEdge| a + b * corner[0] + c * corner[1] == 0.0;
                 assert_eq!(shape.edges().iter().filter(on).count(), 2);
             }
             assert_eq!(shape.samples(4).count(), count);

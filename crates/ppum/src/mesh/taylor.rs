@@ -3,19 +3,19 @@
 //! Near a crack's tip or an edge values are differences of coefficients that nearly cancel; formed
 //! once with twice the digits, a view 10⁻¹⁵ of an element wide has no noise.
 
-use crate::compensated::{Pair, plus, product};
+use crate::compensated::{RoundedSum, plus, product};
 use crate::dataset::MAX_DEGREE;
 use crate::polynomial::PolynomialSpace;
 
 const SIZE: usize = MAX_DEGREE + 1;
 
 /// Coefficients of ξ^a η^b in the rows b and columns a.
-pub(super) struct Dense {
-    rows: [[Pair; SIZE]; SIZE],
+pub(super) struct DensePolynomial {
+    rows: [[RoundedSum; SIZE]; SIZE],
     degree: usize,
 }
 
-impl Dense {
+impl DensePolynomial {
     pub(super) fn new(space: PolynomialSpace, degree: usize, coefficients: &[f64]) -> Self {
         let mut rows = [[(0.0, 0.0); SIZE]; SIZE];
         for ((a, b), &c) in space.exponents(degree).zip(coefficients) {
@@ -38,7 +38,7 @@ impl Dense {
         }
     }
 
-    pub(super) fn constant(&self) -> Pair {
+    pub(super) fn constant(&self) -> RoundedSum {
         self.rows[0][0]
     }
 
@@ -51,7 +51,7 @@ impl Dense {
 }
 
 /// Repeated synthetic division (Horner 1819).
-fn shift(c: &mut [Pair], at: f64) {
+fn shift(c: &mut [RoundedSum], at: f64) {
     for end in 0..c.len() {
         for k in (end..c.len() - 1).rev() {
             c[k] = plus(c[k], product((at, 0.0), c[k + 1]));
@@ -74,7 +74,7 @@ mod tests {
         {
             let mut whole = || (random.unit() * 9.0).floor() - 4.0;
             let c: Vec<f64> = (0..space.size(degree)).map(|_| whole()).collect();
-            let mut dense = Dense::new(space, degree, &c);
+            let mut dense = DensePolynomial::new(space, degree, &c);
             dense.shift([2.0, -1.0]);
             let mut shifted = vec![0.0; c.len()];
             dense.store(space, degree, &mut shifted);
@@ -90,7 +90,7 @@ mod tests {
     fn nothing_cancels() {
         let third = 1.0 / 3.0;
         let mut c = [0.0; 9];
-        let mut dense = Dense::new(PolynomialSpace::Tensor, 8, &[0.0; 81]);
+        let mut dense = DensePolynomial::new(PolynomialSpace::Tensor, 8, &[0.0; 81]);
         c[8] = 1.0;
         let mut row = c.map(|c| (c, 0.0));
         shift(&mut row, -third);

@@ -9,10 +9,10 @@ use crate::dataset::NamedQuantity;
 use crate::equation::{EIGENSTRAINS, EXPANSION, Equation, Moduli, StressState, TEMPERATURE};
 use crate::field::Field;
 use crate::library::{Definition, EIGENSTRAIN, ELASTICITY, POISSON, STRAINS};
-use ppum_formula::real::{Real, Scalar};
+use ppum_formula::real::{LaneNumber, Real};
 use ppum_formula::{
-    Block, DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError, Scratch, Table,
-    one_line,
+    Block, BlockScratch, DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError,
+    Table, one_line,
 };
 
 /// The names that formulas of quantities may use.
@@ -57,10 +57,10 @@ pub struct QuantityFormula {
     jets: FormulaJets,
     /// The formula, and what is no number where the field has no gradient, for blocks of points.
     tested: FormulaJets,
-    /// Of the scope's inputs, those the formula needs.
-    inputs: Vec<(usize, Input)>,
+    /// The inputs of the scope that the formula needs.
+    inputs: Vec<(usize, QuantityInput)>,
     /// Those of them that the field gives, with those that the test needs besides.
-    of_field: Vec<(usize, Input)>,
+    of_field: Vec<(usize, QuantityInput)>,
     n_inputs: usize,
     /// The field that it is a quantity of.
     reflection: Reflection,
@@ -81,7 +81,7 @@ pub enum QuantityFormulaError {
 
 /// The origin of an input of a quantity's formula.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Input {
+pub enum QuantityInput {
     /// The position's first coordinate.
     X,
     /// Its second one.
@@ -106,31 +106,33 @@ pub enum Input {
     SlopeY(usize),
 }
 
-const ELASTIC_CONSTANTS: [(&str, Input); 5] = [
-    ("young", Input::Young),
-    ("poisson", Input::Poisson),
-    ("mu", Input::Mu),
-    ("lambda", Input::Lambda),
-    ("out_of_plane", Input::OutOfPlane),
+const ELASTIC_CONSTANTS: [(&str, QuantityInput); 5] = [
+    ("young", QuantityInput::Young),
+    ("poisson", QuantityInput::Poisson),
+    ("mu", QuantityInput::Mu),
+    ("lambda", QuantityInput::Lambda),
+    ("out_of_plane", QuantityInput::OutOfPlane),
 ];
 
 impl<'a> Vocabulary<'a> {
     /// The inputs of a formula.
-    fn inputs(&self) -> Vec<(String, Input)> {
+    fn inputs(&self) -> Vec<(String, QuantityInput)> {
         let constants = match self.equation {
             Equation::Elasticity(_) => ELASTIC_CONSTANTS.as_slice(),
-            Equation::Poisson { .. } => &[("conductivity", Input::Conductivity)],
+            Equation::Poisson { .. } => &[("conductivity", QuantityInput::Conductivity)],
             Equation::None => &[],
         };
-        let fixed = [("x", Input::X), ("y", Input::Y)].into_iter().chain(constants.iter().copied());
+        let fixed = [("x", QuantityInput::X), ("y", QuantityInput::Y)]
+            .into_iter()
+            .chain(constants.iter().copied());
         let mut all: Vec<_> = fixed.map(|(name, input)| (name.to_owned(), input)).collect();
         for (c, name) in self.components.iter().enumerate() {
-            all.push((name.clone(), Input::Value(c)));
-            all.push((format!("d{name}_dx"), Input::SlopeX(c)));
-            all.push((format!("d{name}_dy"), Input::SlopeY(c)));
+            all.push((name.clone(), QuantityInput::Value(c)));
+            all.push((format!("d{name}_dx"), QuantityInput::SlopeX(c)));
+            all.push((format!("d{name}_dy"), QuantityInput::SlopeY(c)));
         }
         // A component of a file may be called anything.
-        let mut known: Vec<(String, Input)> = Vec::new();
+        let mut known: Vec<(String, QuantityInput)> = Vec::new();
         for (name, input) in all {
             let is_new = known.iter().all(|(other, _)| *other != name);
             if is_new && Scope::new(&[&name]).is_ok() {
@@ -147,7 +149,7 @@ impl<'a> Vocabulary<'a> {
         if self.components.len() == 2 || is_heated { 2 } else { 0 }
     }
 
-    /// All names that formulas may use, but for those of the language.
+    /// All names that formulas may use, except those of the language.
     pub fn names(&self) -> impl Iterator<Item = String> {
         let inputs = self.inputs().into_iter().map(|(name, _)| name);
         inputs.chain(self.definitions().map(|(name, _)| name))
@@ -155,7 +157,7 @@ impl<'a> Vocabulary<'a> {
 
     /// The input of a formula by its name; `None` for names that are no inputs.
     #[must_use]
-    pub fn input(&self, name: &str) -> Option<Input> {
+    pub fn input(&self, name: &str) -> Option<QuantityInput> {
         self.inputs().into_iter().find(|(known, _)| known == name).map(|(_, input)| input)
     }
 
@@ -257,7 +259,7 @@ impl QuantityFormula {
             .map(|((name, _), formula)| (name.as_str(), formula))
             .collect();
         let formula = Formula::parse(text, &scope)?.substitute(&definitions)?;
-        let used = |formula: &Formula| -> Vec<(usize, Input)> {
+        let used = |formula: &Formula| -> Vec<(usize, QuantityInput)> {
             let all = inputs.iter().enumerate();
             all.filter(|(_, (name, _))| formula.uses(name)).map(|(i, (_, of))| (i, *of)).collect()
         };
@@ -308,8 +310,8 @@ impl QuantityFormula {
         &self.unit
     }
 
-    /// Of the scope's inputs those that the formula needs: their indices and origins.
-    pub(super) fn inputs(&self) -> &[(usize, Input)] {
+    /// Returns the inputs of the scope that the formula needs: their indices and origins.
+    pub(super) fn inputs(&self) -> &[(usize, QuantityInput)] {
         &self.inputs
     }
 
@@ -338,7 +340,10 @@ impl QuantityFormula {
     }
 
     /// A block of points at which the quantity is to be evaluated.
-    pub fn block<'a, T: Scalar>(&'a self, scratch: &'a mut Scratch<T>) -> QuantityBlock<'a, T> {
+    pub fn block<'a, T: LaneNumber>(
+        &'a self,
+        scratch: &'a mut BlockScratch<T>,
+    ) -> QuantityBlock<'a, T> {
         QuantityBlock { formula: self, block: self.tested.block(scratch) }
     }
 }
@@ -347,7 +352,7 @@ impl QuantityFormula {
 /// their signs.
 fn reflected<'a>(
     at: Reflection,
-    inputs: &[(String, Input)],
+    inputs: &[(String, QuantityInput)],
     vector: usize,
     texts: &mut [(String, Cow<'a, str>)],
 ) -> Vec<(String, Cow<'a, str>)> {
@@ -361,12 +366,12 @@ fn reflected<'a>(
             *text = format!("-({text}\n)").into();
         }
     }
-    let text = |name: &str, input: Input| match input {
-        Input::X => at.lines[0].map(|line| format!("({:?}) - {name}", 2.0 * line)),
-        Input::Y => at.lines[1].map(|line| format!("({:?}) - {name}", 2.0 * line)),
+    let text = |name: &str, input: QuantityInput| match input {
+        QuantityInput::X => at.lines[0].map(|line| format!("({:?}) - {name}", 2.0 * line)),
+        QuantityInput::Y => at.lines[1].map(|line| format!("({:?}) - {name}", 2.0 * line)),
         input => input.reflected_sign(&at, vector).filter(|s| *s < 0.0).map(|_| format!("-{name}")),
     };
-    let changed = |(name, input): &(String, Input)| {
+    let changed = |(name, input): &(String, QuantityInput)| {
         text(name, *input).map(|text| (name.clone(), Cow::Owned(text)))
     };
     inputs.iter().filter_map(changed).collect()
@@ -381,7 +386,7 @@ pub struct QuantityBlock<'a, T> {
     block: Block<'a, T>,
 }
 
-impl<'a, T: Scalar> QuantityBlock<'a, T> {
+impl<'a, T: LaneNumber> QuantityBlock<'a, T> {
     /// Number of vectors.
     #[must_use]
     pub const fn vectors<R: Real<Scalar = T>>() -> usize {
@@ -391,17 +396,17 @@ impl<'a, T: Scalar> QuantityBlock<'a, T> {
     /// The inputs that are to be filled with the field's numbers: all but the constants of
     /// the equation.
     #[must_use]
-    pub fn field_inputs(&self) -> &'a [(usize, Input)] {
+    pub fn field_inputs(&self) -> &'a [(usize, QuantityInput)] {
         &self.formula.of_field
     }
 
-    /// The numbers of an input at all points, vector by vector. They stay until they are
-    /// filled anew.
+    /// The numbers of an input at all points, vector by vector. They are kept until they are filled
+    /// again.
     pub fn input_mut(&mut self, index: usize) -> &mut [T] {
         self.block.input(index)
     }
 
-    /// The constants of the equation at a vector of points. They stay until they are set anew.
+    /// The constants of the equation at a vector of points. They are kept until they are set again.
     #[inline(always)]
     pub fn set_moduli<R: Real<Scalar = T>>(&mut self, vector: usize, moduli: &Moduli<R>) {
         for &(index, input) in &self.formula.inputs {
@@ -423,7 +428,7 @@ impl<'a, T: Scalar> QuantityBlock<'a, T> {
     pub fn value<R: Real<Scalar = T>>(&self, vector: usize, like: R) -> R {
         let value = like.load(&self.block.output(0)[vector * R::LANES..]);
         let test = like.load(&self.block.output(1)[vector * R::LANES..]);
-        R::select(test.ge(test), value, like.lit(f64::INFINITY))
+        R::select(test.ge(test), value, like.broadcast(f64::INFINITY))
     }
 }
 
@@ -435,7 +440,7 @@ impl PartialEq for QuantityFormula {
     }
 }
 
-impl Input {
+impl QuantityInput {
     /// The sign of an input of a formula; none of those that are as they were.
     fn reflected_sign(self, at: &Reflection, vector: usize) -> Option<f64> {
         let [x, y] = at.axes();
@@ -453,7 +458,7 @@ impl Input {
 
     #[inline(always)]
     fn is_modulus(self) -> bool {
-        use Input as I;
+        use QuantityInput as I;
         matches!(self, I::Young | I::Poisson | I::Mu | I::Lambda | I::OutOfPlane | I::Conductivity)
     }
 
@@ -474,8 +479,8 @@ impl Input {
     #[inline(always)]
     pub(super) fn value<R: Real>(self, at: &Sample<'_, R>) -> R {
         match self {
-            Self::X => at.offset[0] + at.offset[0].lit(at.anchor.x),
-            Self::Y => at.offset[1] + at.offset[1].lit(at.anchor.y),
+            Self::X => at.offset[0] + at.offset[0].broadcast(at.anchor.x),
+            Self::Y => at.offset[1] + at.offset[1].broadcast(at.anchor.y),
             Self::Young => at.moduli.young,
             Self::Poisson => at.moduli.poisson,
             Self::Mu => at.moduli.mu,
@@ -496,13 +501,13 @@ mod tests {
     use crate::jet::Jet;
     use crate::quantity::Quantity;
     use crate::vec2::{Vec2, vec2};
-    use ppum_formula::real::Job;
+    use ppum_formula::real::LaneJob;
     use ppum_testkit::random::Random;
 
     const ANCHOR: Vec2 = vec2(0.3, -2.0);
 
     fn moduli<R: Real>(like: R) -> Moduli<R> {
-        Moduli::new(like.lit(1.7), like.lit(0.3), StressState::PlaneStrain)
+        Moduli::new(like.broadcast(1.7), like.broadcast(0.3), StressState::PlaneStrain)
     }
 
     /// Fields at many points: u_x, ∂u_x/∂x, ∂u_x/∂y, u_y, …; some have no gradient.
@@ -521,19 +526,19 @@ mod tests {
     }
 
     fn jets<R: Real>(like: R, field: impl Fn(usize) -> R) -> [Jet<R>; 2] {
-        let zero = Jet::constant(like.lit(0.0));
+        let zero = Jet::constant(like.broadcast(0.0));
         [0, 3].map(|c| Jet { v: field(c), x: field(c + 1), y: field(c + 2), ..zero })
     }
 
     /// The values at a block of points.
     struct AtOnce<'a>(&'a QuantityFormula, &'a [[f64; 6]]);
 
-    impl Job<f64> for AtOnce<'_> {
+    impl LaneJob<f64> for AtOnce<'_> {
         type Output = Vec<f64>;
 
         #[inline(always)]
         fn run<R: Real<Scalar = f64>>(self, zero: R) -> Vec<f64> {
-            let (mut scratch, mut values) = (Scratch::default(), vec![0.0; 64]);
+            let (mut scratch, mut values) = (BlockScratch::default(), vec![0.0; 64]);
             let mut block = self.0.block(&mut scratch);
             for (vector, fields) in self.1.chunks(R::LANES).enumerate() {
                 let jets = jets(zero, |k| zero.with_lanes(|lane| fields[lane][k]));
@@ -561,7 +566,7 @@ mod tests {
     /// A block of points has the values of single points, +∞ where there is no gradient included.
     #[test]
     fn blocks_are_points() {
-        use ppum_formula::real::Scalar as _;
+        use ppum_formula::real::LaneNumber as _;
         let material = Material { young: 1.7, poisson: 0.3, state: StressState::PlaneStrain };
         let (equation, names) = (Equation::elasticity(material), ["ux", "uy"].map(str::to_owned));
         let vocabulary =

@@ -11,7 +11,7 @@
 //! and polynomials. Built-in quantities are differentiated from
 //! their [texts](crate::library::ELASTICITY).
 
-use super::formula::{Input, QuantityFormula, QuantityFormulaError, Vocabulary};
+use super::formula::{QuantityFormula, QuantityFormulaError, QuantityInput, Vocabulary};
 use super::kinds::{Axis, ELASTIC, Quantity, QuantityError};
 use super::material::MaterialGradient;
 use super::sample::Sample;
@@ -24,7 +24,7 @@ use ppum_formula::FormulaJets;
 
 /// A quantity with its gradient at a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slope {
+pub struct ValueWithGradient {
     /// q, that of [`Quantity::at`].
     pub value: f64,
     /// ∇q = (∂q/∂x, ∂q/∂y).
@@ -57,13 +57,13 @@ pub struct Slope {
 #[derive(Clone, Debug)]
 pub struct QuantityGradient {
     quantity: Quantity,
-    rule: Rule,
+    rule: GradientRule,
 }
 
 /// How the gradient is found.
 #[derive(Clone, Debug)]
-enum Rule {
-    /// Of the partition of unity.
+enum GradientRule {
+    /// Derivatives of the partition of unity.
     Partition,
     /// A component.
     Component(usize),
@@ -76,15 +76,15 @@ enum Rule {
     /// The norm of what they are less the exact solution, given by formulas with their derivatives.
     Error(Vec<FormulaJets>),
     /// The chain rule.
-    Chain(Box<Chain>),
+    Chain(Box<FormulaChain>),
 }
 
 /// A formula with its derivatives with respect to its inputs.
 #[derive(Clone, Debug)]
-struct Chain {
+struct FormulaChain {
     jets: FormulaJets,
     /// The inputs: their indices in the scope and their origins, in the order of the derivatives.
-    inputs: Vec<(usize, Input)>,
+    inputs: Vec<(usize, QuantityInput)>,
     n_inputs: usize,
     /// `None` if the material is the same everywhere.
     material: Option<MaterialGradient>,
@@ -97,7 +97,7 @@ impl QuantityGradient {
     /// The field lacks what the quantity needs, or the derivatives are too large.
     pub fn new(quantity: &Quantity, field: &Field<'_>) -> Result<Self, QuantityError> {
         quantity.check(field)?;
-        Ok(Self { quantity: quantity.clone(), rule: Rule::new(quantity, field)? })
+        Ok(Self { quantity: quantity.clone(), rule: GradientRule::new(quantity, field)? })
     }
 
     /// The quantity.
@@ -116,28 +116,35 @@ impl QuantityGradient {
     /// # Panics
     /// If the field has fewer components than the one that this was made for.
     #[must_use]
-    pub fn at(&self, local: &mut LocalField<'_>, offset: Vec2, side: Side) -> Slope {
-        if matches!(self.rule, Rule::Partition) {
-            return self.of_partition(local, offset).map_or(Slope::NOWHERE, Slope::from_jet);
+    pub fn at(&self, local: &mut LocalField<'_>, offset: Vec2, side: Side) -> ValueWithGradient {
+        if matches!(self.rule, GradientRule::Partition) {
+            return self
+                .of_partition(local, offset)
+                .map_or(ValueWithGradient::NOWHERE, ValueWithGradient::from_jet);
         }
         let mut jets = vec![Jet::constant(0.0); local.field.components()];
         let inside = match self.rule {
-            Rule::Component(_) | Rule::Norm | Rule::Error(_) => {
+            GradientRule::Component(_) | GradientRule::Norm | GradientRule::Error(_) => {
                 local.evaluate::<1>(offset, side, &mut jets)
             }
             _ => local.evaluate::<2>(offset, side, &mut jets),
         };
-        if inside { self.of_jets(local, offset, &jets) } else { Slope::NOWHERE }
+        if inside { self.of_jets(local, offset, &jets) } else { ValueWithGradient::NOWHERE }
     }
 
-    /// The same at many points, evaluated on lanes: points that follow each other should be near
-    /// each other. The numbers are those of [`at`](Self::at) up to rounding.
+    /// Evaluates at many points on lanes: points that follow each other should be near each other.
+    /// The numbers are those of [`at`](Self::at) up to rounding.
     ///
     /// # Panics
     /// As [`at`](Self::at).
     #[must_use]
-    pub fn at_many(&self, local: &mut LocalField<'_>, offsets: &[Vec2], side: Side) -> Vec<Slope> {
-        if matches!(self.rule, Rule::Partition) {
+    pub fn at_many(
+        &self,
+        local: &mut LocalField<'_>,
+        offsets: &[Vec2],
+        side: Side,
+    ) -> Vec<ValueWithGradient> {
+        if matches!(self.rule, GradientRule::Partition) {
             return offsets.iter().map(|&offset| self.at(local, offset, side)).collect();
         }
         let components = local.field.components();
@@ -146,7 +153,7 @@ impl QuantityGradient {
         let rows = offsets.iter().zip(jets.chunks(components));
         let one = |(&offset, jets): (&Vec2, &[Jet<f64>])| match local.has_values(offset, jets) {
             true => self.of_jets(local, offset, jets),
-            false => Slope::NOWHERE,
+            false => ValueWithGradient::NOWHERE,
         };
         rows.map(one).collect()
     }
@@ -158,32 +165,37 @@ impl QuantityGradient {
         local: &mut LocalField<'_>,
         offset: Vec2,
         jets: &[Jet<f64>],
-    ) -> Slope {
+    ) -> ValueWithGradient {
         match self.rule {
-            Rule::Partition => {
-                self.of_partition(local, offset).map_or(Slope::NOWHERE, Slope::from_jet)
-            }
+            GradientRule::Partition => self
+                .of_partition(local, offset)
+                .map_or(ValueWithGradient::NOWHERE, ValueWithGradient::from_jet),
             _ if local.has_values(offset, jets) => self.of_jets(local, offset, jets),
-            _ => Slope::NOWHERE,
+            _ => ValueWithGradient::NOWHERE,
         }
     }
 
     /// Where the field is known, at a point of the domain.
-    fn of_jets(&self, local: &LocalField<'_>, offset: Vec2, jets: &[Jet<f64>]) -> Slope {
+    fn of_jets(
+        &self,
+        local: &LocalField<'_>,
+        offset: Vec2,
+        jets: &[Jet<f64>],
+    ) -> ValueWithGradient {
         let value = self.quantity.of_values(local, offset, jets);
         let gradient = match &self.rule {
-            Rule::Partition => vec2(f64::NAN, f64::NAN),
-            Rule::Component(c) => gradient(&jets[*c]),
-            Rule::Derivative(c, axis) => gradient_of_derivative(&jets[*c], *axis),
-            Rule::Norm => norm(jets.iter().map(|u| (u.v, gradient(u))), value),
-            Rule::GradientNorm => norm(jets.iter().flat_map(derivatives), value),
-            Rule::Error(exact) => {
+            GradientRule::Partition => vec2(f64::NAN, f64::NAN),
+            GradientRule::Component(c) => gradient(&jets[*c]),
+            GradientRule::Derivative(c, axis) => gradient_of_derivative(&jets[*c], *axis),
+            GradientRule::Norm => norm(jets.iter().map(|u| (u.v, gradient(u))), value),
+            GradientRule::GradientNorm => norm(jets.iter().flat_map(derivatives), value),
+            GradientRule::Error(exact) => {
                 let p = local.anchor + offset;
                 norm(jets.iter().zip(exact).map(|(u, exact)| difference(u, exact, p)), value)
             }
-            Rule::Chain(chain) => chain.gradient(local, offset, jets),
+            GradientRule::Chain(chain) => chain.gradient(local, offset, jets),
         };
-        Slope { value, gradient }
+        ValueWithGradient { value, gradient }
     }
 
     /// A quantity of the partition; `None` outside the domain.
@@ -198,7 +210,7 @@ impl QuantityGradient {
     }
 }
 
-impl Slope {
+impl ValueWithGradient {
     /// Outside the domain.
     const NOWHERE: Self = Self { value: f64::NAN, gradient: vec2(f64::NAN, f64::NAN) };
 
@@ -207,7 +219,7 @@ impl Slope {
     }
 }
 
-impl Rule {
+impl GradientRule {
     fn new(quantity: &Quantity, field: &Field<'_>) -> Result<Self, QuantityError> {
         Ok(match quantity {
             Quantity::WeightSum | Quantity::Overlap | Quantity::PartitionFunction(_) => {
@@ -222,10 +234,10 @@ impl Rule {
                 let exact: Result<_, _> = field.exact_formulas().iter().map(compile).collect();
                 Self::Error(exact.map_err(QuantityFormulaError::from)?)
             }
-            Quantity::Formula(formula) => Self::Chain(Box::new(Chain::new(formula, field)?)),
+            Quantity::Formula(formula) => Self::Chain(Box::new(FormulaChain::new(formula, field)?)),
             built_in => {
                 let formula = text(built_in, field)?;
-                Self::Chain(Box::new(Chain::new(&formula, field)?))
+                Self::Chain(Box::new(FormulaChain::new(&formula, field)?))
             }
         })
     }
@@ -255,7 +267,7 @@ fn text(quantity: &Quantity, field: &Field<'_>) -> Result<QuantityFormula, Quant
     QuantityFormula::new(&text, &vocabulary)
 }
 
-impl Chain {
+impl FormulaChain {
     fn new(formula: &QuantityFormula, field: &Field<'_>) -> Result<Self, QuantityFormulaError> {
         let names: Vec<&str> = formula.formula().scope().inputs().collect();
         let inputs = formula.inputs().to_vec();
@@ -286,7 +298,7 @@ impl Chain {
     }
 }
 
-impl Input {
+impl QuantityInput {
     fn gradient(self, jets: &[Jet<f64>], material: Option<&Moduli<Vec2>>) -> Vec2 {
         let modulus = |of: fn(&Moduli<Vec2>) -> Vec2| material.map_or(Vec2::ZERO, of);
         match self {

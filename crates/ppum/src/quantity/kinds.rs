@@ -256,13 +256,13 @@ impl Quantity {
             Q::GradientNorm => norm(u.iter().flat_map(|jet| [jet.x, jet.y]), u[0].v),
             Q::EnergyDensity if u.len() == 1 => {
                 let square = u[0].x.mul_add(u[0].x, u[0].y * u[0].y);
-                square * square.lit(0.5) * at.moduli.conductivity
+                square * square.broadcast(0.5) * at.moduli.conductivity
             }
-            _ if u.len() < 2 => u[0].v.lit(f64::NAN),
+            _ if u.len() < 2 => u[0].v.broadcast(f64::NAN),
             _ if u.len() > 2 => self.of_strain(&at.moduli.heated(u[2].v), &Strain::new(u)),
             _ => self.of_strain(&at.moduli, &Strain::new(u)),
         };
-        at.apart(R::select(value.ge(value), value, value.lit(f64::INFINITY)))
+        at.apart(R::select(value.ge(value), value, value.broadcast(f64::INFINITY)))
     }
 
     #[inline(always)]
@@ -284,9 +284,9 @@ impl Quantity {
             Q::Principal1 => s.center() + s.radius(),
             Q::Principal2 => s.center() - s.radius(),
             Q::PrincipalDirection => s.direction(),
-            Q::Hydrostatic => (s.xx + s.yy + s.zz) * s.xx.lit(1.0 / 3.0),
+            Q::Hydrostatic => (s.xx + s.yy + s.zz) * s.xx.broadcast(1.0 / 3.0),
             Q::EnergyDensity => elastic.energy(&s, moduli),
-            _ => s.xx.lit(f64::NAN),
+            _ => s.xx.broadcast(f64::NAN),
         }
     }
 
@@ -393,7 +393,7 @@ impl Axis {
 /// √Σ v²
 #[inline(always)]
 fn norm<R: Real>(values: impl Iterator<Item = R>, like: R) -> R {
-    let mut square = like.lit(0.0);
+    let mut square = like.broadcast(0.0);
     for v in values {
         square = v.mul_add(v, square);
     }
@@ -403,7 +403,7 @@ fn norm<R: Real>(values: impl Iterator<Item = R>, like: R) -> R {
 /// √Σ (u − e)²
 #[inline(always)]
 fn distance<R: Real>(u: &[Jet<R>], exact: &[R]) -> R {
-    let (mut square, mut c) = (u[0].v.lit(0.0), 0);
+    let (mut square, mut c) = (u[0].v.broadcast(0.0), 0);
     while c < u.len() {
         let difference = u[c].v - exact[c];
         square = difference.mul_add(difference, square);

@@ -16,9 +16,11 @@ mod reflection;
 mod sample;
 mod tensors;
 
-pub use formula::{Input, QuantityBlock, QuantityFormula, QuantityFormulaError, Vocabulary};
-pub use gradient::{QuantityGradient, Slope};
+pub use formula::{
+    QuantityBlock, QuantityFormula, QuantityFormulaError, QuantityInput, Vocabulary,
+};
+pub use gradient::{QuantityGradient, ValueWithGradient};
 pub use kinds::{Axis, Quantity, QuantityError, available, names};
-pub use reflected::Reflected;
+pub use reflected::ReflectedQuantity;
 pub use reflection::{Reflection, ValueChange};
 pub use sample::{Sample, Source};

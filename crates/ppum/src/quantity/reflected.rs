@@ -22,7 +22,7 @@ use crate::field::Field;
 /// A quantity of a field that has, at Sx and changed, the values of one of the reflected field at
 /// x.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Reflected {
+pub struct ReflectedQuantity {
     /// The quantity.
     pub quantity: Quantity,
     /// The change of its values.
@@ -38,7 +38,7 @@ impl Quantity {
         &self,
         at: &Reflection,
         field: &Field<'_>,
-    ) -> Result<Reflected, QuantityError> {
+    ) -> Result<ReflectedQuantity, QuantityError> {
         use Quantity as Q;
         let ([x, y], sign) = (at.axes(), at.sign());
         let vector = Vocabulary::of(field).vector();
@@ -48,10 +48,10 @@ impl Quantity {
                 let formula = formula.reflected(&Vocabulary::of(field), *at);
                 let formula = formula.map_err(QuantityError::Formula)?;
                 let quantity = Q::Formula(Arc::new(formula));
-                return Ok(Reflected { quantity, change: ValueChange::Same });
+                return Ok(ReflectedQuantity { quantity, change: ValueChange::Same });
             }
             Q::PrincipalDirection => {
-                return Ok(Reflected { quantity: self.clone(), change: at.direction() });
+                return Ok(ReflectedQuantity { quantity: self.clone(), change: at.direction() });
             }
             Q::Component(c) => at.of_component(usize::from(*c), vector),
             Q::Derivative(c, Axis::X) => at.of_component(usize::from(*c), vector) * x,
@@ -67,6 +67,6 @@ impl Quantity {
             Q::Principal2 if at.is_odd => Q::Principal1,
             same => same.clone(),
         };
-        Ok(Reflected { quantity, change: ValueChange::signed(sign) })
+        Ok(ReflectedQuantity { quantity, change: ValueChange::signed(sign) })
     }
 }

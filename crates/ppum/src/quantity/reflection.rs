@@ -13,8 +13,8 @@ pub struct Reflection {
     pub is_odd: bool,
 }
 
-/// What makes the values of a quantity of the reflected field of those of another quantity of the
-/// field. It undoes itself.
+/// The change that turns the values of a quantity of a field into those of another quantity of the
+/// reflected field. It is its own inverse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ValueChange {
     /// Nothing.

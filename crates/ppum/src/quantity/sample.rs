@@ -1,4 +1,4 @@
-//! What quantities are made of.
+//! The data that quantities are made of.
 
 use crate::equation::Moduli;
 use crate::jet::Jet;
@@ -39,7 +39,7 @@ impl<R: Real> Sample<'_, R> {
     /// A quantity of the gradient: +∞ where a derivative of any component is infinite or none.
     #[inline(always)]
     pub(super) fn apart(&self, value: R) -> R {
-        let (zero, infinite) = (value.lit(0.0), value.lit(f64::INFINITY));
+        let (zero, infinite) = (value.broadcast(0.0), value.broadcast(f64::INFINITY));
         // zero, or NaN
         let mut test = zero;
         for jet in self.jets {

@@ -25,7 +25,7 @@ pub(super) struct Stress<R> {
 impl<R: Real> Strain<R> {
     #[inline(always)]
     pub(super) fn new(u: &[Jet<R>]) -> Self {
-        let half = u[0].v.lit(0.5);
+        let half = u[0].v.broadcast(0.5);
         let curl = u[1].x - u[0].y;
         Self { xx: u[0].x, yy: u[1].y, xy: (u[0].y + u[1].x) * half, curl }
     }
@@ -51,7 +51,7 @@ impl<R: Real> Strain<R> {
     /// (ε⁰_zz)² beside.
     #[inline(always)]
     pub(super) fn energy(&self, s: &Stress<R>, moduli: &Moduli<R>) -> R {
-        let (half, through) = (self.xx.lit(0.5), moduli.eigenstrain[3]);
+        let (half, through) = (self.xx.broadcast(0.5), moduli.eigenstrain[3]);
         let plane = half * s.xx.mul_add(self.xx, s.yy * self.yy) + s.xy * self.xy;
         plane + half * moduli.young * (through * through)
     }
@@ -60,21 +60,21 @@ impl<R: Real> Strain<R> {
 impl<R: Real> Stress<R> {
     #[inline(always)]
     pub(super) fn center(&self) -> R {
-        (self.xx + self.yy) * self.xx.lit(0.5)
+        (self.xx + self.yy) * self.xx.broadcast(0.5)
     }
 
     /// Radius of Mohr's circle.
     #[inline(always)]
     pub(super) fn radius(&self) -> R {
-        let half = (self.xx - self.yy) * self.xx.lit(0.5);
+        let half = (self.xx - self.yy) * self.xx.broadcast(0.5);
         half.mul_add(half, self.xy * self.xy).sqrt()
     }
 
     #[inline(always)]
     pub(super) fn von_mises(&self) -> R {
         let (a, b, c) = (self.xx - self.yy, self.yy - self.zz, self.zz - self.xx);
-        let normal = a.mul_add(a, b.mul_add(b, c * c)) * a.lit(0.5);
-        (self.xy * self.xy).mul_add(a.lit(3.0), normal).sqrt()
+        let normal = a.mul_add(a, b.mul_add(b, c * c)) * a.broadcast(0.5);
+        (self.xy * self.xy).mul_add(a.broadcast(3.0), normal).sqrt()
     }
 
     #[inline(always)]
@@ -87,16 +87,16 @@ impl<R: Real> Stress<R> {
     /// π/2 on its pole.
     #[inline(always)]
     pub(super) fn direction(&self) -> R {
-        let half = (self.xx - self.yy) * self.xx.lit(0.5);
+        let half = (self.xx - self.yy) * self.xx.broadcast(0.5);
         let radius = self.radius();
-        let zero = half.lit(0.0);
+        let zero = half.broadcast(0.0);
         // tan = xy/(r + h) = (r − h)/xy: the form that does not cancel
         let ahead = half.ge(zero);
         let (up, down) =
             (R::select(ahead, self.xy, radius - half), R::select(ahead, radius + half, self.xy));
         // a radius that is not a number stays one: there is no direction where there is no gradient
         let tangent = R::select(radius.gt(zero), up / down, radius);
-        let is_pole = zero.lit(f64::NEG_INFINITY).ge(tangent);
-        R::in_double([R::select(is_pole, -tangent, tangent)], Atan)
+        let is_pole = zero.broadcast(f64::NEG_INFINITY).ge(tangent);
+        R::via_f64([R::select(is_pole, -tangent, tangent)], Atan)
     }
 }

@@ -1,6 +1,6 @@
 //! Where curves pass through cracks.
 
-use super::place::Place;
+use super::place::SidedPoint;
 use crate::crack::{Crack, CrackEnd, SegmentId, Side};
 use crate::vec2::Vec2;
 
@@ -19,7 +19,7 @@ pub struct Passage {
     /// The curve's variable there.
     pub at: f64,
     /// The point, on the side that the curve comes from and on that where it goes on.
-    pub places: [Place; 2],
+    pub places: [SidedPoint; 2],
 }
 
 /// Passages nearer to each other than this part of the curve are one: through a kink, or through
@@ -63,7 +63,7 @@ pub fn passages_from(cracks: &[Crack], anchor: Vec2, curve: Curve) -> Vec<Passag
         let offset = curve.refined([points[0], points[1]], passage.places[0].point);
         passage.at = curve.at(offset).0;
         for place in &mut passage.places {
-            *place = Place { point: anchor + offset, anchor, offset, ..*place };
+            *place = SidedPoint { point: anchor + offset, anchor, offset, ..*place };
         }
     }
     all
@@ -147,7 +147,8 @@ impl Curve {
         };
         let goes_up = (q - p).cross(way) > 0.0;
         let sides = if goes_up { [Side::Below, Side::Above] } else { [Side::Above, Side::Below] };
-        let place = |side| Place { point, anchor: point, offset: Vec2::ZERO, on: Some(id), side };
+        let place =
+            |side| SidedPoint { point, anchor: point, offset: Vec2::ZERO, on: Some(id), side };
         is_within.then(|| Passage { at, places: sides.map(place) })
     }
 }

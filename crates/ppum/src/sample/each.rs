@@ -5,23 +5,23 @@
 //! that one patch covers are evaluated by it, and the others apart from them, where a patch that
 //! does not cover a point adds zero.
 
-use super::place::Place;
+use super::place::SidedPoint;
 use crate::crack::{SegmentId, Side};
 use crate::field::{Field, LocalField};
 use crate::jet::Jet;
 use crate::quantity::{Quantity, QuantityGradient, Source};
 use crate::vec2::Vec2;
 
-/// What is wanted at each place.
+/// The values that are evaluated at each place.
 #[derive(Clone, Copy, Debug)]
-pub enum Wanted<'q> {
+pub enum SampledQuantity<'q> {
     /// The values of quantities: one number for each.
     Values(&'q [Quantity]),
     /// Values and gradients: q, ∂q/∂x, ∂q/∂y for each.
     Slopes(&'q [QuantityGradient]),
 }
 
-impl Wanted<'_> {
+impl SampledQuantity<'_> {
     /// Numbers at a place.
     #[must_use]
     pub fn width(&self) -> usize {
@@ -34,7 +34,7 @@ impl Wanted<'_> {
     fn jets(
         &self,
         local: &LocalField<'_>,
-        at: (&[Vec2], &Place),
+        at: (&[Vec2], &SidedPoint),
         patches: &[u32],
         out: &mut [Jet<f64>],
     ) {
@@ -74,13 +74,18 @@ const CHUNK: usize = 1 << 16;
 /// Points that several patches cover, evaluated together: the lanes of the widest processors.
 const LANES: usize = 8;
 
-/// What is wanted at each place, in rows: shape (places, [width](Wanted::width)), flattened; NaN
-/// outside the domain and where a quantity has no value.
+/// Evaluates the requested values at each place, in rows: shape (places,
+/// [width](SampledQuantity::width)), flattened; NaN outside the domain and where a quantity has no
+/// value.
 ///
 /// Equal places have equal rows, to the last bit, whatever the other places are and their order.
 /// Places may stand in any order; those that are near each other are evaluated together.
 #[must_use]
-pub fn evaluate_each(field: &Field<'_>, wanted: Wanted<'_>, places: &[Place]) -> Vec<f64> {
+pub fn evaluate_each(
+    field: &Field<'_>,
+    wanted: SampledQuantity<'_>,
+    places: &[SidedPoint],
+) -> Vec<f64> {
     let width = wanted.width();
     let mut rows = vec![f64::NAN; places.len() * width];
     if width > 0 {
@@ -95,7 +100,7 @@ pub fn evaluate_each(field: &Field<'_>, wanted: Wanted<'_>, places: &[Place]) ->
 /// Places with the patches that cover them.
 struct Chunk<'a, 'd> {
     field: &'a Field<'d>,
-    places: &'a [Place],
+    places: &'a [SidedPoint],
     /// All patches, those of each place from its start to that of the next.
     patches: Vec<u32>,
     starts: Vec<u32>,
@@ -113,14 +118,14 @@ struct Memory {
 
 /// How a place is covered.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Cover {
+enum PlaceCover {
     Nowhere,
     Alone(u32),
     Shared,
 }
 
 impl<'a, 'd> Chunk<'a, 'd> {
-    fn new(field: &'a Field<'d>, places: &'a [Place]) -> Self {
+    fn new(field: &'a Field<'d>, places: &'a [SidedPoint]) -> Self {
         let (mut patches, mut starts) = (Vec::with_capacity(2 * places.len()), vec![0]);
         let mut order = Vec::with_capacity(places.len());
         for (number, place) in (0..).zip(places) {
@@ -133,7 +138,7 @@ impl<'a, 'd> Chunk<'a, 'd> {
         Self { field, places, patches, starts, order }
     }
 
-    fn place(&self, key: u64) -> &'a Place {
+    fn place(&self, key: u64) -> &'a SidedPoint {
         &self.places[number(key)]
     }
 
@@ -142,22 +147,22 @@ impl<'a, 'd> Chunk<'a, 'd> {
         &self.patches[self.starts[number] as usize..self.starts[number + 1] as usize]
     }
 
-    fn cover(&self, key: u64) -> Cover {
+    fn cover(&self, key: u64) -> PlaceCover {
         match self.patches(key) {
-            [] => Cover::Nowhere,
-            [patch] => Cover::Alone(*patch),
-            _ => Cover::Shared,
+            [] => PlaceCover::Nowhere,
+            [patch] => PlaceCover::Alone(*patch),
+            _ => PlaceCover::Shared,
         }
     }
 
-    fn evaluate(&self, wanted: Wanted<'_>, memory: &mut Memory, rows: &mut [f64]) {
+    fn evaluate(&self, wanted: SampledQuantity<'_>, memory: &mut Memory, rows: &mut [f64]) {
         for run in self.order.chunk_by(|&a, &b| seat(self.place(a)) == seat(self.place(b))) {
             let mut local = self.place(run[0]).seen(self.field);
             for part in run.chunk_by(|&a, &b| self.cover(a) == self.cover(b)) {
                 let most = match self.cover(part[0]) {
-                    Cover::Nowhere => continue,
-                    Cover::Alone(_) => part.len(),
-                    Cover::Shared => LANES,
+                    PlaceCover::Nowhere => continue,
+                    PlaceCover::Alone(_) => part.len(),
+                    PlaceCover::Shared => LANES,
                 };
                 for keys in part.chunks(most) {
                     self.together(&mut local, keys, wanted, memory, rows);
@@ -170,19 +175,19 @@ impl<'a, 'd> Chunk<'a, 'd> {
     fn collect_patches(&self, keys: &[u64], all: &mut Vec<u32>) {
         all.clear();
         match self.cover(keys[0]) {
-            Cover::Alone(patch) => all.push(patch),
+            PlaceCover::Alone(patch) => all.push(patch),
             _ => keys.iter().for_each(|&key| all.extend_from_slice(self.patches(key))),
         }
         all.sort_unstable();
         all.dedup();
     }
 
-    /// Evaluates places of one seat over the patches that cover them.
+    /// Evaluates places of one anchor and face over the patches that cover them.
     fn together(
         &self,
         local: &mut LocalField<'_>,
         keys: &[u64],
-        wanted: Wanted<'_>,
+        wanted: SampledQuantity<'_>,
         memory: &mut Memory,
         rows: &mut [f64],
     ) {
@@ -207,15 +212,16 @@ fn number(key: u64) -> usize {
     (key & (CHUNK as u64 - 1)) as usize
 }
 
-/// Places of one seat are seen by one [`LocalField`].
-fn seat(place: &Place) -> ([u64; 2], Option<SegmentId>, bool) {
+/// The anchor and the face of a place: those that have them in common share one [`LocalField`].
+fn seat(place: &SidedPoint) -> ([u64; 2], Option<SegmentId>, bool) {
     let Vec2 { x, y } = place.anchor;
     ([x.to_bits(), y.to_bits()], place.on, place.side == Side::Above)
 }
 
-/// 48 bits that bring together places of one seat, in them those of one patch, and of these
-/// neighbours. That different ones have the same key takes a little time, and changes no value.
-fn key(field: &Field<'_>, place: &Place, patches: &[u32]) -> u64 {
+/// 48 bits that bring together places of one anchor and face, among them those of one patch, and of
+/// these neighbours. That different ones have the same key takes a little time, and changes no
+/// value.
+fn key(field: &Field<'_>, place: &SidedPoint, patches: &[u32]) -> u64 {
     let ([x, y], on, above) = seat(place);
     let on = on.map_or(0, |on| ((u64::from(on.crack) << 32) | u64::from(on.segment)) + 1);
     let side = (on << 1) ^ u64::from(above);

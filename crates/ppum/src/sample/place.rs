@@ -8,7 +8,7 @@ use crate::vec2::{Rect, Vec2};
 
 /// A point with the side of a crack that is meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub struct SidedPoint {
     /// The point as it was meant: `anchor + offset` may round to its neighbour.
     pub point: Vec2,
     /// The anchor that the field is seen from; places near each other share theirs.
@@ -21,7 +21,7 @@ pub struct Place {
     pub side: Side,
 }
 
-impl Place {
+impl SidedPoint {
     /// The places of the point `anchor + offset`: above and below where it lies on a crack, else
     /// one alone.
     #[must_use]
@@ -55,11 +55,11 @@ impl Place {
 /// Rounding of a point's coordinates and of its distance from a rim, in parts of their size.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Makes places that lie on the border of the domain or on the rim of a hole, but for the rounding
-/// of their coordinates, places of the domain: they are seen from a few roundings beside it, on its
-/// side, and keep their `point`. Places that are not given by their coordinates need none of it:
-/// their offsets mean what they say.
-pub fn settle(domain: &Domain, places: &mut [Place]) {
+/// Makes places that lie on the boundary of the domain or on the rim of a hole, up to the rounding
+/// of their coordinates, belong to the domain: they are evaluated a few roundings beside it, on its
+/// side, and keep their `point`. Places that are not given by their coordinates do not need this:
+/// their offsets are exact.
+pub fn settle(domain: &Domain, places: &mut [SidedPoint]) {
     let Rect { min, max } = domain.bounds;
     let extent = [min.x, min.y, max.x, max.y].into_iter().fold(0.0, largest);
     for seat in places.chunk_by_mut(|a, b| a.anchor == b.anchor) {

@@ -3,7 +3,7 @@
 use crate::support::{assert_close, compiled, distance_to_cracks, evaluate, inside, patch_size};
 use ppum::crack::Side;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_testkit::extended::{Double, Extended, point};
+use ppum_testkit::extended::{DoubleDouble, ExtendedField, point};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::Recipe;
 
@@ -50,7 +50,7 @@ fn values_and_gradients_against_extended_precision() {
     for seed in 0..20 {
         let recipe = if seed < 16 { Recipe::random(seed) } else { Recipe::meeting() };
         let dataset = Recipe { extra: Vec::new(), ..recipe }.dataset();
-        let (field, extended) = (compiled(&dataset), Extended::new(&dataset, 0));
+        let (field, extended) = (compiled(&dataset), ExtendedField::new(&dataset, 0));
         let mut random = Random(seed);
         for _ in 0..20 {
             let anchor = random.point(&dataset.domain.bounds);
@@ -65,7 +65,7 @@ fn values_and_gradients_against_extended_precision() {
                 let length = patch_size(field.step, p).min(distance_to_cracks(field.step, p));
                 let exact = extended.evaluate(point(anchor, offset));
                 for (u, exact) in u.iter().zip(exact) {
-                    let [v, x, y] = [exact.v, exact.x, exact.y].map(Double::to_f64);
+                    let [v, x, y] = [exact.v, exact.x, exact.y].map(DoubleDouble::to_f64);
                     let exact = ppum::jet::Jet { v, x, y, ..ppum::jet::Jet::constant(0.0) };
                     assert_close(u, &exact, 1e-13, 10.0, length);
                 }

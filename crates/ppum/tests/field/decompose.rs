@@ -3,14 +3,14 @@
 use crate::support::{assert_close, compiled, entries, inside};
 use ppum::crack::{CrackEnd, Side};
 use ppum::dataset::Dataset;
-use ppum::decompose::{KINDS, Part, PartError};
+use ppum::decompose::{FieldPart, KINDS, PartError};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Coefficients, Recipe, crack};
 
 /// The dataset with a part of its field in the field's place.
-fn part(whole: &Dataset, part: Part) -> Dataset {
+fn part(whole: &Dataset, part: FieldPart) -> Dataset {
     let mut dataset = whole.clone();
     let step = &mut dataset.steps[0];
     step.fields[0] = step.fields[0].part(part, &step.functions).expect("a part that there is");
@@ -35,7 +35,7 @@ fn values(dataset: &Dataset, points: &[Vec2], side: Side) -> Vec<Jet<f64>> {
 
 /// The parts add up to the whole but for rounding, which is relative to the sum of their sizes.
 #[track_caller]
-fn assert_sum(whole: &Dataset, parts: &[Part], count: usize) {
+fn assert_sum(whole: &Dataset, parts: &[FieldPart], count: usize) {
     let points = points(whole, count);
     for side in [Side::Above, Side::Below] {
         let expected = values(whole, &points, side);
@@ -65,7 +65,7 @@ fn kinds_add_up_to_the_whole() {
         assert_sum(&Recipe::random(seed).dataset(), &KINDS, 40);
     }
     let meeting = Recipe { coefficients: Coefficients::Random, ..Recipe::meeting() };
-    assert_sum(&meeting.dataset(), &[Part::Smooth, Part::Jump, Part::Tip], 40);
+    assert_sum(&meeting.dataset(), &[FieldPart::Smooth, FieldPart::Jump, FieldPart::Tip], 40);
 }
 
 /// Functions of components are jumps: without them the rest is the same on both faces of an arm of
@@ -76,20 +76,20 @@ fn components_are_jumps() {
     let dataset = recipe.dataset();
     let arm = &recipe.cracks[1].points;
     let (place, normal) = (arm[0] + (arm[1] - arm[0]) * 0.1, (arm[1] - arm[0]).unit().left());
-    let apart = |which: Part| {
+    let apart = |which: FieldPart| {
         let part = part(&dataset, which);
         let [above, below] =
             [1e-9, -1e-9].map(|step| values(&part, &[place + normal * step], Side::Above));
         (above[0].v - below[0].v).abs()
     };
-    assert!(apart(Part::Smooth) < 1e-6 && apart(Part::Jump) > 0.02);
+    assert!(apart(FieldPart::Smooth) < 1e-6 && apart(FieldPart::Jump) > 0.02);
 }
 
 #[test]
 fn patches_add_up_to_the_whole() {
     let dataset = Recipe { level: 0, random_rounds: 1, points: 0, ..Recipe::random(2) }.dataset();
     let count = dataset.steps[0].partition.len() as u32;
-    let patches: Vec<_> = (0..count).map(Part::Patch).collect();
+    let patches: Vec<_> = (0..count).map(FieldPart::Patch).collect();
     assert_sum(&dataset, &patches, 10);
 }
 
@@ -99,7 +99,7 @@ fn a_patch_ends_with_its_support() {
     let dataset = Recipe { overlap: 1.2, ..Recipe::default() }.dataset();
     let partition = dataset.steps[0].partition.boxes();
     for patch in [0, 17, partition.len() - 1] {
-        let alone = part(&dataset, Part::Patch(patch as u32));
+        let alone = part(&dataset, FieldPart::Patch(patch as u32));
         let center = [partition.center[patch]];
         assert_eq!(values(&alone, &center, Side::Above), values(&dataset, &center, Side::Above));
         let support = partition.support(patch);
@@ -122,18 +122,20 @@ fn only_the_jump_jumps() {
         let part = part(&dataset, which);
         [Side::Above, Side::Below].map(|side| values(&part, &on, side))
     };
-    let [above, below] = sides(Part::Smooth);
+    let [above, below] = sides(FieldPart::Smooth);
     assert_eq!(above, below);
     assert!(above[0].v != 0.0);
-    let [above, below] = sides(Part::Jump);
+    let [above, below] = sides(FieldPart::Jump);
     for (above, below) in above.iter().zip(&below) {
         assert!(above.v != 0.0);
         assert_close(&above.plus::<2>(*below), &Jet::constant(0.0), 1e-14, above.v.abs(), 1e-2);
     }
     let tip = [vec2(0.6, 0.1)];
     let gradient = |dataset: &Dataset| values(dataset, &tip, Side::Above)[0].x;
-    assert!(gradient(&part(&dataset, Part::Smooth)).is_finite());
-    assert!(!gradient(&part(&dataset, Part::Tip)).is_finite() && !gradient(&dataset).is_finite());
+    assert!(gradient(&part(&dataset, FieldPart::Smooth)).is_finite());
+    assert!(
+        !gradient(&part(&dataset, FieldPart::Tip)).is_finite() && !gradient(&dataset).is_finite()
+    );
 }
 
 #[test]
@@ -142,21 +144,21 @@ fn what_there_is_not_is_told() {
     let step = &dataset.steps[0];
     let fail = |part| step.fields[0].part(part, &step.functions).unwrap_err();
     assert_eq!(
-        fail(Part::Jump).to_string(),
+        fail(FieldPart::Jump).to_string(),
         "field `displacement` has no block of the part `jump`; the kinds that it has are smooth"
     );
     let count = step.partition.len();
     let patch = count as u32;
-    assert_eq!(fail(Part::Patch(patch)), PartError::NoPatch { patch, count });
+    assert_eq!(fail(FieldPart::Patch(patch)), PartError::NoPatch { patch, count });
 }
 
 #[test]
 fn words() {
-    for part in KINDS.into_iter().chain([Part::Patch(0), Part::Patch(u32::MAX)]) {
+    for part in KINDS.into_iter().chain([FieldPart::Patch(0), FieldPart::Patch(u32::MAX)]) {
         assert_eq!(part.to_string().parse(), Ok(part));
     }
     for wrong in ["", "Jump", "patch", "patch:", "patch:-1", "patch:4294967296", "patch:x"] {
-        let error = wrong.parse::<Part>().unwrap_err().to_string();
+        let error = wrong.parse::<FieldPart>().unwrap_err().to_string();
         assert!(error.contains(wrong) && error.contains("patch:N"), "{error}");
     }
 }

@@ -8,7 +8,7 @@ use ppum::quantity::Quantity;
 use ppum::segment::polyline_distance;
 use ppum::vec2::{Vec2, vec2};
 use ppum::weight::WeightFunction;
-use ppum_testkit::extended::{Extended, point, von_mises};
+use ppum_testkit::extended::{ExtendedField, point, von_mises};
 use ppum_testkit::synthetic::{Recipe, crack};
 
 /// Directions and radii around an anchor.
@@ -16,7 +16,7 @@ const DIRECTIONS: u32 = 40;
 
 /// Largest relative error of von Mises' stress at offsets of 1e-13 to 1 from an anchor.
 fn largest_error(dataset: &Dataset, anchor: Vec2) -> f64 {
-    let (field, extended) = (compiled(dataset), Extended::new(dataset, 0));
+    let (field, extended) = (compiled(dataset), ExtendedField::new(dataset, 0));
     let material = dataset.equation.elastic().and_then(Elasticity::uniform).expect("elasticity");
     let mut local = field.at(anchor);
     let (mut largest, mut count) = (0.0f64, 0);

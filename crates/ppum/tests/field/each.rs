@@ -4,14 +4,14 @@ use crate::support::compiled;
 use ppum::crack::{Side, tips};
 use ppum::field::Field;
 use ppum::quantity::{Quantity, QuantityGradient};
-use ppum::sample::{Place, Seats, Wanted, evaluate_each};
+use ppum::sample::{AnchorMap, SampledQuantity, SidedPoint, evaluate_each};
 use ppum::vec2::{Vec2, vec2};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::Recipe;
 
 /// Points all over the plate and beyond it, on its border, on cracks, and about tips down to 1e-12.
-fn places(field: &Field<'_>, random: &mut Random) -> Vec<Place> {
-    let (seats, bounds, cracks) = (Seats::new(field), field.domain.bounds, &field.step.cracks);
+fn places(field: &Field<'_>, random: &mut Random) -> Vec<SidedPoint> {
+    let (seats, bounds, cracks) = (AnchorMap::new(field), field.domain.bounds, &field.step.cracks);
     let mut points: Vec<Vec2> = (0..600).map(|_| random.point(&bounds)).collect();
     points.extend([bounds.min, bounds.max, bounds.max + vec2(1.0, 0.0), vec2(f64::NAN, 0.0)]);
     for tip in tips(cracks) {
@@ -32,7 +32,7 @@ fn bits(rows: &[f64]) -> Vec<u64> {
 }
 
 /// Alone, in any order, in any company: the same bits.
-fn assert_alone_as_together(field: &Field<'_>, wanted: Wanted<'_>, random: &mut Random) {
+fn assert_alone_as_together(field: &Field<'_>, wanted: SampledQuantity<'_>, random: &mut Random) {
     let (places, width) = (places(field, random), wanted.width());
     let together = evaluate_each(field, wanted, &places);
     let mut order: Vec<usize> = (0..places.len()).collect();
@@ -40,7 +40,7 @@ fn assert_alone_as_together(field: &Field<'_>, wanted: Wanted<'_>, random: &mut 
         order.swap(k, random.below(k + 1));
     }
     order.truncate(places.len() / 2);
-    let some: Vec<Place> = order.iter().map(|&k| places[k]).collect();
+    let some: Vec<SidedPoint> = order.iter().map(|&k| places[k]).collect();
     let shuffled = evaluate_each(field, wanted, &some);
     for (&k, row) in order.iter().zip(shuffled.chunks(width)) {
         let expected = bits(&together[k * width..][..width]);
@@ -57,11 +57,11 @@ fn values_depend_on_their_places_alone() {
         let names = ["ux", "von-mises", "sxx + 2*uy", "phi:0", "overlap"];
         let parse = |name| Quantity::parse(name, &field).expect("a quantity of elasticity");
         let quantities = names.map(parse);
-        assert_alone_as_together(&field, Wanted::Values(&quantities), &mut random);
-        assert_alone_as_together(&field, Wanted::Values(&quantities[..1]), &mut random);
+        assert_alone_as_together(&field, SampledQuantity::Values(&quantities), &mut random);
+        assert_alone_as_together(&field, SampledQuantity::Values(&quantities[..1]), &mut random);
         let slope = |quantity: &Quantity| QuantityGradient::new(quantity, &field).expect("one");
         let slopes = quantities.each_ref().map(slope);
-        assert_alone_as_together(&field, Wanted::Slopes(&slopes), &mut random);
+        assert_alone_as_together(&field, SampledQuantity::Slopes(&slopes), &mut random);
     }
 }
 
@@ -77,8 +77,8 @@ fn values_are_those_of_the_field() {
         let slopes =
             quantities.each_ref().map(|q| QuantityGradient::new(q, &field).expect("a gradient"));
         let places = places(&field, &mut random);
-        let rows = evaluate_each(&field, Wanted::Values(&quantities), &places);
-        let sloped = evaluate_each(&field, Wanted::Slopes(&slopes), &places);
+        let rows = evaluate_each(&field, SampledQuantity::Values(&quantities), &places);
+        let sloped = evaluate_each(&field, SampledQuantity::Slopes(&slopes), &places);
         for (k, place) in places.iter().enumerate() {
             let mut local = place.seen(&field);
             for (q, quantity) in quantities.iter().enumerate() {
@@ -108,7 +108,7 @@ fn seats_lose_no_digit() {
     for seed in 0..24 {
         let dataset = Recipe::random(seed).dataset();
         let (field, mut random) = (compiled(&dataset), Random(100 + seed));
-        let seats = Seats::new(&field);
+        let seats = AnchorMap::new(&field);
         let tips = tips(&field.step.cracks);
         let mut centers: Vec<Vec2> =
             tips.map(|tip| field.step.cracks[tip.crack as usize].end_point(tip.end)).collect();

@@ -8,7 +8,7 @@ use ppum::dataset::{Dataset, FieldData, Step};
 use ppum::equation::{Elasticity, Equation, Material, StressState};
 use ppum::field::{Field, LocalField};
 use ppum::function::{Frame, FunctionKind, WESTERGAARD};
-use ppum::quantity::{Quantity, QuantityGradient, Slope, names};
+use ppum::quantity::{Quantity, QuantityGradient, ValueWithGradient, names};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 use ppum_testkit::random::Random;
@@ -166,16 +166,17 @@ fn power(s: f64, r: f64, theta: f64, p: f64) -> [f64; 2] {
 
 /// σ_yy = (2μ + λ) Re w and von Mises' stress of the opening, with w = 1/(2√z): in the frame of
 /// the tip.
-fn closed_form(r: f64, theta: f64) -> [Slope; 2] {
+fn closed_form(r: f64, theta: f64) -> [ValueWithGradient; 2] {
     let (mu, lambda) = (0.5 / 1.3, 0.3 / (1.3 * 0.4));
     // ε_yy = Re w, 2 ε_xy = Im w
     let ([e, g], [re, im]) = (power(0.5, r, theta, -0.5), power(-0.25, r, theta, -1.5));
     let (de, dg) = (vec2(re, -im), vec2(im, re));
-    let syy = Slope { value: (2.0 * mu + lambda) * e, gradient: de * (2.0 * mu + lambda) };
+    let syy =
+        ValueWithGradient { value: (2.0 * mu + lambda) * e, gradient: de * (2.0 * mu + lambda) };
     let spread = (lambda + mu) * (1.0 - 0.6);
     let square = 3.0 * mu * mu * (e * e + g * g) + spread * spread * e * e;
     let change = (de * e + dg * g) * (3.0 * mu * mu) + de * (spread * spread * e);
-    [syy, Slope { value: square.sqrt(), gradient: change / square.sqrt() }]
+    [syy, ValueWithGradient { value: square.sqrt(), gradient: change / square.sqrt() }]
 }
 
 /// Around the tip, down to 10⁻¹² of the domain; turned, the gradients of invariants turn along.

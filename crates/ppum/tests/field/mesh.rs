@@ -8,9 +8,9 @@ use ppum::jet::Jet;
 use ppum::mesh::{Clip, Shape};
 use ppum::polynomial::PolynomialSpace::{self, Tensor, Total};
 use ppum::vec2::{Vec2, vec2};
-use ppum_testkit::extended::Double;
+use ppum_testkit::extended::DoubleDouble;
 use ppum_testkit::meshes::{
-    Elements, Polynomial, field, random_map, random_place, random_polynomial,
+    BivariatePolynomial, MeshBuilder, field, random_map, random_place, random_polynomial,
 };
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::Recipe;
@@ -27,18 +27,19 @@ pub(crate) fn jet(field: &Field<'_>, anchor: Vec2, offset: Vec2, side: Side) -> 
 }
 
 /// The identity of the plane.
-fn plane() -> [Polynomial; 2] {
-    [Polynomial::linear(0.0, 1.0, 0.0), Polynomial::linear(0.0, 0.0, 1.0)]
+fn plane() -> [BivariatePolynomial; 2] {
+    [BivariatePolynomial::linear(0.0, 1.0, 0.0), BivariatePolynomial::linear(0.0, 0.0, 1.0)]
 }
 
 /// Value and gradient of a polynomial of ξ on a mapped element, with 31 digits.
-fn truth(p: &Polynomial, map: &[Polynomial; 2], xi: [f64; 2]) -> [f64; 3] {
-    let xi = xi.map(Double::from);
-    let slopes = |p: &Polynomial| [p.derivative([1, 0]).at(xi), p.derivative([0, 1]).at(xi)];
+fn truth(p: &BivariatePolynomial, map: &[BivariatePolynomial; 2], xi: [f64; 2]) -> [f64; 3] {
+    let xi = xi.map(DoubleDouble::from);
+    let slopes =
+        |p: &BivariatePolynomial| [p.derivative([1, 0]).at(xi), p.derivative([0, 1]).at(xi)];
     let ([a, b], [c, d], [p1, p2]) = (slopes(&map[0]), slopes(&map[1]), slopes(p));
     let det = a * d - b * c;
     let gradient = [(d * p1 - c * p2) / det, (a * p2 - b * p1) / det];
-    [p.at(xi), gradient[0], gradient[1]].map(Double::to_f64)
+    [p.at(xi), gradient[0], gradient[1]].map(DoubleDouble::to_f64)
 }
 
 /// Largest errors of value and gradient on random elements, relative to the largest value
@@ -50,7 +51,7 @@ fn errors(
     degree: usize,
 ) -> [f64; 2] {
     let map = random_map(random, (shape, space, map_degree), aspect, ratio);
-    let mut elements = Elements::default();
+    let mut elements = MeshBuilder::default();
     elements.push(shape, space, map_degree as u8, map.clone());
     let p = random_polynomial(random, space, degree);
     let dataset = elements.dataset(vec![field("v", &[(space, degree as u8, p.clone())])]);
@@ -109,12 +110,13 @@ fn elements_of_all_kinds() {
 #[test]
 fn a_curved_mesh_reproduces_polynomials() {
     let mut random = Random(3);
-    let bend = |random: &mut Random, linear: Polynomial| {
-        let small = random_polynomial(random, Total, 4).times(&Polynomial::linear(0.03, 0.0, 0.0));
+    let bend = |random: &mut Random, linear: BivariatePolynomial| {
+        let small =
+            random_polynomial(random, Total, 4).times(&BivariatePolynomial::linear(0.03, 0.0, 0.0));
         linear.plus(&small)
     };
     let [x, y] = plane().map(|p| bend(&mut random, p));
-    let elements = Elements::grid([5, 4], 4, &[x, y]);
+    let elements = MeshBuilder::grid([5, 4], 4, &[x, y]);
     let u = random_polynomial(&mut random, Total, 2);
     let parts: Vec<_> = (0..elements.mesh.len())
         .map(|k| {
@@ -132,7 +134,7 @@ fn a_curved_mesh_reproduces_polynomials() {
         for xi in shape.samples(5).chain(inside) {
             let [anchor, offset] = elements.point(patch, xi);
             let j = jet(&field, anchor, offset, Side::Above).expect("owned");
-            let p = [Double::sum(anchor.x, offset.x), Double::sum(anchor.y, offset.y)];
+            let p = [DoubleDouble::sum(anchor.x, offset.x), DoubleDouble::sum(anchor.y, offset.y)];
             let found = [j.v, j.x, j.y, j.xx, j.xy, j.yy];
             for (k, (found, partial)) in found.into_iter().zip(&partials).enumerate() {
                 let most = [1e-14, 1e-12, 1e-12, 3e-10, 3e-10, 3e-10][k];
@@ -147,10 +149,10 @@ fn a_curved_mesh_reproduces_polynomials() {
 /// is worth there.
 #[test]
 fn the_first_element_owns_what_is_shared() {
-    let elements = Elements::grid([4, 4], 1, &plane());
+    let elements = MeshBuilder::grid([4, 4], 1, &plane());
     let n = elements.mesh.len();
     let parts: Vec<_> =
-        (0..n).map(|k| (Total, 0, Polynomial::linear(k as f64, 0.0, 0.0))).collect();
+        (0..n).map(|k| (Total, 0, BivariatePolynomial::linear(k as f64, 0.0, 0.0))).collect();
     let dataset = elements.dataset(vec![field("v", &parts)]);
     let field = compiled(&dataset);
     for patch in 0..n {
@@ -187,7 +189,7 @@ fn the_first_element_owns_what_is_shared() {
 /// A square cut twice: the line y = 0, and on its upper side the line x = 0. Three sectors with
 /// values 1, 2, 3.
 fn junction() -> Dataset {
-    let mut elements = Elements::default();
+    let mut elements = MeshBuilder::default();
     for _ in 0..3 {
         elements.push(Shape::Square, Total, 1, plane());
     }
@@ -195,9 +197,9 @@ fn junction() -> Dataset {
     elements.mesh.clip_offsets = vec![0, 1, 3, 5];
     elements.mesh.clips =
         vec![clip(1, false), clip(1, true), clip(2, false), clip(1, true), clip(2, true)];
-    let constant = |v: f64| (Total, 0, Polynomial::linear(v, 0.0, 0.0));
+    let constant = |v: f64| (Total, 0, BivariatePolynomial::linear(v, 0.0, 0.0));
     let [x, y] = plane();
-    let level = |p: Polynomial| vec![(Total, 1, p); 3];
+    let level = |p: BivariatePolynomial| vec![(Total, 1, p); 3];
     let values = [1.0, 2.0, 3.0].map(constant);
     elements.dataset(vec![field("v", &values), field("phi", &level(y)), field("psi", &level(x))])
 }
@@ -232,9 +234,9 @@ fn clips_meet_at_a_junction() {
 /// The sign of a level field as a function: on a block beside the smooth one.
 #[test]
 fn signs_of_level_fields() {
-    let mut elements = Elements::default();
+    let mut elements = MeshBuilder::default();
     elements.push(Shape::Square, Total, 1, plane());
-    let mut v = field("v", &[(Total, 0, Polynomial::linear(5.0, 0.0, 0.0))]);
+    let mut v = field("v", &[(Total, 0, BivariatePolynomial::linear(5.0, 0.0, 0.0))]);
     v.block_function.push(1);
     v.block_degree.push(0);
     v.block_offset.push(1);
@@ -252,8 +254,8 @@ fn signs_of_level_fields() {
 /// A field of the four tip functions in a frame, with blocks of degree 2.
 fn tip_field(
     random: &mut Random,
-    elements: &Elements,
-    level: [Polynomial; 2],
+    elements: &MeshBuilder,
+    level: [BivariatePolynomial; 2],
     frame: Frame,
 ) -> Dataset {
     let mut v = FieldData::new("v", &["v"]);
@@ -278,10 +280,12 @@ fn tip_field(
 /// faces, from 1 to 1e-13.
 #[test]
 fn straight_levels_are_the_frame_of_a_tip() {
-    let mut elements = Elements::default();
-    let map = [Polynomial::linear(0.25, 1.0, 0.5), Polynomial::linear(0.125, 0.0, 1.0)];
+    let mut elements = MeshBuilder::default();
+    let map =
+        [BivariatePolynomial::linear(0.25, 1.0, 0.5), BivariatePolynomial::linear(0.125, 0.0, 1.0)];
     elements.push(Shape::Square, Total, 1, map);
-    let level = [Polynomial::linear(0.0, 1.0, 0.5), Polynomial::linear(0.0, 0.0, 1.0)];
+    let level =
+        [BivariatePolynomial::linear(0.0, 1.0, 0.5), BivariatePolynomial::linear(0.0, 0.0, 1.0)];
     let frames = [Frame::Tip(TipId { crack: 0, end: End::Last }), Frame::Levels([1, 2])];
     let datasets = frames.map(|frame| tip_field(&mut Random(4), &elements, level.clone(), frame));
     let fields = datasets.each_ref().map(compiled);
@@ -315,15 +319,18 @@ fn straight_levels_are_the_frame_of_a_tip() {
 /// against the same with 31 digits' ξ, found by fixed-point iteration of small numbers.
 #[test]
 fn curved_levels_have_their_digits_near_the_tip() {
-    let curve = |linear: Polynomial, xx: f64, xy: f64, yy: f64| {
-        linear.plus(&Polynomial([((2, 0), xx), ((1, 1), xy), ((0, 2), yy)].into()))
+    let curve = |linear: BivariatePolynomial, xx: f64, xy: f64, yy: f64| {
+        linear.plus(&BivariatePolynomial([((2, 0), xx), ((1, 1), xy), ((0, 2), yy)].into()))
     };
     let [x, y] = plane();
     let map = [curve(x.clone(), 0.125, -0.0625, 0.25), curve(y.clone(), 0.0625, 0.125, -0.125)];
     // the tip at ξ = (1/4, 1/8): polynomials seen from there
-    let (s, t) = (Polynomial::linear(-0.25, 1.0, 0.0), Polynomial::linear(-0.125, 0.0, 1.0));
-    let seen = |p: &Polynomial| p.of(&s, &t);
-    let mut elements = Elements::default();
+    let (s, t) = (
+        BivariatePolynomial::linear(-0.25, 1.0, 0.0),
+        BivariatePolynomial::linear(-0.125, 0.0, 1.0),
+    );
+    let seen = |p: &BivariatePolynomial| p.of(&s, &t);
+    let mut elements = MeshBuilder::default();
     elements.push(Shape::Square, Total, 2, map.each_ref().map(seen));
     let (psi, phi) = (curve(x, 0.0, 0.25, 0.5), curve(y, -0.25, 0.0, 0.125));
     let mut random = Random(9);
@@ -343,11 +350,11 @@ fn curved_levels_have_their_digits_near_the_tip() {
         let offset = random.direction() * r;
         let mut xi = [offset.x, offset.y];
         for _ in 0..200 {
-            let at = |p: &Polynomial| p.at(xi.map(Double::from)).to_f64();
+            let at = |p: &BivariatePolynomial| p.at(xi.map(DoubleDouble::from)).to_f64();
             let rest = [offset.x - at(&map[0]), offset.y - at(&map[1])];
             xi = [xi[0] + rest[0], xi[1] + rest[1]];
         }
-        let [a, b] = [&psi, &phi].map(|p| p.at(xi.map(Double::from)).to_f64());
+        let [a, b] = [&psi, &phi].map(|p| p.at(xi.map(DoubleDouble::from)).to_f64());
         let exact = (0.5 * b.atan2(a)).sin() * a.hypot(b).sqrt();
         let found = jet(&simple_field, Vec2::ZERO, offset, Side::Above).expect("inside");
         let error = (found.v - exact).abs() / r.sqrt();
@@ -361,7 +368,7 @@ fn curved_levels_have_their_digits_near_the_tip() {
 fn deep_zoom_on_an_edge_and_a_cut() {
     let mut random = Random(21);
     let map = random_map(&mut random, (Shape::Square, Total, 4), 0.9, 0.4);
-    let mut elements = Elements::default();
+    let mut elements = MeshBuilder::default();
     for _ in 0..2 {
         elements.push(Shape::Square, Total, 4, map.clone());
     }
@@ -369,8 +376,9 @@ fn deep_zoom_on_an_edge_and_a_cut() {
     (elements.mesh.clip_offsets, elements.mesh.clips) =
         (vec![0, 1, 2], vec![clip(true), clip(false)]);
     // cut by η = 1/4 + (ξ − 1/2)²; the corner of the cut at the edge ξ = 1 lies at η = 1/2
-    let cut = Polynomial([((0, 1), 1.0), ((0, 0), -0.5), ((1, 0), 1.0), ((2, 0), -1.0)].into());
-    let constant = |v: f64| (Total, 0, Polynomial::linear(v, 0.0, 0.0));
+    let cut =
+        BivariatePolynomial([((0, 1), 1.0), ((0, 0), -0.5), ((1, 0), 1.0), ((2, 0), -1.0)].into());
+    let constant = |v: f64| (Total, 0, BivariatePolynomial::linear(v, 0.0, 0.0));
     let fields = vec![
         field("v", &[constant(1.0), constant(-1.0)]),
         field("phi", &[(Total, 2, cut.clone()), (Total, 2, cut.clone())]),
@@ -379,8 +387,8 @@ fn deep_zoom_on_an_edge_and_a_cut() {
     let compiled = compiled(&dataset);
     for at in [[1.0, 0.5], [0.5, 0.25], [1.0, 0.125]] {
         let [anchor, rest] = elements.point(0, at);
-        let xi = at.map(Double::from);
-        let d = |p: &Polynomial, order| p.derivative(order).at(xi).to_f64();
+        let xi = at.map(DoubleDouble::from);
+        let d = |p: &BivariatePolynomial, order| p.derivative(order).at(xi).to_f64();
         for width in [1e-6, 1e-9, 1e-12, 1e-15] {
             for _ in 0..200 {
                 let delta = [random.between(-width, width), random.between(-width, width)];
@@ -400,8 +408,10 @@ fn deep_zoom_on_an_edge_and_a_cut() {
                 });
                 let offset = rest + vec2(step[0], step[1]);
                 let value = jet(&compiled, anchor, offset, Side::Above).map(|j| j.v);
-                let seen = [xi[0] + Double::from(delta[0]), xi[1] + Double::from(delta[1])];
-                let (level, edge) = (cut.at(seen).to_f64(), (Double::from(1.0) - seen[0]).to_f64());
+                let seen =
+                    [xi[0] + DoubleDouble::from(delta[0]), xi[1] + DoubleDouble::from(delta[1])];
+                let (level, edge) =
+                    (cut.at(seen).to_f64(), (DoubleDouble::from(1.0) - seen[0]).to_f64());
                 // what rounding of the offset decides is not asked
                 let noise = 1e-15 * width.max(1e-17 / width) + 1e-29;
                 if level.abs() > noise && edge < -1e-11 {
@@ -423,11 +433,14 @@ fn boxes_are_squares_where_they_do_not_overlap() {
     let boxes = recipe.dataset();
     let step = &boxes.steps[0];
     let (partition, data) = (step.partition.boxes(), &step.fields[0]);
-    let mut elements = Elements::default();
+    let mut elements = MeshBuilder::default();
     let mut field = FieldData::new("displacement", &["ux", "uy"]);
     for (patch, cell) in partition.cell.iter().enumerate() {
         let (c, h) = (cell.center(), cell.size() * 0.5);
-        let map = [Polynomial::linear(c.x, h.x, 0.0), Polynomial::linear(c.y, 0.0, h.y)];
+        let map = [
+            BivariatePolynomial::linear(c.x, h.x, 0.0),
+            BivariatePolynomial::linear(c.y, 0.0, h.y),
+        ];
         elements.push(Shape::Square, Total, 1, map);
         let blocks = data.blocks(patch);
         let kinds: Vec<_> =
@@ -437,13 +450,13 @@ fn boxes_are_squares_where_they_do_not_overlap() {
         // their centres
         let (s, d) = (partition.scale[patch], c - partition.origin[patch]);
         let [x, y] = [
-            Polynomial::linear(d.x / s.x, h.x / s.x, 0.0),
-            Polynomial::linear(d.y / s.y, 0.0, h.y / s.y),
+            BivariatePolynomial::linear(d.x / s.x, h.x / s.x, 0.0),
+            BivariatePolynomial::linear(d.y / s.y, 0.0, h.y / s.y),
         ];
         for (c, out) in field.coefficients_mut(patch).enumerate() {
             let moved = blocks.clone().flat_map(|b| {
                 let degree = data.block_degree[b].into();
-                let p = Polynomial::new(Total, degree, data.block_coefficients(b, c));
+                let p = BivariatePolynomial::new(Total, degree, data.block_coefficients(b, c));
                 p.of(&x, &y).coefficients(Total, degree)
             });
             out.copy_from_slice(&moved.collect::<Vec<_>>());
@@ -485,14 +498,17 @@ fn boxes_are_squares_where_they_do_not_overlap() {
 #[test]
 fn many_points_are_those_of_single_ones() {
     let mut random = Random(14);
-    let bend = |random: &mut Random, linear: Polynomial| {
-        let small = random_polynomial(random, Total, 3).times(&Polynomial::linear(0.05, 0.0, 0.0));
+    let bend = |random: &mut Random, linear: BivariatePolynomial| {
+        let small =
+            random_polynomial(random, Total, 3).times(&BivariatePolynomial::linear(0.05, 0.0, 0.0));
         linear.plus(&small)
     };
     let [x, y] = plane().map(|p| bend(&mut random, p));
-    let half = Elements::grid([6, 5], 3, &[x, y]);
-    let cut = Polynomial([((0, 1), 1.0), ((1, 0), -0.5), ((2, 0), 0.25), ((0, 0), -0.31)].into());
-    let (mut elements, mut parts, mut levels) = (Elements::default(), Vec::new(), Vec::new());
+    let half = MeshBuilder::grid([6, 5], 3, &[x, y]);
+    let cut = BivariatePolynomial(
+        [((0, 1), 1.0), ((1, 0), -0.5), ((2, 0), 0.25), ((0, 0), -0.31)].into(),
+    );
+    let (mut elements, mut parts, mut levels) = (MeshBuilder::default(), Vec::new(), Vec::new());
     for (k, map) in half.maps.iter().enumerate() {
         let space = half.mesh.map_space[k];
         for is_above in [true, false] {
@@ -545,7 +561,7 @@ fn one_element_by_its_coordinate() {
         let (shape, space) =
             if case % 2 == 0 { (Shape::Triangle, Total) } else { (Shape::Square, Tensor) };
         let map = random_map(&mut random, (shape, space, 2), 1.0, 0.3);
-        let mut elements = Elements::default();
+        let mut elements = MeshBuilder::default();
         elements.push(shape, space, 2, map.clone());
         elements.mesh.clips = vec![Clip { field: 1, is_above: true }];
         elements.mesh.clip_offsets = vec![0, 1];
@@ -564,11 +580,13 @@ fn one_element_by_its_coordinate() {
                 let xi = random_place(&mut random, shape).map(|x| 1.05 * x);
                 let delta = Vec2::from(xi) - reference;
                 let point = element.point(delta);
-                let exact = map.each_ref().map(|p| p.at(xi.map(Double::from)).to_f64());
+                let exact = map.each_ref().map(|p| p.at(xi.map(DoubleDouble::from)).to_f64());
                 // the anchor is up to 40 away
                 assert!((anchor + point.offset - Vec2::from(exact)).length() < 1e-13);
                 let column = |order| {
-                    let slope = |p: &Polynomial| p.derivative(order).at(xi.map(Double::from));
+                    let slope = |p: &BivariatePolynomial| {
+                        p.derivative(order).at(xi.map(DoubleDouble::from))
+                    };
                     Vec2::from(map.each_ref().map(|p| slope(p).to_f64()))
                 };
                 let columns = [column([1, 0]), column([0, 1])];
@@ -581,7 +599,7 @@ fn one_element_by_its_coordinate() {
                 assert!((jets[0].v - v).abs() < 1e-13, "{} {v}", jets[0].v);
                 let gradient = vec2(jets[0].x, jets[0].y) - vec2(x, y);
                 assert!(gradient.length() < 1e-11 * (1.0 + x.abs() + y.abs()), "{gradient:?}");
-                let value = level.at(xi.map(Double::from)).to_f64();
+                let value = level.at(xi.map(DoubleDouble::from)).to_f64();
                 assert!((element.level(1, delta) - value).abs() < 1e-13);
                 let margin = shape.margin(xi, [0.0; 2]);
                 assert!((element.margin(delta) - margin).abs() < 1e-14);

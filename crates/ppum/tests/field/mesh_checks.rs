@@ -6,12 +6,14 @@ use ppum::function::{Frame, FunctionKind};
 use ppum::mesh::{Clip, Mesh, Shape};
 use ppum::polynomial::PolynomialSpace::{self, Tensor, Total};
 use ppum::vec2::vec2;
-use ppum_testkit::meshes::{Elements, Polynomial, field};
+use ppum_testkit::meshes::{BivariatePolynomial, MeshBuilder, field};
 
 /// Two elements, the second cut into two patches, with a level field.
 fn dataset() -> Dataset {
-    let mut elements = Elements::default();
-    let map = |x: f64| [Polynomial::linear(x, 1.0, 0.0), Polynomial::linear(0.0, 0.0, 1.0)];
+    let mut elements = MeshBuilder::default();
+    let map = |x: f64| {
+        [BivariatePolynomial::linear(x, 1.0, 0.0), BivariatePolynomial::linear(0.0, 0.0, 1.0)]
+    };
     elements.push(Shape::Square, Tensor, 2, map(-1.0));
     elements.push(Shape::Square, Total, 1, map(1.0));
     elements.push(Shape::Square, Total, 1, map(1.0));
@@ -19,7 +21,7 @@ fn dataset() -> Dataset {
     elements.mesh.clip_offsets = vec![0, 0, 1, 2];
     elements.mesh.clips = vec![clip(true), clip(false)];
     let [x, y] = map(0.0);
-    let parts = |space: PolynomialSpace, p: &Polynomial| vec![(space, 1, p.clone()); 3];
+    let parts = |space: PolynomialSpace, p: &BivariatePolynomial| vec![(space, 1, p.clone()); 3];
     elements.dataset(vec![field("v", &parts(Tensor, &x)), field("phi", &parts(Total, &y))])
 }
 
@@ -161,36 +163,4 @@ fn meshes_and_boxes_do_not_mix() {
     assert!(mixed.starts_with("steps[1].partition: is of boxes"), "{mixed}");
     let spaces = error(|d| d.steps[0].fields[0].block_space.truncate(1));
     assert!(spaces.contains("block_space: has 1 entries, expected 3"), "{spaces}");
-}
-
-/// A thousand elements over each other are one thing, a million another; fewer of those that are
-/// bent so much that a point may have to be looked for in many parts of them.
-#[test]
-fn what_a_point_takes_is_bounded() {
-    let piled = |n: usize, is_bent: bool| {
-        let mut data = dataset();
-        let Partition::Mesh(mesh) = &mut data.steps[0].partition else { panic!("a mesh") };
-        mesh.clip_offsets.clear();
-        mesh.clips.clear();
-        mesh.shape = vec![Shape::Square; n];
-        mesh.origin = vec![mesh.origin[0]; n];
-        mesh.map_degree = vec![2; n];
-        mesh.map_space = vec![Tensor; n];
-        mesh.map_offset = vec![0; n];
-        mesh.element = (0..n as u32).collect();
-        if is_bent {
-            mesh.map = [vec![0.0; 8], vec![0.0; 8]];
-            (mesh.map[0][0], mesh.map[1][1], mesh.map[1][2]) = (0.01, 0.005, 1e-5);
-        }
-        data.steps[0].fields.truncate(1);
-        let last = data.steps[0].fields[0].patch_blocks[3];
-        data.steps[0].fields[0].patch_blocks.resize(n + 1, last);
-        data.check()
-    };
-    assert_eq!(piled(1000, false), Ok(()));
-    assert_eq!(piled(20, true), Ok(()));
-    for (n, is_bent) in [(1 << 13, false), (1000, true)] {
-        let error = piled(n, is_bent).expect_err("too many").to_string();
-        assert!(error.contains("let fewer patches overlap there"), "{error}");
-    }
 }

@@ -3,7 +3,7 @@
 use crate::support::{compiled, evaluate};
 use ppum::crack::Side;
 use ppum::dataset::Dataset;
-use ppum::decompose::{Part, PartError};
+use ppum::decompose::{FieldPart, PartError};
 use ppum::function::{Frame, FunctionKind};
 use ppum::replace::{ReplaceError, Replacements, ReplacementsError};
 use ppum::weight::WeightFunction;
@@ -122,14 +122,14 @@ fn what_is_wrong_changes_nothing() {
 fn all_changes_at_once() {
     let original = recipe(["r", "x", "y", "x*y"]).dataset();
     let replacements = Replacements {
-        part: Some(Part::Tip),
+        part: Some(FieldPart::Tip),
         functions: vec![("x".into(), "r^2".into()), ("y".into(), "r^3".into())],
         weight: Some("bump".into()),
     };
     let (mut all, mut one_by_one) = (original.clone(), original.clone());
     assert_eq!(replacements.apply(&mut all, 0), Ok(()));
     let step = &mut one_by_one.steps[0];
-    step.fields[0] = step.fields[0].part(Part::Tip, &step.functions).expect("it has tips");
+    step.fields[0] = step.fields[0].part(FieldPart::Tip, &step.functions).expect("it has tips");
     assert!(step.replace_function("x", "r^2", &[]).is_ok());
     assert!(step.replace_function("y", "r^3", &[]).is_ok());
     assert_eq!(step.replace_weight("bump", &[]), Ok(()));
@@ -145,7 +145,7 @@ fn errors_say_which_change() {
     let mut failing = |replacements: &Replacements| {
         replacements.apply(&mut dataset, 0).expect_err("it cannot be made")
     };
-    let part = Replacements { part: Some(Part::Patch(9999)), ..Replacements::default() };
+    let part = Replacements { part: Some(FieldPart::Patch(9999)), ..Replacements::default() };
     let error = failing(&part);
     assert!(matches!(error, ReplacementsError::Part(PartError::NoPatch { .. })), "{error}");
     let functions = vec![("x".into(), "r".into()), ("no".into(), "r".into())];

@@ -8,7 +8,8 @@ use ppum::field::Field;
 use ppum::progress::{Cancelled, Phase, Progress, Verdict, unwatched};
 use ppum::quantity::Quantity;
 use ppum::sample::{
-    Place, Stations, batches, crowded, evaluate, evaluate_batch, evenly, grid, line, points,
+    SamplePoints, SidedPoint, batches, crowded, evaluate, evaluate_batch, evenly, grid, line,
+    points,
 };
 use ppum::vec2::{Vec2, vec2};
 use ppum_testkit::random::Random;
@@ -20,7 +21,7 @@ fn quantities(field: &Field<'_>) -> Vec<Quantity> {
 }
 
 /// Compares with the scalar evaluation: rounding, with the anchors of blocks at most a plate away.
-fn assert_exact(field: &Field<'_>, places: &[Place]) {
+fn assert_exact(field: &Field<'_>, places: &[SidedPoint]) {
     let quantities = quantities(field);
     let rows = evaluate(field, &quantities, places, unwatched()).expect("nobody stops it");
     assert_eq!(rows.len(), places.len() * quantities.len());
@@ -42,12 +43,12 @@ fn lines_grids_and_cracks() {
     let (cracks, bounds) = (&field.step.cracks, field.domain.bounds);
     assert_exact(&field, &line(cracks, [bounds.min, bounds.max], &evenly(401)));
     assert_exact(&field, &grid(cracks, bounds, [41, 31]));
-    let along = Stations::along(cracks, 0, &evenly(101)).expect("a crack").places();
+    let along = SamplePoints::along(cracks, 0, &evenly(101)).expect("a crack").places();
     assert_exact(&field, &along);
     let outside = points(cracks, &[bounds.max + vec2(1.0, 0.0)]);
     let rows = evaluate(&field, &quantities(&field), &outside, unwatched());
     assert!(rows.expect("nobody stops it").iter().all(|value| value.is_nan()));
-    assert!(Stations::along(cracks, cracks.len() as u32, &evenly(9)).is_none());
+    assert!(SamplePoints::along(cracks, cracks.len() as u32, &evenly(9)).is_none());
 }
 
 /// In whatever order the batches are taken.
@@ -79,7 +80,7 @@ fn points_on_cracks_have_two_sides() {
 #[test]
 fn stations_of_a_bent_crack() {
     let cracks = [crack(&[[0.0, 0.0], [3.0, 0.0], [3.0, 4.0]], [CrackEnd::Tip; 2])];
-    let stations = Stations::along(&cracks, 0, &evenly(8)).expect("a crack");
+    let stations = SamplePoints::along(&cracks, 0, &evenly(8)).expect("a crack");
     for (k, station) in (0..).map(f64::from).zip(stations.all()) {
         let point = if k < 3.0 { vec2(k, 0.0) } else { vec2(3.0, k - 3.0) };
         let tangent = if k < 3.0 { vec2(1.0, 0.0) } else { vec2(0.0, 1.0) };

@@ -5,14 +5,14 @@ use ppum::function::{
     Frame, Function, FunctionKind, FunctionTable, GROUP, LocalFunctions, WESTERGAARD,
 };
 use ppum::jet::Jet;
-use ppum::real::Scalar;
+use ppum::real::LaneNumber;
 use ppum::vec2::{Vec2, vec2};
 use ppum_testkit::extended::{point, side};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::crack;
 
 /// Compares, unless the point lies on the crack up to a `margin`. Returns whether it did.
-fn compare<T: Scalar>(crack: &Crack, anchor: Vec2, offset: Vec2, margin: f64) -> bool {
+fn compare<T: LaneNumber>(crack: &Crack, anchor: Vec2, offset: Vec2, margin: f64) -> bool {
     let at = |d: Vec2| side(crack, point(anchor, offset + d));
     let around = [vec2(1.0, 0.7), vec2(-0.7, 1.0), vec2(-1.0, -0.7), vec2(0.7, -1.0)];
     let exact = at(Vec2::ZERO);

@@ -1,4 +1,4 @@
-//! What `ppum compare` is asked for.
+//! Arguments of `ppum compare`.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -6,18 +6,18 @@ use std::path::PathBuf;
 use clap::ValueEnum;
 use ppum_render::resample::Interpolation;
 use ppum_scene::arguments::{positive, size};
-use ppum_scene::colors::Colors;
-use ppum_scene::look::Look;
-use ppum_scene::place::Place;
+use ppum_scene::colors::ColorOptions;
+use ppum_scene::page_style::PageStyle;
+use ppum_scene::place::ViewRegion;
 
 use crate::look::LabelArgs;
 use crate::subject::QuantityArgs;
 use crate::threads;
 
-/// Compare direct drawing with resampling: pictures, errors, memory, time
+/// Compare direct drawing with resampling: images, errors, memory, time
 ///
 /// Resampling takes exact values at the points of a grid, as other programs do, and interpolates
-/// them at the pixels. The picture shows the field, what each method makes of it, and
+/// them at the pixels. The image shows the field, what each method makes of it, and
 /// the differences.
 #[derive(Debug, clap::Args)]
 #[command(
@@ -25,10 +25,10 @@ use crate::threads;
     mut_arg("quantity", |argument| argument.help(QUANTITY)),
     mut_arg("part", |argument| argument.help(PART)),
 )]
-pub(crate) struct Args {
+pub(crate) struct CompareArgs {
     #[command(flatten)]
     pub(super) subject: QuantityArgs,
-    /// Picture to write, - for standard output; without it numbers only
+    /// Image to write, - for standard output; without it numbers only
     #[arg(short, long, value_name = "OUT.png|svg|pdf")]
     pub(super) output: Option<PathBuf>,
     /// Points of the grid, borders included
@@ -44,13 +44,13 @@ pub(crate) struct Args {
     #[arg(long, value_name = "E", value_parser = positive)]
     pub(super) error: Option<f64>,
     #[command(flatten)]
-    pub(super) look: Look,
+    pub(super) look: PageStyle,
     #[command(flatten)]
     pub(super) labels: LabelArgs,
     #[command(flatten)]
-    pub(super) place: Place,
+    pub(super) place: ViewRegion,
     #[command(flatten)]
-    pub(super) colors: Colors,
+    pub(super) colors: ColorOptions,
     /// Print JSON
     #[arg(long)]
     pub(super) json: bool,
@@ -77,7 +77,7 @@ Examples:
 pub(super) enum ComparisonRegion {
     /// The box of the domain
     Domain,
-    /// What the picture shows
+    /// The rectangle of the view
     View,
 }
 

@@ -4,16 +4,16 @@ use std::time::Instant;
 
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum_render::RenderError;
+use ppum_render::RasterError;
 use ppum_render::raster::Raster;
-use ppum_render::resample::need::{Convergence, ResamplingSetup, converge};
-use ppum_render::resample::{Grid, GridError, Interpolation, representation_bytes};
+use ppum_render::resample::need::{GridConvergence, ResamplingSetup, converge};
+use ppum_render::resample::{GridError, Interpolation, SampleGrid, representation_bytes};
 use ppum_render::scatter::render;
 use ppum_render::view::View;
-use ppum_scene::compare::Resampled;
+use ppum_scene::compare::ResampledImage;
 
-use super::{Args, ComparisonRegion};
-use crate::progress::Bar;
+use super::{CompareArgs, ComparisonRegion};
+use crate::progress::ProgressLine;
 
 /// The field, view and quantity that are compared.
 #[derive(Clone, Copy)]
@@ -21,7 +21,7 @@ pub(super) struct ComparisonInput<'a> {
     pub(super) field: &'a Field<'a>,
     pub(super) view: View,
     pub(super) quantity: &'a Quantity,
-    pub(super) args: &'a Args,
+    pub(super) args: &'a CompareArgs,
 }
 
 /// All that was found.
@@ -32,13 +32,13 @@ pub(super) struct Measurements {
     pub(super) methods: Vec<MethodResult>,
 }
 
-/// The picture, times and errors of one method.
+/// The image, times and errors of one method.
 pub(super) struct MethodResult {
-    pub(super) resampled: Resampled,
-    /// Seconds for the samples, and for the picture made of them; those of cells are together.
+    pub(super) resampled: ResampledImage,
+    /// Seconds for the samples, and for the image made of them; those of cells are together.
     pub(super) seconds: [f64; 2],
     /// Errors of other grids, and the error that was asked for.
-    pub(super) convergence: Option<(Convergence, f64)>,
+    pub(super) convergence: Option<(GridConvergence, f64)>,
 }
 
 impl MethodResult {
@@ -63,7 +63,8 @@ pub(super) fn measure(
 ) -> anyhow::Result<Measurements> {
     let ComparisonInput { field, view, quantity, .. } = job;
     let grid = job.grid()?;
-    let (direct, direct_seconds) = timed(|| render::<f64>(field, &view, quantity, &Bar::new()))?;
+    let (direct, direct_seconds) =
+        timed(|| render::<f64>(field, &view, quantity, &ProgressLine::new()))?;
     let measured = methods.iter().map(|method| match method {
         Some(interpolation) => job.on_grid(&direct, grid, *interpolation),
         None => job.on_cells(&direct),
@@ -74,39 +75,40 @@ pub(super) fn measure(
 }
 
 impl ComparisonInput<'_> {
-    fn grid(&self) -> Result<Grid, GridError> {
+    fn grid(&self) -> Result<SampleGrid, GridError> {
         match self.args.over {
-            ComparisonRegion::Domain => Grid::over_domain(self.field, self.args.grid),
-            ComparisonRegion::View => Grid::over_view(&self.view, self.args.grid),
+            ComparisonRegion::Domain => SampleGrid::over_domain(self.field, self.args.grid),
+            ComparisonRegion::View => SampleGrid::over_view(&self.view, self.args.grid),
         }
     }
 
     fn on_grid(
         &self,
         direct: &Raster,
-        grid: Grid,
+        grid: SampleGrid,
         interpolation: Interpolation,
     ) -> anyhow::Result<MethodResult> {
         let Self { field, view, quantity, args } = *self;
-        let (samples, sampling) = timed(|| grid.sample(field, quantity, &Bar::new()))?;
-        let draw = || Ok(Resampled::on_grid(&samples, interpolation, &view, direct));
+        let (samples, sampling) = timed(|| grid.sample(field, quantity, &ProgressLine::new()))?;
+        let draw = || Ok(ResampledImage::on_grid(&samples, interpolation, &view, direct));
         let (resampled, drawing) = timed(draw)?;
         let subject = ResamplingSetup { field, view: &view, quantity, grid, interpolation };
-        let found = |error| anyhow::Ok((converge(&subject, error, &Bar::new())?, error));
+        let found = |error| anyhow::Ok((converge(&subject, error, &ProgressLine::new())?, error));
         let convergence = args.error.map(found).transpose()?;
         Ok(MethodResult { resampled, seconds: [sampling, drawing], convergence })
     }
 
     fn on_cells(&self, direct: &Raster) -> anyhow::Result<MethodResult> {
         let Self { field, view, quantity, .. } = *self;
-        let draw = || Resampled::on_cells(field, quantity, &view, direct, &Bar::new());
+        let draw =
+            || ResampledImage::on_cells(field, quantity, &view, direct, &ProgressLine::new());
         let (resampled, seconds) = timed(draw)?;
         Ok(MethodResult { resampled, seconds: [seconds, 0.0], convergence: None })
     }
 }
 
-/// What was made, and the seconds that passed.
-fn timed<T>(work: impl FnOnce() -> Result<T, RenderError>) -> Result<(T, f64), RenderError> {
+/// Returns the result of the work, and the seconds that passed.
+fn timed<T>(work: impl FnOnce() -> Result<T, RasterError>) -> Result<(T, f64), RasterError> {
     let start = Instant::now();
     let made = work()?;
     Ok((made, start.elapsed().as_secs_f64()))

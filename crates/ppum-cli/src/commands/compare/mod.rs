@@ -1,4 +1,4 @@
-//! `ppum compare`: a direct picture beside what resampling gives.
+//! `ppum compare`: a direct image beside what resampling gives.
 
 mod args;
 mod measure;
@@ -10,22 +10,22 @@ use std::path::Path;
 
 use anyhow::ensure;
 use ppum_figure::figure::Labels;
-use ppum_render::picture::Picture;
-use ppum_render::png::Text;
+use ppum_render::picture::ColoredRaster;
+use ppum_render::png::TextChunk;
 use ppum_render::resample::Interpolation;
 
 use crate::number::json;
-use crate::output::{Output, tell};
+use crate::output::{StandardStream, tell};
 use crate::standard::is_standard;
 use crate::{page, target, threads};
-pub(crate) use args::Args;
+pub(crate) use args::CompareArgs;
 use args::ComparisonRegion;
 use measure::{Measurements, measure};
 use ppum_scene::arguments::MOST_OF_PAGE;
 use ppum_scene::place::ImageExtent;
-use ppum_scene::range::Telling;
-use report::{Report, table};
-use sheet::Layout;
+use ppum_scene::range::RangeLocations;
+use report::{ComparisonReport, table};
+use sheet::PanelArrangement;
 
 /// Refuses pages that are too large: everything else on them is drawn as large as they are.
 fn check_page([columns, rows]: [u32; 2]) -> anyhow::Result<()> {
@@ -36,8 +36,8 @@ fn check_page([columns, rows]: [u32; 2]) -> anyhow::Result<()> {
     Ok(())
 }
 
-impl Args {
-    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+impl CompareArgs {
+    pub(crate) fn run(&self, out: &mut StandardStream) -> anyhow::Result<()> {
         if let Some(path) = &self.output {
             target::check(path, target::FileKind::Picture, self.inputs())?;
         }
@@ -53,13 +53,13 @@ impl Args {
         let [symbol, unit] = asked.shown.words(&field);
         let labels = Labels { title, quantity: symbol, unit, ..Labels::default() };
         let labels = self.labels.texts().applied(labels);
-        let layout = Layout::new(self, &field, &labels, &methods);
+        let layout = PanelArrangement::new(self, &field, &labels, &methods);
         check_page(layout.size())?;
         let frame = ImageExtent { pixels: layout.room()?, may_shrink: true, margin: 0.0 };
         let view = self.place.seen(field.domain.bounds, &field, frame)?;
         let job = measure::ComparisonInput { field: &field, view, quantity: &quantity, args: self };
         let found = threads::with(self.threads, || measure(job, &methods))??;
-        let report = Report::new(&self.subject.file_name(), &asked.name, &view, &found);
+        let report = ComparisonReport::new(&self.subject.file_name(), &asked.name, &view, &found);
         let mut told = String::new();
         if let Some(path) = &self.output {
             let colors = &self.colors;
@@ -67,7 +67,7 @@ impl Args {
             let (page, direct) = layout.draw(&found, job, &style)?;
             let texts = self.texts(&direct, &dataset.title, &asked.name, &found);
             page::put(path, &page, self.look.given_dpi(), &texts, out)?;
-            let ([columns, rows], telling) = (page.size, Telling::new(&dataset, &field));
+            let ([columns, rows], telling) = (page.size, RangeLocations::new(&dataset, &field));
             told = format!("{columns}x{rows} pixels, direct: {}", telling.colors(&direct));
         }
         self.tell(&report, &told, out)
@@ -85,7 +85,13 @@ impl Args {
     }
 
     /// The texts of the figure's file.
-    fn texts(&self, direct: &Picture, title: &str, name: &str, found: &Measurements) -> Vec<Text> {
+    fn texts(
+        &self,
+        direct: &ColoredRaster,
+        title: &str,
+        name: &str,
+        found: &Measurements,
+    ) -> Vec<TextChunk> {
         let file = self.subject.file_name();
         let mut texts = direct.description(title, &file, name);
         for (key, text) in &mut texts {
@@ -98,8 +104,13 @@ impl Args {
         texts
     }
 
-    /// Numbers on standard output, unless the picture goes there; of that what its colours mean.
-    fn tell(&self, report: &Report, told: &str, out: &mut Output) -> anyhow::Result<()> {
+    /// Numbers on standard output, unless the image goes there; of that what its colours mean.
+    fn tell(
+        &self,
+        report: &ComparisonReport,
+        told: &str,
+        out: &mut StandardStream,
+    ) -> anyhow::Result<()> {
         if self.json {
             return Ok(json(out, report)?);
         }

@@ -3,24 +3,24 @@
 use std::fmt::Write as _;
 
 use ppum::text::trimmed_to;
-use ppum_render::resample::need::{Convergence, Needed};
-use ppum_render::resample::norms::{NAMES, Norms};
+use ppum_render::resample::need::{GridConvergence, GridNeed};
+use ppum_render::resample::norms::{DifferenceNorms, NAMES};
 use ppum_render::view::View;
 use serde::Serialize;
 
 use super::measure::{Measurements, MethodResult};
-use crate::number::Number;
+use crate::number::JsonNumber;
 
 /// All numbers, as JSON shows them.
 #[derive(Serialize)]
-pub(super) struct Report {
+pub(super) struct ComparisonReport {
     file: String,
     quantity: String,
     center: [f64; 2],
     width: f64,
     pixels: [u32; 2],
     direct: Cost,
-    resampled: Vec<Row>,
+    resampled: Vec<MethodRow>,
 }
 
 #[derive(Serialize)]
@@ -31,32 +31,33 @@ struct Cost {
 
 /// One method.
 #[derive(Serialize)]
-struct Row {
+struct MethodRow {
     method: &'static str,
     grid: Option<[u32; 2]>,
     bytes: u64,
     seconds: f64,
     sampling_seconds: f64,
     #[serde(flatten)]
-    errors: Errors,
+    errors: PixelErrors,
     needed: Option<NeededRow>,
 }
 
 /// Errors over the pixels of a view.
 #[derive(Serialize)]
-struct Errors {
-    absolute: [Number; 3],
-    relative: [Number; 3],
+struct PixelErrors {
+    absolute: [JsonNumber; 3],
+    relative: [JsonNumber; 3],
     compared: usize,
     infinite: usize,
     lost: usize,
     invented: usize,
 }
 
-impl Errors {
-    fn new(norms: &Norms) -> Self {
-        let Norms { compared, infinite, lost, invented, .. } = *norms;
-        let [absolute, relative] = [norms.absolute, norms.relative()].map(|all| all.map(Number));
+impl PixelErrors {
+    fn new(norms: &DifferenceNorms) -> Self {
+        let DifferenceNorms { compared, infinite, lost, invented, .. } = *norms;
+        let [absolute, relative] =
+            [norms.absolute, norms.relative()].map(|all| all.map(JsonNumber));
         Self { absolute, relative, compared, infinite, lost, invented }
     }
 }
@@ -65,25 +66,25 @@ impl Errors {
 #[derive(Serialize)]
 struct NeededRow {
     error: f64,
-    grids: Vec<NeededGrid>,
-    measured: Vec<Measured>,
+    grids: Vec<NeededGridRow>,
+    measured: Vec<ComparisonNumbers>,
 }
 
 /// See [`ppum_scene::compare::NeededGrid`].
 #[derive(Serialize)]
-struct NeededGrid {
+struct NeededGridRow {
     kind: &'static str,
-    grid: Option<[Number; 2]>,
+    grid: Option<[JsonNumber; 2]>,
     reason: Option<&'static str>,
 }
 
 #[derive(Serialize)]
-struct Measured {
+struct ComparisonNumbers {
     grid: [u32; 2],
-    relative: [Number; 3],
+    relative: [JsonNumber; 3],
 }
 
-impl Report {
+impl ComparisonReport {
     pub(super) fn new(file: &str, quantity: &str, view: &View, found: &Measurements) -> Self {
         Self {
             file: file.to_owned(),
@@ -92,12 +93,12 @@ impl Report {
             width: view.width,
             pixels: view.pixels,
             direct: Cost { bytes: found.direct_bytes, seconds: found.direct_seconds },
-            resampled: found.methods.iter().map(Row::new).collect(),
+            resampled: found.methods.iter().map(MethodRow::new).collect(),
         }
     }
 }
 
-impl Row {
+impl MethodRow {
     fn new(one: &MethodResult) -> Self {
         let [sampling, drawing] = one.seconds;
         Self {
@@ -109,31 +110,31 @@ impl Row {
             bytes: one.resampled.bytes,
             seconds: sampling + drawing,
             sampling_seconds: sampling,
-            errors: Errors::new(&one.resampled.norms),
+            errors: PixelErrors::new(&one.resampled.norms),
             needed: one.convergence.as_ref().map(|(found, error)| NeededRow::new(found, *error)),
         }
     }
 }
 
 impl NeededRow {
-    fn new(found: &Convergence, error: f64) -> Self {
-        let measured = found
-            .steps
-            .iter()
-            .map(|(grid, norms)| Measured { grid: *grid, relative: norms.relative().map(Number) });
-        let grids = (0..3).map(|norm| NeededGrid::new(found.needed(norm, error)));
+    fn new(found: &GridConvergence, error: f64) -> Self {
+        let measured = found.steps.iter().map(|(grid, norms)| ComparisonNumbers {
+            grid: *grid,
+            relative: norms.relative().map(JsonNumber),
+        });
+        let grids = (0..3).map(|norm| NeededGridRow::new(found.needed(norm, error)));
         Self { error, grids: grids.collect(), measured: measured.collect() }
     }
 }
 
-impl NeededGrid {
-    fn new(needed: Needed) -> Self {
+impl NeededGridRow {
+    fn new(needed: GridNeed) -> Self {
         let words = ppum_scene::compare::NeededGrid::new(needed);
-        Self { kind: words.kind, grid: words.size.map(|n| n.map(Number)), reason: words.reason }
+        Self { kind: words.kind, grid: words.size.map(|n| n.map(JsonNumber)), reason: words.reason }
     }
 
     fn text(&self) -> String {
-        let size = |[nx, ny]: [Number; 2]| format!("{}×{}", short(nx.0), short(ny.0));
+        let size = |[nx, ny]: [JsonNumber; 2]| format!("{}×{}", short(nx.0), short(ny.0));
         match (self.kind, self.grid, self.reason) {
             ("extrapolated", Some(grid), _) => format!("{} (extrapolated)", size(grid)),
             (_, Some(grid), _) => size(grid),
@@ -162,7 +163,7 @@ fn bytes(count: u64) -> String {
 }
 
 /// The numbers as a table.
-pub(super) fn table(report: &Report) -> String {
+pub(super) fn table(report: &ComparisonReport) -> String {
     let [columns, rows] = report.pixels;
     let mut text = format!("{} of {}, {columns}x{rows} pixels\n\n", report.quantity, report.file);
     let mut line = |cells: [&str; 6]| {
@@ -188,8 +189,8 @@ pub(super) fn table(report: &Report) -> String {
     text
 }
 
-/// What a row of the table does not say.
-fn remarks(row: &Row) -> String {
+/// Writes remarks that do not fit into a row of the table.
+fn remarks(row: &MethodRow) -> String {
     let (errors, mut text, method) = (&row.errors, String::new(), row.method);
     let counts = [
         (errors.lost, "pixels of the plate have no value, next to holes or the border"),

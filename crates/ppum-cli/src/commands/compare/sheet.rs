@@ -6,30 +6,30 @@
 
 use ppum::field::Field;
 use ppum_figure::canvas::Canvas;
-use ppum_figure::figure::{Design, FigureError, Labels, Panel, PanelGrid, panel_area, panels};
+use ppum_figure::figure::{FigureError, FigureStyle, Labels, Panel, PanelGrid, panel_area, panels};
 use ppum_figure::overlay;
 use ppum_render::extrema::{BodyRegion, extrema};
-use ppum_render::picture::{Picture, Style};
-use ppum_render::range::Range;
+use ppum_render::picture::{ColoredRaster, Style};
+use ppum_render::range::RangeChoice;
 use ppum_render::raster::Raster;
 use ppum_render::resample::Interpolation;
 use ppum_render::resample::norms::difference;
 use ppum_scene::compare::signed;
-use ppum_scene::look::{LONG, Look};
+use ppum_scene::page_style::{LONG, PageStyle};
 use ppum_scene::panels::letters;
 
-use super::Args;
+use super::CompareArgs;
 use super::measure::{ComparisonInput, Measurements, name};
-use crate::progress::Bar;
+use crate::progress::ProgressLine;
 
 /// The panels of the page and their arrangement.
-pub(super) struct Layout {
+pub(super) struct PanelArrangement {
     title: String,
     panels: Vec<Shows>,
     /// Labels of the panels; their titles are the captions.
     labels: Vec<Labels>,
     grid: PanelGrid,
-    design: Design,
+    design: FigureStyle,
 }
 
 /// The content of a panel.
@@ -41,10 +41,10 @@ enum Shows {
     Difference(usize),
 }
 
-impl Layout {
+impl PanelArrangement {
     /// The page for some methods; `labels` are the labels of the field.
     pub(super) fn new(
-        args: &Args,
+        args: &CompareArgs,
         field: &Field<'_>,
         labels: &Labels,
         methods: &[Option<Interpolation>],
@@ -58,7 +58,8 @@ impl Layout {
             (count, false) => [count as u32 + 1, 2],
             (count, true) => [2, count as u32 + 1],
         };
-        let design = args.look.design(aspect, Look::page(aspect, [across, down]), [across, down]);
+        let design =
+            args.look.design(aspect, PageStyle::page(aspect, [across, down]), [across, down]);
         let names: Vec<String> = methods.iter().map(|method| name(*method, args.grid)).collect();
         let words = |(number, shows): (usize, &Shows)| {
             let (caption, quantity) = match *shows {
@@ -99,16 +100,16 @@ impl Layout {
         found: &Measurements,
         job: ComparisonInput<'_>,
         style: &Style,
-    ) -> anyhow::Result<(Canvas, Picture)> {
+    ) -> anyhow::Result<(Canvas, ColoredRaster)> {
         let ComparisonInput { field, view, .. } = job;
         let view = &view;
         let direct = direct(&found.direct, job, style)?;
         let norm = &direct.normalization;
-        let fixed = Style { range: Range::Fixed(norm.min(), norm.max()), ..style.clone() };
+        let fixed = Style { range: RangeChoice::Fixed(norm.min(), norm.max()), ..style.clone() };
         let picture = |shows: &Shows| match *shows {
             Shows::Direct => Ok(direct.clone()),
             Shows::Resampled(k) => {
-                Ok(Picture::bare(&found.methods[k].resampled.raster, view, &fixed)?)
+                Ok(ColoredRaster::bare(&found.methods[k].resampled.raster, view, &fixed)?)
             }
             Shows::Difference(k) => {
                 let apart = difference(&found.direct, &found.methods[k].resampled.raster);
@@ -148,12 +149,16 @@ impl Shows {
 }
 
 /// The direct image; its automatic range is found from the true extrema.
-fn direct(raster: &Raster, job: ComparisonInput<'_>, style: &Style) -> anyhow::Result<Picture> {
+fn direct(
+    raster: &Raster,
+    job: ComparisonInput<'_>,
+    style: &Style,
+) -> anyhow::Result<ColoredRaster> {
     let ComparisonInput { field, view, quantity, .. } = job;
     let values = match BodyRegion::seen(field, &view).filter(|_| style.range.is_found()) {
-        Some(region) => extrema(field, &region, quantity, &Bar::new())?,
+        Some(region) => extrema(field, &region, quantity, &ProgressLine::new())?,
         None => None,
     };
     let span = style.range.span(style.scale, style.colormap.diverging, raster, values);
-    Ok(Picture::spanning(raster, &view, style, span)?)
+    Ok(ColoredRaster::spanning(raster, &view, style, span)?)
 }

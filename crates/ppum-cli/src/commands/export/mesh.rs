@@ -10,26 +10,26 @@ use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::text::short;
 use ppum_scene::export::vtkhdf::{self, ExportedStep};
-use ppum_scene::export::vtp::{self, IsolineRequest, Lines};
-use ppum_scene::export::vtu::{self, About};
+use ppum_scene::export::vtp::{self, IsolineRequest, PolylineData};
+use ppum_scene::export::vtu::{self, FileNotes};
 use ppum_scene::export::{
-    Accuracy, Array, ExportError, HIGHEST_ORDER, MeasuredAccuracy, Mesh, RANDOM_POINTS, resolve,
-    times,
+    Accuracy, ExportError, ExportMesh, HIGHEST_ORDER, MeasuredAccuracy, PointArray, RANDOM_POINTS,
+    resolve, times,
 };
-use ppum_scene::overlays::Levels;
-use ppum_scene::scene::Scene;
-use ppum_scene::shot::{Asked, FieldSource};
+use ppum_scene::overlays::IsolineLevels;
+use ppum_scene::scene::SceneRequest;
+use ppum_scene::shot::{FieldSource, QuantityRequest};
 use sha2::{Digest as _, Sha256};
 
 use crate::dataset::{check_shown, field, quantity};
-use crate::given::{Given, parts};
+use crate::formula_text::{FormulaText, parts};
 use crate::number::count;
-use crate::output::{Output, tell};
-use crate::progress::Bar;
+use crate::output::{StandardStream, tell};
+use crate::progress::ProgressLine;
 use crate::target;
 use ppum_scene::arguments::positive;
 
-/// What a mesh has to resolve.
+/// The features that a mesh has to resolve.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Options {
     /// Largest difference of a mesh from the field, in parts of the range of each quantity
@@ -109,7 +109,7 @@ fn has_extension(path: &Path, wanted: &str) -> bool {
 }
 
 /// A dataset, and where its mesh goes.
-pub(super) struct Job<'a> {
+pub(super) struct ExportJob<'a> {
     pub(super) dataset: &'a Dataset,
     /// SHA-256 of the dataset's file.
     pub(super) hash: &'a str,
@@ -117,16 +117,16 @@ pub(super) struct Job<'a> {
     /// Quantities with commas between.
     pub(super) quantities: Option<&'a str>,
     /// The levels of isolines among lines.
-    pub(super) isolines: Option<&'a Levels>,
+    pub(super) isolines: Option<&'a IsolineLevels>,
 }
 
 impl Options {
     /// Writes the mesh of a step, by default the last one; in the form of VTKHDF those of all.
     pub(super) fn write(
         &self,
-        job: &Job<'_>,
+        job: &ExportJob<'_>,
         step: Option<usize>,
-        out: &mut Output,
+        out: &mut StandardStream,
     ) -> anyhow::Result<()> {
         let count = job.dataset.steps.len();
         if is_vtkhdf(job.output) {
@@ -145,9 +145,9 @@ impl Options {
     /// Writes the meshes of some steps to one file.
     fn write_vtkhdf(
         &self,
-        job: &Job<'_>,
+        job: &ExportJob<'_>,
         steps: Range<usize>,
-        out: &mut Output,
+        out: &mut StandardStream,
     ) -> anyhow::Result<()> {
         let (mut meshes, mut bytes) = (Vec::new(), 0);
         for step in steps {
@@ -170,9 +170,9 @@ impl Options {
     /// Writes the meshes of all steps and their list; `inputs` are not replaced.
     pub(super) fn write_all<'i>(
         &self,
-        job: &Job<'_>,
+        job: &ExportJob<'_>,
         inputs: impl Iterator<Item = &'i Path> + Clone,
-        out: &mut Output,
+        out: &mut StandardStream,
     ) -> anyhow::Result<()> {
         let files: Vec<_> = (0..job.dataset.steps.len()).map(|step| file_of(job, step)).collect();
         files
@@ -194,10 +194,10 @@ impl Options {
     /// Writes the mesh of a step; false if it does not keep the tolerance.
     fn write_step(
         &self,
-        job: &Job<'_>,
+        job: &ExportJob<'_>,
         step: usize,
         file: &Path,
-        out: &mut Output,
+        out: &mut StandardStream,
     ) -> anyhow::Result<bool> {
         let (mesh, about) = self.mesh(job, step)?;
         target::save(file, |out| vtu::write(out, &mesh, &about))?;
@@ -206,17 +206,18 @@ impl Options {
         tell_mesh(&mesh, out)
     }
 
-    fn mesh(&self, job: &Job<'_>, step: usize) -> anyhow::Result<(Mesh, About)> {
+    fn mesh(&self, job: &ExportJob<'_>, step: usize) -> anyhow::Result<(ExportMesh, FileNotes)> {
         let field = field(job.dataset, Some(step))?;
         let arrays = arrays(&field, job.quantities)?;
-        let mesh = resolve(&field, &arrays, &self.accuracy(), &Bar::new()).map_err(explained)?;
-        Ok((mesh, About::of(job.dataset, &field, job.hash.to_owned())))
+        let mesh =
+            resolve(&field, &arrays, &self.accuracy(), &ProgressLine::new()).map_err(explained)?;
+        Ok((mesh, FileNotes::of(job.dataset, &field, job.hash.to_owned())))
     }
 }
 
 /// Prints the size of a mesh, and how well it resolves the field. False, with a warning, if it does
 /// not keep the tolerance.
-fn tell_mesh(mesh: &Mesh, out: &mut Output) -> anyhow::Result<bool> {
+fn tell_mesh(mesh: &ExportMesh, out: &mut StandardStream) -> anyhow::Result<bool> {
     writeln!(out, "  {} triangles, {} points", mesh.triangles().len(), mesh.points.len())?;
     for measured in &mesh.arrays {
         writeln!(out, "  {}", summary(mesh, measured))?;
@@ -246,17 +247,22 @@ fn status(is_kept: bool) -> anyhow::Result<()> {
 }
 
 /// Writes the cracks, the tips, the border and isolines of a step.
-fn write_lines(job: &Job<'_>, step: usize, out: &mut Output) -> anyhow::Result<()> {
+fn write_lines(job: &ExportJob<'_>, step: usize, out: &mut StandardStream) -> anyhow::Result<()> {
     let field = field(job.dataset, Some(step))?;
-    let mut lines = Lines::of(job.dataset, &field);
-    let mut about = About::of(job.dataset, &field, job.hash.to_owned());
+    let mut lines = PolylineData::of(job.dataset, &field);
+    let mut about = FileNotes::of(job.dataset, &field, job.hash.to_owned());
     if let Some(levels) = job.isolines {
-        let quantity = job.quantities.map(Given::read).transpose()?;
+        let quantity = job.quantities.map(FormulaText::read).transpose()?;
         quantity.iter().try_for_each(|given| check_shown(&field, given))?;
         let quantity = quantity.map(|given| given.text.trim().to_owned());
-        let asked = Asked::new(&Scene { quantity, ..Scene::default() }, &field)?;
+        let asked =
+            QuantityRequest::new(&SceneRequest { quantity, ..SceneRequest::default() }, &field)?;
         let source = FieldSource::of(job.dataset, &field);
-        lines.add_isolines(source, IsolineRequest { asked: &asked, levels }, &Bar::new())?;
+        lines.add_isolines(
+            source,
+            IsolineRequest { asked: &asked, levels },
+            &ProgressLine::new(),
+        )?;
         about.texts.push(("quantities", asked.name));
     }
     target::save(job.output, |out| vtp::write(out, &lines, &about))?;
@@ -270,17 +276,17 @@ const TOO_LARGE: &str = "take more memory than one file may; raise --tolerance, 
                          for a file of each step";
 
 /// `growth.pvd` has `growth-0000.vtu` and so on beside it.
-fn file_of(job: &Job<'_>, step: usize) -> PathBuf {
+fn file_of(job: &ExportJob<'_>, step: usize) -> PathBuf {
     let stem = job.output.file_stem().unwrap_or_default().to_string_lossy();
     job.output.with_file_name(format!("{stem}-{step:04}.vtu"))
 }
 
-fn arrays(field: &Field<'_>, quantities: Option<&str>) -> anyhow::Result<Vec<Array>> {
-    let defaults = Array::defaults(field)?;
+fn arrays(field: &Field<'_>, quantities: Option<&str>) -> anyhow::Result<Vec<PointArray>> {
+    let defaults = PointArray::defaults(field)?;
     let Some(list) = quantities else { return Ok(defaults) };
     let array = |text: &str| match defaults.iter().find(|array| array.name == text) {
         Some(known) => Ok(known.clone()),
-        None => Ok(Array::scalar(text, quantity(field, text)?)),
+        None => Ok(PointArray::scalar(text, quantity(field, text)?)),
     };
     parts(list).into_iter().map(array).collect()
 }
@@ -309,7 +315,7 @@ pub(super) fn hash(bytes: &[u8]) -> String {
 }
 
 /// How well an array is resolved.
-fn summary(mesh: &Mesh, measured: &MeasuredAccuracy) -> String {
+fn summary(mesh: &ExportMesh, measured: &MeasuredAccuracy) -> String {
     let MeasuredAccuracy { array, allowed, largest, share, is_singular, .. } = measured;
     let mut text = format!(
         "{}: allowed {}, largest difference{} at {RANDOM_POINTS} random points {}",

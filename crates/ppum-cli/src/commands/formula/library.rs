@@ -6,7 +6,7 @@ use ppum::library::{Definition, ELASTICITY, ENRICHMENTS, Entry, POISSON, WEIGHTS
 use ppum::text::trimmed;
 use serde::Serialize;
 
-use super::report::{Parameter, parameters};
+use super::report::{FormulaParameter, parameters};
 use crate::number::json;
 
 /// Prints the library.
@@ -17,20 +17,20 @@ pub(super) fn list(out: &mut dyn Write, as_json: bool) -> anyhow::Result<()> {
 
 #[derive(Debug, Serialize)]
 struct Library {
-    library: Vec<Row>,
+    library: Vec<LibraryRow>,
 }
 
 #[derive(Debug, Serialize)]
-struct Row {
+struct LibraryRow {
     of: &'static str,
     name: String,
     about: &'static str,
-    parameters: Vec<Parameter>,
+    parameters: Vec<FormulaParameter>,
     formulas: Vec<&'static str>,
 }
 
 /// The kinds of functions: a heading, and the functions.
-fn groups() -> impl Iterator<Item = (&'static str, Vec<Row>)> {
+fn groups() -> impl Iterator<Item = (&'static str, Vec<LibraryRow>)> {
     let entries = |of, entries: &[Entry]| entries.iter().map(|e| entry(of, e)).collect();
     let quantities = |of, list: &[Definition]| {
         list.iter().map(|&(name, text)| quantity(of, name, text)).collect()
@@ -44,9 +44,9 @@ fn groups() -> impl Iterator<Item = (&'static str, Vec<Row>)> {
     .into_iter()
 }
 
-fn entry(of: &'static str, entry: &Entry) -> Row {
+fn entry(of: &'static str, entry: &Entry) -> LibraryRow {
     let Entry { name, about, texts, .. } = entry;
-    Row {
+    LibraryRow {
         of,
         name: (*name).to_owned(),
         about,
@@ -55,9 +55,9 @@ fn entry(of: &'static str, entry: &Entry) -> Row {
     }
 }
 
-fn quantity(of: &'static str, name: &str, text: &'static str) -> Row {
+fn quantity(of: &'static str, name: &str, text: &'static str) -> LibraryRow {
     let name = name.replace('_', "-");
-    Row { of, name, about: "", parameters: Vec::new(), formulas: vec![text] }
+    LibraryRow { of, name, about: "", parameters: Vec::new(), formulas: vec![text] }
 }
 
 /// Width of the column of names.

@@ -6,24 +6,24 @@ use serde::Serialize;
 use serde::ser::Serializer;
 
 use super::subject::{DisplayedFormula, Of};
-use crate::number::Number;
+use crate::number::JsonNumber;
 
 /// A value for every input of a formula.
 #[derive(Debug)]
-pub(super) struct Point {
+pub(super) struct FormulaPoint {
     /// In the order of the scope; NaN for those that nothing needs.
     pub(super) inputs: Vec<f64>,
     /// The variables by name.
     pub(super) shown: Vec<(String, f64)>,
 }
 
-impl Serialize for Point {
+impl Serialize for FormulaPoint {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_map(self.shown.iter().map(|(name, value)| (name, Number(*value))))
+        serializer.collect_map(self.shown.iter().map(|(name, value)| (name, JsonNumber(*value))))
     }
 }
 
-impl Point {
+impl FormulaPoint {
     /// The point with the values that were given, of the plane with polar coordinates.
     pub(super) fn new(subject: &DisplayedFormula, given: &[(String, f64)]) -> anyhow::Result<Self> {
         let formula = &subject.formula;

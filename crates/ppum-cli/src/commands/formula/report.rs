@@ -4,14 +4,14 @@ use ppum::formula::{DerivativeError, Formula, FormulaJets, Kink, wgsl_prelude};
 use ppum::weight::WeightFunction;
 use serde::Serialize;
 
-use super::point::Point;
+use super::point::FormulaPoint;
 use super::subject::{DisplayedFormula, Of};
-use crate::number::Number;
+use crate::number::JsonNumber;
 
 /// All formulas.
 #[derive(Debug, Serialize)]
-pub(super) struct Report {
-    pub(super) formulas: Vec<Row>,
+pub(super) struct FormulaReport {
+    pub(super) formulas: Vec<FormulaFacts>,
     /// The functions that those of WGSL call.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) wgsl_prelude: Option<&'static str>,
@@ -19,27 +19,27 @@ pub(super) struct Report {
 
 /// A formula and what is known of it.
 #[derive(Debug, Serialize)]
-pub(super) struct Row {
+pub(super) struct FormulaFacts {
     pub(super) of: String,
     pub(super) name: Option<String>,
     pub(super) text: String,
-    pub(super) parameters: Vec<Parameter>,
+    pub(super) parameters: Vec<FormulaParameter>,
     /// The variables its value depends on.
     pub(super) uses: Vec<String>,
     /// The value first, then its derivatives.
     pub(super) derivatives: Vec<Derivative>,
     /// Operations of the value; with first, with second derivatives.
     pub(super) operations: Vec<usize>,
-    pub(super) kinks: Vec<Set>,
-    pub(super) singularities: Vec<Set>,
+    pub(super) kinks: Vec<ZeroSet>,
+    pub(super) singularities: Vec<ZeroSet>,
     /// True if the origin of r and theta may be a singular point.
     pub(super) singular_at_origin: bool,
     /// True if it may jump where theta does.
     pub(super) jumps_with_theta: bool,
-    /// Of a formula of t: where in \[0, 1\] it is not smooth.
+    /// For a formula of t: where in \[0, 1\] it is not smooth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) breakpoints: Option<Vec<f64>>,
-    /// Of a formula of t: why it is no weight function.
+    /// For a formula of t: why it is no weight function.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) not_a_weight: Option<String>,
     /// The function of WGSL.
@@ -47,13 +47,13 @@ pub(super) struct Row {
     pub(super) wgsl: Option<String>,
     /// The point of the values.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) at: Option<Point>,
+    pub(super) at: Option<FormulaPoint>,
 }
 
 #[derive(Debug, Serialize)]
-pub(super) struct Parameter {
+pub(super) struct FormulaParameter {
     pub(super) name: String,
-    pub(super) value: Number,
+    pub(super) value: JsonNumber,
 }
 
 /// A derivative as a formula.
@@ -63,24 +63,26 @@ pub(super) struct Derivative {
     pub(super) by: Vec<String>,
     pub(super) text: String,
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) value: Option<Number>,
+    pub(super) value: Option<JsonNumber>,
 }
 
 /// The points at which a formula is 0.
 #[derive(Debug, Serialize)]
-pub(super) struct Set {
+pub(super) struct ZeroSet {
     pub(super) zeros_of: String,
     /// \[a, b, c\] of a line a x + b y + c = 0.
     pub(super) line: Option<[f64; 3]>,
 }
 
-pub(super) fn parameters<'p>(parameters: impl Iterator<Item = (&'p str, f64)>) -> Vec<Parameter> {
+pub(super) fn parameters<'p>(
+    parameters: impl Iterator<Item = (&'p str, f64)>,
+) -> Vec<FormulaParameter> {
     parameters
-        .map(|(name, value)| Parameter { name: name.to_owned(), value: Number(value) })
+        .map(|(name, value)| FormulaParameter { name: name.to_owned(), value: JsonNumber(value) })
         .collect()
 }
 
-impl Report {
+impl FormulaReport {
     /// Everything about some formulas, with values if a point is given, and with WGSL if that
     /// is wanted.
     pub(super) fn new(
@@ -90,7 +92,7 @@ impl Report {
     ) -> anyhow::Result<Self> {
         let row = |subject: &DisplayedFormula| {
             let wgsl = wgsl.then(|| self::wgsl(subject)).transpose()?;
-            Ok(Row { wgsl, ..Row::new(subject, at)? })
+            Ok(FormulaFacts { wgsl, ..FormulaFacts::new(subject, at)? })
         };
         let formulas: anyhow::Result<_> = subjects.iter().map(row).collect();
         Ok(Self { formulas: formulas?, wgsl_prelude: wgsl.then(wgsl_prelude) })
@@ -105,15 +107,15 @@ fn wgsl(subject: &DisplayedFormula) -> Result<String, DerivativeError> {
     Ok(jets.wgsl(&format!("formula{name}")))
 }
 
-impl Row {
+impl FormulaFacts {
     fn new(subject: &DisplayedFormula, at: &[(String, f64)]) -> anyhow::Result<Self> {
         let DisplayedFormula { of, name, formula, variables, .. } = subject;
         let derivatives = derivatives(formula, variables)?;
-        let at = (!at.is_empty()).then(|| Point::new(subject, at)).transpose()?;
+        let at = (!at.is_empty()).then(|| FormulaPoint::new(subject, at)).transpose()?;
         let shown = |(by, derivative): &(Vec<String>, Formula)| Derivative {
             by: by.clone(),
             text: derivative.normal_form(),
-            value: at.as_ref().map(|at| Number(derivative.evaluate(&at.inputs))),
+            value: at.as_ref().map(|at| JsonNumber(derivative.evaluate(&at.inputs))),
         };
         let is_weight = *of == Of::Weight;
         Ok(Self {
@@ -172,8 +174,8 @@ fn uses(formula: &Formula) -> Vec<String> {
     names
 }
 
-fn sets(kinks: Vec<Kink>) -> Vec<Set> {
-    let set = |kink: &Kink| Set { zeros_of: kink.value.normal_form(), line: kink.line() };
+fn sets(kinks: Vec<Kink>) -> Vec<ZeroSet> {
+    let set = |kink: &Kink| ZeroSet { zeros_of: kink.value.normal_form(), line: kink.line() };
     kinks.iter().map(set).collect()
 }
 

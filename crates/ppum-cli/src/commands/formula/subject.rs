@@ -13,7 +13,7 @@ use ppum::quantity::{Quantity, QuantityFormula, Vocabulary};
 use ppum::text::hint;
 
 use crate::dataset::{field, open_step};
-use crate::given::Given;
+use crate::formula_text::FormulaText;
 
 /// The kinds of formulas.
 #[derive(Clone, Debug, PartialEq)]
@@ -96,13 +96,13 @@ impl DisplayedFormula {
 }
 
 /// The question.
-pub(super) struct Question<'a> {
-    pub(super) given: Given,
+pub(super) struct FormulaQuestion<'a> {
+    pub(super) given: FormulaText,
     pub(super) parameters: &'a [(String, f64)],
     pub(super) tables: Vec<Arc<Table>>,
 }
 
-impl Question<'_> {
+impl FormulaQuestion<'_> {
     /// The formulas that are meant: one, or those of a name of the library.
     pub(super) fn subjects(&self, of: Option<&Of>) -> anyhow::Result<Vec<DisplayedFormula>> {
         let of = of.cloned().unwrap_or_else(|| self.kind());

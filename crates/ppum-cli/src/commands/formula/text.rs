@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use ppum::formula::one_line;
 use ppum::text::trimmed;
 
-use super::report::{Derivative, Report, Row, Set};
+use super::report::{Derivative, FormulaFacts, FormulaReport, ZeroSet};
 
 /// Width of the column of names.
 const NAME: usize = 12;
@@ -14,18 +14,18 @@ const NAME: usize = 12;
 const WIDTH: usize = 88;
 const LINES: usize = 12;
 
-pub(super) fn write(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+pub(super) fn write(out: &mut dyn Write, report: &FormulaReport) -> io::Result<()> {
     for (k, row) in report.formulas.iter().enumerate() {
         if k > 0 {
             writeln!(out)?;
         }
-        Page(out).formula(row)?;
+        FormulaPage(out).formula(row)?;
     }
     Ok(())
 }
 
 /// A module of WGSL: the functions, each with its formula above, and what they call.
-pub(super) fn write_wgsl(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+pub(super) fn write_wgsl(out: &mut dyn Write, report: &FormulaReport) -> io::Result<()> {
     write!(out, "{}", report.wgsl_prelude.unwrap_or_default())?;
     for row in &report.formulas {
         let by: Vec<_> = row.derivatives.iter().map(symbol).collect();
@@ -35,10 +35,10 @@ pub(super) fn write_wgsl(out: &mut dyn Write, report: &Report) -> io::Result<()>
     Ok(())
 }
 
-struct Page<'a>(&'a mut dyn Write);
+struct FormulaPage<'a>(&'a mut dyn Write);
 
-impl Page<'_> {
-    fn formula(&mut self, row: &Row) -> io::Result<()> {
+impl FormulaPage<'_> {
+    fn formula(&mut self, row: &FormulaFacts) -> io::Result<()> {
         if let Some(name) = &row.name {
             self.line("name", name)?;
         }
@@ -69,7 +69,7 @@ impl Page<'_> {
         Ok(())
     }
 
-    fn smoothness(&mut self, row: &Row) -> io::Result<()> {
+    fn smoothness(&mut self, row: &FormulaFacts) -> io::Result<()> {
         self.lines("kinks", sets(&row.kinks))?;
         self.lines("singular", singular(row))?;
         if row.kinks.is_empty() && singular(row).is_empty() {
@@ -85,7 +85,7 @@ impl Page<'_> {
         self.lines("weight", shown(verdict))
     }
 
-    fn values(&mut self, row: &Row) -> io::Result<()> {
+    fn values(&mut self, row: &FormulaFacts) -> io::Result<()> {
         let Some(at) = &row.at else { return Ok(()) };
         let point = at.shown.iter().map(|(name, value)| format!("{name} = {value:?}"));
         self.line("at", &point.collect::<Vec<_>>().join(", "))?;
@@ -118,14 +118,14 @@ fn symbol(derivative: &Derivative) -> String {
     }
 }
 
-fn singular(row: &Row) -> Vec<String> {
+fn singular(row: &FormulaFacts) -> Vec<String> {
     let is_told = row.singularities.iter().any(|set| set.zeros_of == "r");
     let origin = (row.singular_at_origin && !is_told).then(|| "the origin, maybe".to_owned());
     origin.into_iter().chain(sets(&row.singularities)).collect()
 }
 
-fn sets(sets: &[Set]) -> Vec<String> {
-    let equation = |set: &Set| format!("{} = 0", set.zeros_of.replace('\n', " "));
+fn sets(sets: &[ZeroSet]) -> Vec<String> {
+    let equation = |set: &ZeroSet| format!("{} = 0", set.zeros_of.replace('\n', " "));
     let (shown, rest) = sets.split_at(sets.len().min(LINES));
     let rest = (!rest.is_empty()).then(|| format!("… {} more", rest.len()));
     shown.iter().map(|set| shortened(&equation(set))).chain(rest).collect()

@@ -8,17 +8,17 @@ use crate::graphics::{self, Adapter, MISSING};
 
 /// The graphics adapters of this machine, in the shape of the JSON.
 #[derive(Debug, Serialize)]
-pub(super) struct Report {
+pub(super) struct AdaptersReport {
     adapters: Vec<Adapter>,
 }
 
-impl Report {
+impl AdaptersReport {
     /// Opens what each backend would open.
     pub(super) fn new() -> Self {
         Self { adapters: graphics::adapters() }
     }
 
-    /// The same for people.
+    /// Writes text for people.
     pub(super) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         if self.adapters.is_empty() {
             return writeln!(out, "{MISSING}");

@@ -5,31 +5,33 @@ use std::io::{self, Write};
 use anyhow::Context as _;
 use ppum::field::Field;
 use ppum::quantity::Quantity;
-use ppum::text::Places;
+use ppum::text::LocationText;
 use ppum::vec2::Vec2;
-use ppum_render::extrema::{BodyRegion, Extremum, On, Singular, SingularKind, extrema};
+use ppum_render::extrema::{
+    BodyRegion, Extremum, ExtremumSite, SingularKind, SingularPoint, extrema,
+};
 use serde::Serialize;
 
-use crate::number::Number;
-use crate::progress::Bar;
+use crate::number::JsonNumber;
+use crate::progress::ProgressLine;
 use ppum_scene::range::{value, words};
 
 /// The extrema of a quantity.
 #[derive(Debug, Serialize)]
-pub(super) struct Report {
+pub(super) struct ExtremaReport {
     quantity: String,
-    min: Row,
-    max: Row,
+    min: ExtremumRow,
+    max: ExtremumRow,
     /// Points where the quantity is infinite.
-    singular: Vec<Point>,
+    singular: Vec<ExtremumLocation>,
 }
 
 #[derive(Debug, Serialize)]
-struct Row {
-    value: Number,
+struct ExtremumRow {
+    value: JsonNumber,
     at: [f64; 2],
-    /// What the place lies on: `inside`, `border`, `face`, `rim`, `interface`, `singular`; `pixel`
-    /// where only pixels were looked at.
+    /// The feature that the place lies on: `inside`, `border`, `face`, `rim`, `interface`,
+    /// `singular`; `pixel` where only pixels were looked at.
     on: &'static str,
     /// Index of the crack or the hole; of a face with its side.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -41,19 +43,20 @@ struct Row {
 }
 
 #[derive(Debug, Serialize)]
-struct Point {
+struct ExtremumLocation {
     kind: &'static str,
     at: [f64; 2],
 }
 
-impl Report {
+impl ExtremaReport {
     /// Finds them.
     pub(super) fn new(field: &Field<'_>, name: &str, quantity: &Quantity) -> anyhow::Result<Self> {
-        let found = extrema(field, &BodyRegion::whole(field), quantity, &Bar::new())?;
+        let found = extrema(field, &BodyRegion::whole(field), quantity, &ProgressLine::new())?;
         let found = found.with_context(|| format!("{name}: is nowhere defined"))?;
         let place = |offset: Vec2| (found.center + offset).into();
-        let row = |extremum: &Extremum| Row::new(extremum, place(extremum.offset));
-        let point = |s: &Singular| Point { kind: kind(s.kind), at: place(s.offset) };
+        let row = |extremum: &Extremum| ExtremumRow::new(extremum, place(extremum.offset));
+        let point =
+            |s: &SingularPoint| ExtremumLocation { kind: kind(s.kind), at: place(s.offset) };
         Ok(Self {
             quantity: name.to_owned(),
             min: row(&found.min),
@@ -63,7 +66,7 @@ impl Report {
     }
 
     /// Writes a line for each.
-    pub(super) fn write(&self, places: &Places, out: &mut dyn Write) -> io::Result<()> {
+    pub(super) fn write(&self, places: &LocationText, out: &mut dyn Write) -> io::Result<()> {
         let finite =
             [&self.min, &self.max].map(|row| row.value.0).into_iter().filter(|v| v.is_finite());
         let largest = finite.map(f64::abs).fold(0.0, f64::max);
@@ -78,16 +81,16 @@ impl Report {
     }
 }
 
-impl Row {
+impl ExtremumRow {
     fn new(extremum: &Extremum, at: [f64; 2]) -> Self {
         let (index, side) = match extremum.on {
-            On::Face(segment, side) => (Some(segment.crack), Some(side.name())),
-            On::Rim(hole) => (u32::try_from(hole).ok(), None),
+            ExtremumSite::Face(segment, side) => (Some(segment.crack), Some(side.name())),
+            ExtremumSite::Rim(hole) => (u32::try_from(hole).ok(), None),
             _ => (None, None),
         };
         let on = extremum.on.name();
         let words = words(extremum.on).map_or_else(String::new, |words| format!(", {words}"));
-        Self { value: Number(extremum.value), at, on, index, side, words }
+        Self { value: JsonNumber(extremum.value), at, on, index, side, words }
     }
 }
 

@@ -3,7 +3,7 @@
 use ppum::crack::SegmentId;
 use ppum::dataset::{BoxPartition, Dataset, NamedQuantity};
 use ppum::formula::Table;
-use ppum::function::{Cut, Declared, Frame, Function, FunctionKind};
+use ppum::function::{Cut, Frame, Function, FunctionKind, NonsmoothPoints};
 use ppum::library;
 use ppum::vec2::Vec2;
 use ppum::weight::WeightFunction;
@@ -18,7 +18,7 @@ pub(super) struct FunctionRow {
     blocks: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     crack: Option<u32>,
-    /// Of a component, as in the file.
+    /// The cuts of a component, as in the file.
     #[serde(skip_serializing_if = "Option::is_none")]
     cuts: Option<Vec<[i64; 4]>>,
     #[serde(flatten)]
@@ -30,12 +30,12 @@ struct FormulaRow {
     formula: String,
     role: &'static str,
     frame: FrameRow,
-    parameters: Vec<Parameter>,
-    declared: DeclaredRow,
+    parameters: Vec<ParameterRow>,
+    declared: DeclarationRow,
 }
 
 #[derive(Debug, Serialize)]
-struct Parameter {
+struct ParameterRow {
     name: String,
     value: f64,
 }
@@ -60,7 +60,7 @@ enum FrameRow {
 }
 
 #[derive(Debug, Serialize)]
-struct DeclaredRow {
+struct DeclarationRow {
     kinks: Vec<[[f64; 2]; 2]>,
     singular: Vec<[f64; 2]>,
 }
@@ -88,7 +88,7 @@ impl FunctionRow {
                     role: role.name(),
                     frame: FrameRow::new(frame),
                     parameters: self::parameters(parameters),
-                    declared: DeclaredRow::new(declared),
+                    declared: DeclarationRow::new(declared),
                 });
                 "formula"
             }
@@ -104,8 +104,9 @@ fn cut(&Cut { segment: SegmentId { crack, segment }, left, right }: &Cut) -> [i6
     [crack.into(), segment.into(), left.number(), right.number()]
 }
 
-fn parameters(parameters: &[(String, f64)]) -> Vec<Parameter> {
-    let parameter = |(name, value): &(String, f64)| Parameter { name: name.clone(), value: *value };
+fn parameters(parameters: &[(String, f64)]) -> Vec<ParameterRow> {
+    let parameter =
+        |(name, value): &(String, f64)| ParameterRow { name: name.clone(), value: *value };
     parameters.iter().map(parameter).collect()
 }
 
@@ -121,8 +122,8 @@ impl FrameRow {
     }
 }
 
-impl DeclaredRow {
-    fn new(declared: &Declared) -> Self {
+impl DeclarationRow {
+    fn new(declared: &NonsmoothPoints) -> Self {
         Self {
             kinks: declared.kinks.iter().map(|kink| kink.map(Vec2::into)).collect(),
             singular: declared.singular.iter().copied().map(Vec2::into).collect(),

@@ -7,34 +7,34 @@ use ppum::dataset::{self, BoxPartition, Dataset, FieldData, Step};
 use ppum::field::{Field, FieldError};
 use ppum::mesh::{Mesh, Shape};
 use ppum::quantity::available;
-use ppum::text::Places;
+use ppum::text::LocationText;
 use ppum_render::cells;
-use ppum_scene::facts::{About, Crack, Record, Results};
+use ppum_scene::facts::{CommonFacts, CrackFacts, RecordFacts, ResultFacts};
 use ppum_scene::range::places;
-use ppum_solve::report::{is_of_course, is_of_level, is_of_phase};
+use ppum_solve::report::{is_convergence_record, is_of_level, is_of_phase};
 use serde::Serialize;
 
 use super::formulas::{self, FunctionRow, QuantityRow, TableRow};
-use super::series::StepRow;
+use super::series::SeriesStepRow;
 use crate::families::{Family, blocks, families};
 
 #[derive(Debug, Serialize)]
-pub(super) struct Report {
+pub(super) struct InfoReport {
     pub(super) file: String,
     #[serde(flatten)]
-    pub(super) about: About,
+    pub(super) about: CommonFacts,
     pub(super) quantities: Vec<QuantityRow>,
     pub(super) tables: Vec<TableRow>,
     /// The number of steps.
     pub(super) count: usize,
     /// All steps in short, if that is asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) series: Option<Vec<StepRow>>,
+    pub(super) series: Option<Vec<SeriesStepRow>>,
     /// The step that is told of, the only one of its list.
     pub(super) steps: [StepReport; 1],
     /// The writer of places for people.
     #[serde(skip)]
-    pub(super) places: Places,
+    pub(super) places: LocationText,
     /// The larger side of the domain's box.
     #[serde(skip)]
     pub(super) arm: f64,
@@ -54,8 +54,8 @@ pub(super) struct StepReport {
     /// The elements, if the patches are those of a mesh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) mesh: Option<MeshRow>,
-    pub(super) orders: Vec<Order>,
-    pub(super) cracks: Vec<Crack>,
+    pub(super) orders: Vec<OrderRow>,
+    pub(super) cracks: Vec<CrackFacts>,
     pub(super) tips: Vec<TipRow>,
     pub(super) functions: Vec<FunctionRow>,
     /// The functions for people.
@@ -64,10 +64,10 @@ pub(super) struct StepReport {
     pub(super) fields: Vec<FieldRow>,
     pub(super) quantities: Vec<String>,
     pub(super) attributes: Vec<String>,
-    /// What `render` draws on the cells.
+    /// The values that `render` draws on the cells.
     pub(super) cell_values: Vec<String>,
     #[serde(flatten)]
-    pub(super) results: Results,
+    pub(super) results: ResultFacts,
     /// Records that no table tells of.
     #[serde(skip)]
     pub(super) other_history: Vec<String>,
@@ -109,7 +109,7 @@ pub(super) struct LevelCount {
 
 /// Patches whose polynomials have an order.
 #[derive(Debug, Serialize)]
-pub(super) struct Order {
+pub(super) struct OrderRow {
     pub(super) order: u8,
     pub(super) patches: usize,
 }
@@ -129,13 +129,13 @@ pub(super) struct FieldRow {
     pub(super) exact: Vec<String>,
 }
 
-impl Report {
+impl InfoReport {
     /// The report of a dataset and one of its steps.
     pub(super) fn new(file: String, dataset: &Dataset, step: usize) -> Result<Self, FieldError> {
         let size = dataset.domain.bounds.size();
         Ok(Self {
             file,
-            about: About::new(dataset),
+            about: CommonFacts::new(dataset),
             quantities: formulas::quantities(dataset),
             tables: formulas::tables(dataset),
             count: dataset.steps.len(),
@@ -175,7 +175,7 @@ impl StepReport {
             levels: levels(partition),
             mesh,
             orders: orders(field.data),
-            cracks: cracks.iter().map(Crack::new).collect(),
+            cracks: cracks.iter().map(CrackFacts::new).collect(),
             tips: tip_rows(cracks),
             functions: formulas::functions(functions, &blocks),
             families: families(functions, &blocks),
@@ -183,8 +183,8 @@ impl StepReport {
             quantities: available(&field),
             attributes: attributes.iter().map(attribute).collect(),
             cell_values: cells::names(&field),
-            results: Results::new(dataset, index),
-            other_history: other.map(|record| Record::new(record).line()).collect(),
+            results: ResultFacts::new(dataset, index),
+            other_history: other.map(|record| RecordFacts::new(record).line()).collect(),
         })
     }
 }
@@ -202,11 +202,11 @@ fn levels(partition: &BoxPartition) -> Vec<LevelCount> {
 }
 
 /// The order of a patch is the largest degree of its blocks.
-fn orders(data: &FieldData) -> Vec<Order> {
+fn orders(data: &FieldData) -> Vec<OrderRow> {
     let patches = 0..data.patch_blocks.len() - 1;
     let order = |patch| data.blocks(patch).map(|b| data.block_degree[b]).max().unwrap_or(0);
     let counts = tally(patches.map(order));
-    counts.into_iter().map(|(order, patches)| Order { order, patches }).collect()
+    counts.into_iter().map(|(order, patches)| OrderRow { order, patches }).collect()
 }
 
 fn tip_rows(cracks: &[crack::Crack]) -> Vec<TipRow> {
@@ -229,5 +229,5 @@ fn field_row(data: &FieldData) -> FieldRow {
 
 /// True for records that the table of the solver tells, or that only programs want.
 fn is_in_tables(record: &dataset::Record) -> bool {
-    is_of_phase(record) || is_of_level(record) || is_of_course(&record.name)
+    is_of_phase(record) || is_of_level(record) || is_convergence_record(&record.name)
 }

@@ -5,47 +5,47 @@ use std::io::{self, Write};
 use ppum::crack::{Crack, TipId};
 use ppum::dataset::{Step, TipIntensity};
 use ppum::text::{short, trimmed};
-use ppum_scene::facts::{Growth, increment};
+use ppum_scene::facts::{GrowthFacts, increment};
 use serde::Serialize;
 
-use crate::number::{Number, columns, count};
+use crate::number::{JsonNumber, columns, count};
 
 /// A step, as far as its solver tells of it.
 #[derive(Debug, Serialize)]
-pub(super) struct StepRow {
+pub(super) struct SeriesStepRow {
     step: usize,
     load: f64,
-    /// Of the solver's report; NaN if that has none.
-    unknowns: Number,
+    /// Unknowns from the solver's report; NaN if that has none.
+    unknowns: JsonNumber,
     /// Length of all cracks.
     crack_length: f64,
-    tips: Vec<TipRow>,
-    /// What the tips do next, in a series of cracks that grow.
-    growth: Option<Growth>,
+    tips: Vec<SeriesTipRow>,
+    /// The next growth of the tips, in a series of cracks that grow.
+    growth: Option<GrowthFacts>,
     /// The lines of the tips for people, in such a series.
     #[serde(skip)]
     grown: Vec<Vec<String>>,
 }
 
 #[derive(Debug, Serialize)]
-struct TipRow {
+struct SeriesTipRow {
     crack: u32,
     end: &'static str,
-    k1: Number,
-    k2: Number,
+    k1: JsonNumber,
+    k2: JsonNumber,
     /// Small along a path that its increments resolve; NaN where K_I is within its error of zero.
-    k2_over_k1: Number,
+    k2_over_k1: JsonNumber,
 }
 
-impl StepRow {
+impl SeriesStepRow {
     pub(super) fn new(number: usize, step: &Step) -> Self {
         Self {
             step: number,
             load: step.load,
-            unknowns: Number(step.record("unknowns").unwrap_or(f64::NAN)),
+            unknowns: JsonNumber(step.record("unknowns").unwrap_or(f64::NAN)),
             crack_length: step.cracks.iter().map(Crack::length).sum(),
-            tips: step.intensities.iter().map(TipRow::new).collect(),
-            growth: step.growth.as_ref().map(Growth::new),
+            tips: step.intensities.iter().map(SeriesTipRow::new).collect(),
+            growth: step.growth.as_ref().map(GrowthFacts::new),
             grown: grown(step),
         }
     }
@@ -87,11 +87,17 @@ impl StepRow {
     }
 }
 
-impl TipRow {
+impl SeriesTipRow {
     fn new(intensity: &TipIntensity) -> Self {
         let TipIntensity { tip: TipId { crack, end }, k1, k2, .. } = intensity;
-        let k2_over_k1 = Number(ratio(intensity));
-        Self { crack: *crack, end: end.name(), k1: Number(*k1), k2: Number(*k2), k2_over_k1 }
+        let k2_over_k1 = JsonNumber(ratio(intensity));
+        Self {
+            crack: *crack,
+            end: end.name(),
+            k1: JsonNumber(*k1),
+            k2: JsonNumber(*k2),
+            k2_over_k1,
+        }
     }
 }
 
@@ -104,10 +110,10 @@ fn number(value: f64) -> String {
     if value.is_nan() { "–".into() } else { short(value) }
 }
 
-/// Of each tip its name, factors and their ratio, extension and fate.
+/// Returns the name, factors and their ratio, extension and status of each tip.
 fn grown(step: &Step) -> Vec<Vec<String>> {
     let rows = step.growth.iter().flat_map(|growth| &growth.tips);
-    let line = |row: &ppum::dataset::Advance| {
+    let line = |row: &ppum::dataset::TipIncrement| {
         let factors = step.intensities.iter().find(|found| found.tip == row.tip);
         let [k1, k2] = factors.map_or([f64::NAN; 2], |found| [found.k1, found.k2]).map(number);
         let ratio = match factors.map_or(f64::NAN, ratio) {
@@ -126,9 +132,9 @@ const TIPS: usize = 4;
 /// Lines of tips that grow for each step: a dozen cracks.
 const GROWING: usize = 24;
 
-/// The steps: load, unknowns, length of all cracks, K_I and K_II of the first tips. Of cracks that
-/// grow there is a line for each tip, with what it does next.
-pub(super) fn table(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
+/// The steps: load, unknowns, length of all cracks, K_I and K_II of the first tips. For cracks that
+/// grow, each tip has a line with its next increment.
+pub(super) fn table(out: &mut dyn Write, rows: &[SeriesStepRow]) -> io::Result<()> {
     if rows.iter().any(|row| row.growth.is_some()) {
         return table_of_growth(out, rows);
     }
@@ -139,12 +145,12 @@ pub(super) fn table(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
         _ => [format!("K_I {tip}"), format!("K_II {tip}")],
     };
     let heads: Vec<_> = heads.into_iter().chain((0..tips.min(TIPS)).flat_map(of_tip)).collect();
-    let lines: Vec<_> = [heads].into_iter().chain(rows.iter().map(StepRow::words)).collect();
+    let lines: Vec<_> = [heads].into_iter().chain(rows.iter().map(SeriesStepRow::words)).collect();
     columns(out, &lines, false)?;
     and_more(out, tips, TIPS)
 }
 
-fn table_of_growth(out: &mut dyn Write, rows: &[StepRow]) -> io::Result<()> {
+fn table_of_growth(out: &mut dyn Write, rows: &[SeriesStepRow]) -> io::Result<()> {
     let has_cycles = rows.iter().flat_map(|row| &row.growth).any(|g| g.cycles.is_some());
     let cycles = has_cycles.then_some("cycles");
     let heads = ["step", "load"].into_iter().chain(cycles);

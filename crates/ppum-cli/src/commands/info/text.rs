@@ -4,10 +4,10 @@ use std::io::{self, Write};
 
 use ppum::formula::one_line;
 use ppum::text::trimmed;
-use ppum_scene::facts::{Growth, Solver, reaction_lines};
+use ppum_scene::facts::{GrowthFacts, SolverFacts, reaction_lines};
 
 use super::formulas::{QuantityRow, TableRow};
-use super::report::{FieldRow, MeshRow, Report, StepReport};
+use super::report::{FieldRow, InfoReport, MeshRow, StepReport};
 use super::series::table as table_of_steps;
 use crate::families::Family;
 use crate::number::count;
@@ -16,9 +16,9 @@ use crate::tips::table;
 /// Width of the column of names.
 const NAME: usize = 12;
 
-pub(super) fn write(out: &mut dyn Write, report: &Report) -> io::Result<()> {
+pub(super) fn write(out: &mut dyn Write, report: &InfoReport) -> io::Result<()> {
     let places = &report.places;
-    let mut page = Page(out);
+    let mut page = InfoPage(out);
     for (name, text) in report.about.lines(places) {
         page.line(name, &text)?;
     }
@@ -34,9 +34,9 @@ pub(super) fn write(out: &mut dyn Write, report: &Report) -> io::Result<()> {
     report.steps.iter().try_for_each(|step| page.step(step, report))
 }
 
-struct Page<'a>(&'a mut dyn Write);
+struct InfoPage<'a>(&'a mut dyn Write);
 
-impl Page<'_> {
+impl InfoPage<'_> {
     fn line(&mut self, name: &str, text: &str) -> io::Result<()> {
         writeln!(self.0, "{name:NAME$} {text}")
     }
@@ -49,7 +49,7 @@ impl Page<'_> {
         Ok(())
     }
 
-    fn step(&mut self, step: &StepReport, report: &Report) -> io::Result<()> {
+    fn step(&mut self, step: &StepReport, report: &InfoReport) -> io::Result<()> {
         let (places, results) = (&report.places, &step.results);
         if report.count > 1 {
             writeln!(self.0)?;
@@ -67,9 +67,9 @@ impl Page<'_> {
         self.lines("functions", functions(&step.families).into_iter())?;
         self.lines("fields", step.fields.iter().map(field))?;
         self.line("unknowns", &results.unknowns.to_string())?;
-        self.lines("solver", results.solver.iter().map(Solver::line))?;
+        self.lines("solver", results.solver.iter().map(SolverFacts::line))?;
         self.lines("history", step.other_history.iter().cloned())?;
-        self.lines("growth", results.growth.iter().flat_map(Growth::lines))?;
+        self.lines("growth", results.growth.iter().flat_map(GrowthFacts::lines))?;
         self.lines("quantities", wrapped(&step.quantities).into_iter())?;
         let owners = if step.cells > 0 { "of cells" } else { "of patches" };
         self.lines(owners, wrapped(&step.cell_values).into_iter())?;

@@ -8,28 +8,28 @@ use ppum_figure::plot::{LEAST, Plot, plot};
 use ppum_scene::plots::{self, PlotError, Profiles};
 
 use crate::dataset::{field, open, open_results, open_step, quantities};
-use crate::given::{self, parts};
-use crate::output::{Output, tell};
+use crate::formula_text::{self, parts};
+use crate::output::{StandardStream, tell};
 use crate::page;
-use crate::profile::Profile;
+use crate::profile::ProfileArgs;
 use crate::standard::{self, is_standard};
 use crate::target;
 use ppum_scene::arguments::page as page_size;
 
 /// Plot exact values along a line, a crack or a circle, around a tip, or how a solution came about
 ///
-/// Of several datasets the curves stand in one plot. Near a tip, --tip K --angle A has logarithmic
-/// axes and says the exponents of the power laws; --convergence compares solutions of one problem
-/// on finer and finer covers.
+/// The curves of several datasets are drawn in one plot. Near a tip, --tip K --angle A has
+/// logarithmic axes and says the exponents of the power laws; --convergence compares solutions of
+/// one problem on finer and finer covers.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 #[command(group = clap::ArgGroup::new("where").required(true))]
-pub(crate) struct Args {
+pub(crate) struct PlotArgs {
     /// Datasets
     #[arg(value_name = "FILE.h5", required = true)]
     files: Vec<PathBuf>,
     #[command(flatten)]
-    profile: Profile,
+    profile: ProfileArgs,
     /// Errors against unknowns, a dataset each: those of the exact solution, or the distance of
     /// energy and stress intensity factors from those of the largest dataset
     #[arg(long, group = "where")]
@@ -41,7 +41,7 @@ pub(crate) struct Args {
     /// Stress intensity factors of all tips in the steps of a series
     #[arg(long, group = "where", conflicts_with = "step")]
     series: bool,
-    /// What --series is drawn over
+    /// Axis that --series is drawn over
     #[arg(long, value_enum, requires = "series", default_value = "step")]
     over: plots::SeriesAxis,
     /// Quantities, see `ppum info`, or formulas of them, or @FILE [default: those that suit]; with
@@ -84,22 +84,22 @@ enum LogAxisArg {
 }
 
 /// A dataset with the name of its file.
-struct Named {
+struct NamedFile {
     name: String,
     dataset: Dataset,
 }
 
-impl Named {
-    fn all(datasets: &[Self]) -> Vec<plots::Named<'_>> {
+impl NamedFile {
+    fn all(datasets: &[Self]) -> Vec<plots::NamedDataset<'_>> {
         datasets
             .iter()
-            .map(|named| plots::Named { name: &named.name, dataset: &named.dataset })
+            .map(|named| plots::NamedDataset { name: &named.name, dataset: &named.dataset })
             .collect()
     }
 }
 
-impl Args {
-    pub(crate) fn run(&self, out: &mut Output) -> anyhow::Result<()> {
+impl PlotArgs {
+    pub(crate) fn run(&self, out: &mut StandardStream) -> anyhow::Result<()> {
         target::check(&self.output, target::FileKind::Picture, self.inputs())?;
         let [[width, height], [least_width, least_height]] = [self.size, LEAST];
         ensure!(
@@ -121,8 +121,8 @@ impl Args {
         page::save(&self.output, &page, None, &texts, &plots::curves(&drawn), out)
     }
 
-    fn plot(&self, datasets: &[Named]) -> anyhow::Result<Plot> {
-        let named = Named::all(datasets);
+    fn plot(&self, datasets: &[NamedFile]) -> anyhow::Result<Plot> {
+        let named = NamedFile::all(datasets);
         let plot = match (self.convergence, self.history) {
             (true, _) => plots::convergence(&named, self.step),
             (_, Some(what)) => plots::history(&named, what, self.step),
@@ -133,16 +133,16 @@ impl Args {
     }
 
     /// The numbers of --series, by default K_I and K_II.
-    fn numbers(&self) -> anyhow::Result<Vec<plots::Number>> {
+    fn numbers(&self) -> anyhow::Result<Vec<plots::SeriesNumber>> {
         let words: Vec<&str> = self.quantity.iter().flat_map(|list| parts(list)).collect();
         if words.is_empty() {
-            return Ok(vec![plots::Number::K1, plots::Number::K2]);
+            return Ok(vec![plots::SeriesNumber::K1, plots::SeriesNumber::K2]);
         }
         words.iter().map(|word| word.parse().map_err(plot_error)).collect()
     }
 
     /// A curve for each quantity of each dataset.
-    fn profiles(&self, datasets: &[plots::Named<'_>]) -> anyhow::Result<Plot> {
+    fn profiles(&self, datasets: &[plots::NamedDataset<'_>]) -> anyhow::Result<Plot> {
         let jumps = self.quantity.is_empty() && self.profile.is_crack();
         let mut all = Profiles::new(self.profile.variable(), jumps, datasets.len() > 1);
         for named in datasets {
@@ -166,7 +166,7 @@ impl Args {
         }
     }
 
-    fn datasets(&self) -> anyhow::Result<Vec<Named>> {
+    fn datasets(&self) -> anyhow::Result<Vec<NamedFile>> {
         let standard = self.files.iter().filter(|file| is_standard(file)).count();
         ensure!(standard < 2, "standard input can be read once");
         let named = |file: &PathBuf| {
@@ -174,14 +174,15 @@ impl Args {
                 Some(name) if !is_standard(file) => name.to_string_lossy().into_owned(),
                 _ => standard::name(file),
             };
-            Ok(Named { name, dataset: self.open(file)? })
+            Ok(NamedFile { name, dataset: self.open(file)? })
         };
         self.files.iter().map(named).collect()
     }
 
     /// The files that are read.
     fn inputs(&self) -> impl Iterator<Item = &Path> {
-        let formulas = self.quantity.iter().flat_map(|list| parts(list)).filter_map(given::file);
+        let formulas =
+            self.quantity.iter().flat_map(|list| parts(list)).filter_map(formula_text::file);
         self.files.iter().map(PathBuf::as_path).chain(formulas)
     }
 }

@@ -1,28 +1,28 @@
-//! Several steps: numbered pictures or a moving one, with one range, one size, one factor
-//! of deformation.
+//! Several steps: numbered images or a moving one, with one range, one size, one factor of
+//! deformation.
 
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
 use ppum::text::{apart, trimmed};
-use ppum_render::png::Text;
-use ppum_scene::deformed::{Factor, words};
+use ppum_render::png::TextChunk;
+use ppum_scene::deformed::{Magnification, words};
 use ppum_scene::engine::Engine;
-use ppum_scene::moving::{Film, Frames, Work};
+use ppum_scene::image_job::ImageSettings;
+use ppum_scene::moving::{FrameSource, SeriesAnimation, Work};
 use ppum_scene::notice::Notice;
 use ppum_scene::request::Request;
-use ppum_scene::shot::{FieldSource, Shot};
-use ppum_scene::still::Common;
+use ppum_scene::shot::{FieldSource, RenderedImage};
 
 use super::series::form;
-use super::{Args, check_all};
+use super::{RenderArgs, check_all};
 use crate::dataset::{field, named, series};
-use crate::given::Given;
+use crate::formula_text::FormulaText;
 use crate::number::count;
 use crate::standard::is_standard;
 use crate::{page, progress, target};
 
-/// The file of a step's picture: `name-007.png`, with as many digits as the last step of the
+/// The file of a step's image: `name-007.png`, with as many digits as the last step of the
 /// dataset has, three at least.
 fn numbered(path: &Path, step: usize, all: usize) -> PathBuf {
     let width = all.saturating_sub(1).to_string().len().max(3);
@@ -31,7 +31,7 @@ fn numbered(path: &Path, step: usize, all: usize) -> PathBuf {
     path.with_file_name(format!("{stem}-{step:0width$}.{extension}"))
 }
 
-impl Args {
+impl RenderArgs {
     /// Draws the steps that are asked for, and returns what is told of them.
     pub(super) fn all_steps(
         &self,
@@ -47,10 +47,10 @@ impl Args {
         let bars = progress::NestedBars::new(steps.len());
         let texts = self.subject.texts()?;
         let request = self.request(texts.iter().map(|given| given.text.clone()).collect());
-        let mut reel = Reel { args: self, all, steps, texts, request: request.clone(), bars };
+        let mut reel = StepSource { args: self, all, steps, texts, request: request.clone(), bars };
         reel.request = reel.settled(&request)?;
-        let Common { placing, design } = Common::new(&reel, &request)?;
-        let film = Film::new(&reel, &placing, design.as_ref(), engine)?;
+        let ImageSettings { placing, design } = ImageSettings::new(&reel, &request)?;
+        let film = SeriesAnimation::new(&reel, &placing, design.as_ref(), engine)?;
         self.write(&reel, &film, engine)
     }
 
@@ -69,8 +69,8 @@ impl Args {
     /// Writes the files, and returns what is told of them.
     fn write(
         &self,
-        reel: &Reel<'_>,
-        film: &Film<'_, Reel<'_>>,
+        reel: &StepSource<'_>,
+        film: &SeriesAnimation<'_, StepSource<'_>>,
         engine: &Engine<'_>,
     ) -> anyhow::Result<String> {
         let path = &self.output;
@@ -78,7 +78,7 @@ impl Args {
             let (files, size) = self.pictures(reel, film, engine)?;
             return Ok(format!("{files}{}", reel.summary(film, size)));
         };
-        let texts = |first: &Shot| self.texts_of_all(reel, film, first);
+        let texts = |first: &RenderedImage| self.texts_of_all(reel, film, first);
         let time = self.series.time();
         let mut size = [0; 2];
         target::stream(path, |out| {
@@ -89,11 +89,11 @@ impl Args {
         Ok(format!("{}: {rate} a second, {}", path.display(), reel.summary(film, size)))
     }
 
-    /// Writes a picture of each step, and returns their names and their size.
+    /// Writes an image of each step, and returns their names and their size.
     fn pictures(
         &self,
-        reel: &Reel<'_>,
-        film: &Film<'_, Reel<'_>>,
+        reel: &StepSource<'_>,
+        film: &SeriesAnimation<'_, StepSource<'_>>,
         engine: &Engine<'_>,
     ) -> anyhow::Result<(String, [u32; 2])> {
         let path = |part: usize| numbered(&self.output, reel.steps[part], reel.all.len());
@@ -112,8 +112,13 @@ impl Args {
         Ok((names, size))
     }
 
-    /// What the texts of the first picture say of all.
-    fn texts_of_all(&self, reel: &Reel<'_>, film: &Film<'_, Reel<'_>>, first: &Shot) -> Vec<Text> {
+    /// Returns the texts that hold for all images.
+    fn texts_of_all(
+        &self,
+        reel: &StepSource<'_>,
+        film: &SeriesAnimation<'_, StepSource<'_>>,
+        first: &RenderedImage,
+    ) -> Vec<TextChunk> {
         let is_own = |key: &str| match key {
             "ppum:step" | "ppum:load" => true,
             "ppum:view" => film.views.iter().any(|view| *view != film.views[0]),
@@ -128,17 +133,17 @@ impl Args {
 }
 
 /// The steps that are drawn, each read when it is needed: none but one is in memory.
-struct Reel<'a> {
-    args: &'a Args,
+struct StepSource<'a> {
+    args: &'a RenderArgs,
     all: ppum_format::Series,
     steps: Vec<usize>,
-    texts: Vec<Given>,
-    /// What is asked of each; the factor of deformed plates is a number once it is known.
+    texts: Vec<FormulaText>,
+    /// The request for each; the factor of deformed plates is a number once it is known.
     request: Request,
     bars: progress::NestedBars,
 }
 
-impl Frames for Reel<'_> {
+impl FrameSource for StepSource<'_> {
     type Error = anyhow::Error;
 
     fn count(&self) -> usize {
@@ -157,11 +162,15 @@ impl Frames for Reel<'_> {
     }
 }
 
-impl Reel<'_> {
+impl StepSource<'_> {
     /// The summary of all steps that is printed.
-    fn summary(&self, film: &Film<'_, Reel<'_>>, [columns, rows]: [u32; 2]) -> String {
+    fn summary(
+        &self,
+        film: &SeriesAnimation<'_, StepSource<'_>>,
+        [columns, rows]: [u32; 2],
+    ) -> String {
         let moved = match self.request.scene.deformed {
-            Some(Factor::Given(factor)) => format!(", {}", words(factor)),
+            Some(Magnification::Given(factor)) => format!(", {}", words(factor)),
             _ => String::new(),
         };
         let (name, by) = (&film.name, &film.by);

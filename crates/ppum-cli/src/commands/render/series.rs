@@ -15,10 +15,10 @@ use crate::standard::is_standard;
 #[derive(Debug, clap::Args)]
 pub(super) struct SeriesArgs {
     /// Steps to draw, with one range for all: all, A..B with both ends, A..B:STRIDE, or a list of
-    /// these; as numbered pictures, or as GIF or APNG
+    /// these; as numbered images, or as GIF or APNG
     #[arg(long, value_name = "all|A..B|A,B,…", conflicts_with = "step")]
-    steps: Option<Steps>,
-    /// Steps that a moving picture shows in a second, up to 50 [default: 5]
+    steps: Option<StepSelection>,
+    /// Steps that an animation shows in a second, up to 50 [default: 5]
     #[arg(long, value_name = "N", requires = "steps", value_parser = rate)]
     fps: Option<f64>,
 }
@@ -35,22 +35,22 @@ impl SeriesArgs {
         Ok(steps)
     }
 
-    /// Time for which each picture is shown \[milliseconds\].
+    /// Time for which each image is shown \[milliseconds\].
     pub(super) fn time(&self) -> u16 {
         (1000.0 / self.rate()).round() as u16
     }
 
-    /// Pictures a second.
+    /// Images a second.
     pub(super) fn rate(&self) -> f64 {
         self.fps.unwrap_or(DEFAULT_RATE)
     }
 }
 
-/// Pictures a second.
+/// Images a second.
 const DEFAULT_RATE: f64 = 5.0;
 /// Programs show nothing faster than that as it should be.
 const LARGEST_RATE: f64 = 50.0;
-/// A picture is shown for a minute at most.
+/// An image is shown for a minute at most.
 const LEAST_RATE: f64 = 1.0 / 60.0;
 
 fn rate(text: &str) -> Result<f64, String> {
@@ -60,7 +60,7 @@ fn rate(text: &str) -> Result<f64, String> {
 
 /// Steps as they are asked for.
 #[derive(Clone, Debug, PartialEq)]
-struct Steps(Vec<StepRange>);
+struct StepSelection(Vec<StepRange>);
 
 /// `all`, `A`, `A..B`, `A..`, `..B`, `A..B:STRIDE`.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,7 +71,7 @@ struct StepRange {
     stride: usize,
 }
 
-impl FromStr for Steps {
+impl FromStr for StepSelection {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
@@ -107,7 +107,7 @@ impl FromStr for StepRange {
     }
 }
 
-impl Steps {
+impl StepSelection {
     /// Their numbers in a dataset of so many steps, rising, each once.
     fn of(&self, all: usize) -> anyhow::Result<Vec<usize>> {
         let last = all.saturating_sub(1);
@@ -128,7 +128,7 @@ impl Steps {
     }
 }
 
-/// Refuses a moving picture where there is but one.
+/// Refuses an animation where there is but one.
 pub(super) fn refuse_moving(path: &Path) -> anyhow::Result<()> {
     ensure!(
         form(path).is_none() || is_standard(path),
@@ -138,7 +138,7 @@ pub(super) fn refuse_moving(path: &Path) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The form of an animation that a name ends in; none for pictures.
+/// The form of an animation that a name ends in; none for images.
 pub(super) fn form(path: &Path) -> Option<AnimationFormat> {
     let ends_in = |wanted: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted));
     match () {

@@ -8,19 +8,19 @@ use std::thread;
 use std::time::Instant;
 
 use anyhow::{Context as _, bail, ensure};
-use ppum::dataset::{Advance, Dataset, Growth, Step, TipIntensity};
+use ppum::dataset::{Dataset, Growth, Step, TipIncrement, TipIntensity};
 use ppum::text::short;
 use ppum_format::SeriesWriter;
-use ppum_fracture::growth::{GrowthError, Last, grow, is_same_series};
+use ppum_fracture::growth::{GrowthError, ResumePoint, grow, is_same_series};
 use ppum_problem::{GrowthRule, Problem};
 use ppum_scene::facts::{self, increment};
 use serde::Serialize;
 
-use super::{Args, Report};
+use super::{SolveArgs, SolveReport};
 use crate::dataset::{named, series};
-use crate::number::{Number, count, json};
-use crate::output::Output;
-use crate::progress::Bar;
+use crate::number::{JsonNumber, count, json};
+use crate::output::StandardStream;
+use crate::progress::ProgressLine;
 use crate::standard::is_standard;
 use crate::threads;
 use crate::warnings::warn_of_steps;
@@ -30,27 +30,27 @@ use crate::warnings::warn_of_steps;
 pub(super) struct Grown {
     /// The first step of this run; more than 0 if it resumed another run.
     first: usize,
-    steps: Vec<StepRow>,
+    steps: Vec<GrowthStepRow>,
     /// Why the series ended; null if all increments were made.
     stop: Option<&'static str>,
 }
 
 #[derive(Debug, Serialize)]
-struct StepRow {
+struct GrowthStepRow {
     step: usize,
     load: f64,
     cycles: Option<f64>,
-    tips: Vec<TipRow>,
+    tips: Vec<GrowthTipRow>,
 }
 
 #[derive(Debug, Serialize)]
-struct TipRow {
+struct GrowthTipRow {
     crack: u32,
     end: &'static str,
     tip: [f64; 2],
-    k1: Number,
-    k2: Number,
-    strength: Number,
+    k1: JsonNumber,
+    k2: JsonNumber,
+    strength: JsonNumber,
     /// Direction of the next increment, radians.
     direction: f64,
     /// Its length.
@@ -61,23 +61,23 @@ struct TipRow {
     extension: f64,
 }
 
-impl StepRow {
+impl GrowthStepRow {
     fn new(number: usize, step: &Step, growth: &Growth) -> Self {
-        let tips = growth.tips.iter().map(|row| TipRow::new(step, row)).collect();
+        let tips = growth.tips.iter().map(|row| GrowthTipRow::new(step, row)).collect();
         Self { step: number, load: step.load, cycles: growth.cycles, tips }
     }
 }
 
-impl TipRow {
-    fn new(step: &Step, row: &Advance) -> Self {
+impl GrowthTipRow {
+    fn new(step: &Step, row: &TipIncrement) -> Self {
         let factors = factors(step, row);
         Self {
             crack: row.tip.crack,
             end: row.tip.end.name(),
             tip: step.cracks[row.tip.crack as usize].end_point(row.tip.end).into(),
-            k1: Number(factors.map_or(f64::NAN, |factors| factors.k1)),
-            k2: Number(factors.map_or(f64::NAN, |factors| factors.k2)),
-            strength: Number(row.strength),
+            k1: JsonNumber(factors.map_or(f64::NAN, |factors| factors.k1)),
+            k2: JsonNumber(factors.map_or(f64::NAN, |factors| factors.k2)),
+            strength: JsonNumber(row.k_eq),
             direction: row.direction,
             length: row.length,
             fate: row.fate.words(),
@@ -86,33 +86,34 @@ impl TipRow {
     }
 }
 
-fn factors<'s>(step: &'s Step, row: &Advance) -> Option<&'s TipIntensity> {
+fn factors<'s>(step: &'s Step, row: &TipIncrement) -> Option<&'s TipIntensity> {
     step.intensities.iter().find(|factors| factors.tip == row.tip)
 }
 
 /// Solves a problem with growing cracks and writes the series to a file, or resumes the series in
 /// the file.
 pub(super) fn run(
-    args: &Args,
+    args: &SolveArgs,
     problem: &Problem,
     rule: &GrowthRule,
     target: &Path,
-    out: &mut Output,
+    out: &mut StandardStream,
 ) -> anyhow::Result<()> {
     ensure!(
         !is_standard(target),
         "a series grows in its file, step by step, and cannot go to standard output; give a file with -o"
     );
     let there = (args.resume && target.exists()).then(|| there(problem, target)).transpose()?;
-    let last = there.as_ref().map(|(number, step)| Last { number: *number, step });
-    if let Some(stop) = last.and_then(|Last { number, step }| ends(rule, number, step)) {
+    let last = there.as_ref().map(|(number, step)| ResumePoint { number: *number, step });
+    if let Some(stop) = last.and_then(|ResumePoint { number, step }| ends(rule, number, step)) {
         writeln!(out, "{}: nothing to do, {stop}", target.display())?;
         return Ok(());
     }
     let first = last.map_or(0, |last| last.number + 1);
     let writer = last.is_some().then(|| SeriesWriter::resume(target)).transpose()?;
     let (lines, told) = channel();
-    let run = GrowthRun { rule, target, start: Instant::now(), bar: Bar::new(), first, lines };
+    let run =
+        GrowthRun { rule, target, start: Instant::now(), bar: ProgressLine::new(), first, lines };
     let grown = Grown { first, steps: Vec::new(), stop: None };
     let mut state = GrowthState { writer, grown, last: None, warnings: Vec::new() };
     thread::scope(|scope| {
@@ -162,7 +163,7 @@ struct GrowthRun<'a> {
     rule: &'a GrowthRule,
     target: &'a Path,
     start: Instant,
-    bar: Bar,
+    bar: ProgressLine,
     /// Number of its first step.
     first: usize,
     /// Receives lines of text for the terminal.
@@ -175,7 +176,7 @@ struct GrowthState {
     grown: Grown,
     last: Option<Dataset>,
     /// Warnings of all steps.
-    warnings: Vec<facts::Warning>,
+    warnings: Vec<facts::WarningFacts>,
 }
 
 impl GrowthRun<'_> {
@@ -188,7 +189,7 @@ impl GrowthRun<'_> {
         let number = self.first + state.grown.steps.len();
         let step = &dataset.steps[0];
         let growth = step.growth.as_ref().context("a step of a series without its growth")?;
-        state.grown.steps.push(StepRow::new(number, step, growth));
+        state.grown.steps.push(GrowthStepRow::new(number, step, growth));
         state.grown.stop = growth.stop.map(|stop| stop.words());
         self.bar.clear();
         state.warnings.extend(facts::warnings(number, &step.warnings));
@@ -241,7 +242,7 @@ impl GrowthRun<'_> {
 const HEADS: &str = "step     load  crack                   tip        K_I        K_II  increment, and what ends it";
 
 /// A tip in a line.
-fn line(step: &Step, row: &Advance) -> String {
+fn line(step: &Step, row: &TipIncrement) -> String {
     let unknown = || ["–", "–"].map(String::from);
     let [k1, k2] = factors(step, row).map_or_else(unknown, |k| [short(k.k1), short(k.k2)]);
     let at = step.cracks[row.tip.crack as usize].end_point(row.tip.end);
@@ -255,14 +256,14 @@ fn line(step: &Step, row: &Advance) -> String {
 
 /// The report of a series.
 fn report(
-    args: &Args,
+    args: &SolveArgs,
     target: &Path,
     GrowthState { grown, last, warnings, .. }: GrowthState,
-    out: &mut Output,
+    out: &mut StandardStream,
 ) -> anyhow::Result<()> {
     let last = last.context("a series without a step")?;
     let number = grown.first + grown.steps.len() - 1;
-    let mut report = Report::new(target.display().to_string(), &last);
+    let mut report = SolveReport::new(target.display().to_string(), &last);
     report.tips.clear();
     report.warnings.clear();
     warn_of_steps(&warnings);

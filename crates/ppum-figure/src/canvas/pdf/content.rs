@@ -1,4 +1,4 @@
-//! What is drawn on a page, as operators.
+//! Writes the items of a page as operators.
 
 use pdf_writer::types::{LineCapStyle, LineJoinStyle, TextRenderingMode};
 use pdf_writer::{Content, Name, Ref, Str};
@@ -7,27 +7,27 @@ use ppum_render::image::{Image, Rgba};
 
 use super::font::{self, Font};
 use super::{File, picture};
-use crate::canvas::{Canvas, Item, Lettering, Path, Pen};
+use crate::canvas::{Canvas, CanvasItem, CanvasPath, StrokeStyle, TextItem};
 use crate::text;
 
-/// What operators refer to.
+/// Resources that operators refer to.
 #[derive(Default)]
 pub(super) struct Resources {
     pub(super) font: Font,
-    /// Pictures by their names.
+    /// Images by their names.
     pub(super) pictures: Vec<(String, Ref)>,
     /// Opacities by their names.
     pub(super) states: Vec<(String, f32)>,
 }
 
 /// Writes items one after another.
-pub(super) struct Writer<'f> {
+pub(super) struct PdfWriter<'f> {
     file: &'f mut File,
     content: Content,
     resources: Resources,
 }
 
-impl<'f> Writer<'f> {
+impl<'f> PdfWriter<'f> {
     pub(super) fn new(file: &'f mut File, content: Content) -> Self {
         Self { file, content, resources: Resources::default() }
     }
@@ -45,16 +45,16 @@ impl<'f> Writer<'f> {
         }
         for item in &canvas.items {
             match item {
-                Item::Picture { image, corner } => self.picture(image, *corner),
-                Item::Fill { outline, color } => {
+                CanvasItem::Picture { image, corner } => self.picture(image, *corner),
+                CanvasItem::Fill { outline, color } => {
                     self.color(*color);
                     if self.path(&outline.turned_alike(), true) {
                         self.content.fill_nonzero();
                     }
                 }
-                Item::Line { path, pen } => self.line(path, pen),
-                Item::Text(lettering) => self.letters(lettering),
-                Item::Inset { corner, canvas } => self.inset(canvas, *corner),
+                CanvasItem::Line { path, pen } => self.line(path, pen),
+                CanvasItem::Text(lettering) => self.letters(lettering),
+                CanvasItem::Inset { corner, canvas } => self.inset(canvas, *corner),
             }
         }
     }
@@ -68,7 +68,7 @@ impl<'f> Writer<'f> {
         self.content.restore_state();
     }
 
-    /// A picture, which is a unit square with its base line below.
+    /// An image, which is a unit square with its base line below.
     fn picture(&mut self, image: &Image, corner: [u32; 2]) {
         let ([x, y], [width, height]) = (corner.map(|n| n as f32), image.size.map(|n| n as f32));
         if image.rgba.is_empty() {
@@ -82,7 +82,7 @@ impl<'f> Writer<'f> {
         self.resources.pictures.push((name, place));
     }
 
-    fn line(&mut self, path: &Path, pen: &Pen) {
+    fn line(&mut self, path: &CanvasPath, pen: &StrokeStyle) {
         let content = &mut self.content;
         content.set_line_cap(LineCapStyle::RoundCap).set_line_join(LineJoinStyle::RoundJoin);
         content.set_dash_pattern([], 0.0);
@@ -94,7 +94,7 @@ impl<'f> Writer<'f> {
         self.stroke(path, pen.color, pen.width);
     }
 
-    fn stroke(&mut self, path: &Path, color: Rgba, width: f64) {
+    fn stroke(&mut self, path: &CanvasPath, color: Rgba, width: f64) {
         self.color(color);
         self.content.set_line_width(width as f32);
         if self.path(path, false) {
@@ -102,7 +102,7 @@ impl<'f> Writer<'f> {
         }
     }
 
-    fn letters(&mut self, line: &Lettering) {
+    fn letters(&mut self, line: &TextItem) {
         if let Some(halo) = line.halo {
             self.color(halo.color);
             self.content.set_line_join(LineJoinStyle::RoundJoin).set_dash_pattern([], 0.0);
@@ -113,7 +113,7 @@ impl<'f> Writer<'f> {
         self.show(line, TextRenderingMode::Fill);
     }
 
-    fn show(&mut self, line: &Lettering, mode: TextRenderingMode) {
+    fn show(&mut self, line: &TextItem, mode: TextRenderingMode) {
         let (sin, cos) = line.angle.sin_cos();
         let (along, down) = (Vec2::from([cos, -sin]), Vec2::from([sin, cos]));
         let mut at = line.start();
@@ -131,7 +131,7 @@ impl<'f> Writer<'f> {
 
     /// The pieces of a path; those that lead to no place are left out. False if there are
     /// no others.
-    fn path(&mut self, path: &Path, is_closed: bool) -> bool {
+    fn path(&mut self, path: &CanvasPath, is_closed: bool) -> bool {
         let mut is_drawn = false;
         for points in path.pieces.iter().filter(|points| points.iter().all(|p| p.is_finite())) {
             let Some((first, rest)) = points.split_first() else { continue };

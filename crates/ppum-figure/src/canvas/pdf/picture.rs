@@ -1,4 +1,4 @@
-//! Pictures in PDF files.
+//! Images in PDF files.
 
 use pdf_writer::types::Predictor;
 use pdf_writer::{Filter, Finish as _, Ref};
@@ -7,7 +7,7 @@ use ppum_render::image::Image;
 use super::File;
 use crate::canvas::zlib::zlib;
 
-/// Adds a picture without loss; its opacity, where it is not opaque, is a grey picture beside it.
+/// Adds an image without loss; its opacity, where it is not opaque, is a grey image beside it.
 pub(super) fn picture(file: &mut File, image: &Image) -> Ref {
     let pixels = image.rgba.as_chunks::<4>().0;
     let is_opaque = pixels.iter().all(|p| p[3] == 255);
@@ -23,7 +23,7 @@ pub(super) fn picture(file: &mut File, image: &Image) -> Ref {
     place
 }
 
-/// A picture of three channels, or of one.
+/// An image of three channels, or of one.
 fn channels(file: &mut File, place: Ref, size: [u32; 2], values: &[u8], opacity: Option<Ref>) {
     let [columns, rows] = size.map(|n| n as i32);
     let count = values.len() / (size[0] as usize * size[1] as usize).max(1);

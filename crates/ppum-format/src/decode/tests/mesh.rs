@@ -4,16 +4,18 @@ use ppum::dataset::{Dataset, FieldData};
 use ppum::function::{Frame, FunctionKind};
 use ppum::mesh::{Clip, Shape};
 use ppum::polynomial::PolynomialSpace::{Tensor, Total};
-use ppum_testkit::meshes::{Elements, Polynomial, field, random_map, random_polynomial};
+use ppum_testkit::meshes::{
+    BivariatePolynomial, MeshBuilder, field, random_map, random_polynomial,
+};
 use ppum_testkit::random::Random;
 
 use super::put;
-use crate::content::{Array, ArrayValues, Content};
+use crate::content::{Array, ArrayValues, ObjectTree};
 use crate::{Arrays, bytes, encode};
 
 /// A triangle and a square cut in two, all of them curved, with functions of level fields.
 pub(super) fn dataset() -> Dataset {
-    let (mut random, mut elements) = (Random(2), Elements::default());
+    let (mut random, mut elements) = (Random(2), MeshBuilder::default());
     let triangle = random_map(&mut random, (Shape::Triangle, Total, 3), 0.9, 0.5);
     let square = random_map(&mut random, (Shape::Square, Tensor, 2), 0.9, 0.5);
     elements.push(Shape::Triangle, Total, 3, triangle);
@@ -23,13 +25,13 @@ pub(super) fn dataset() -> Dataset {
     let clip = |is_above| Clip { field: 1, is_above };
     (elements.mesh.clip_offsets, elements.mesh.clips) =
         (vec![0, 0, 1, 2], vec![clip(true), clip(false)]);
-    let level = |p: Polynomial| vec![(Total, 1, p); 3];
+    let level = |p: BivariatePolynomial| vec![(Total, 1, p); 3];
     let parts = [(Total, 4), (Tensor, 3), (Tensor, 8)]
         .map(|(space, d)| (space, d, random_polynomial(&mut random, space, d.into())));
     let fields: Vec<FieldData> = vec![
         field("v", &parts),
-        field("phi", &level(Polynomial::linear(0.1, 0.2, 1.0))),
-        field("psi", &level(Polynomial::linear(0.0, 1.0, -0.2))),
+        field("phi", &level(BivariatePolynomial::linear(0.1, 0.2, 1.0))),
+        field("psi", &level(BivariatePolynomial::linear(0.0, 1.0, -0.2))),
     ];
     let mut data = elements.dataset(fields);
     let step = data.steps.remove(0).with_function("sign", FunctionKind::Level { field: 1 });
@@ -55,7 +57,7 @@ fn meshes_are_read_as_they_were_written() {
     assert!(!of_boxes.keys().any(|key| new.iter().any(|new| key.contains(new))));
 }
 
-fn complaint(change: impl FnOnce(&mut Content)) -> String {
+fn complaint(change: impl FnOnce(&mut ObjectTree)) -> String {
     let mut content = encode::content(&dataset()).expect("valid");
     change(&mut content);
     let mut arrays = Arrays::default();

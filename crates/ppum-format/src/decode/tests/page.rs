@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::mesh;
-use crate::content::Content;
+use crate::content::ObjectTree;
 use crate::{checksum, encode, everything};
 use ppum::dataset::{Dataset, Equation};
 use ppum::expression::Expression;
@@ -74,7 +74,7 @@ fn of_page() -> Types {
 
 fn of_files() -> Types {
     let mut types = Types::new();
-    let mut add = |mut content: Content| {
+    let mut add = |mut content: ObjectTree| {
         checksum::seal_parts(&mut content);
         for (name, array) in content.iter() {
             let own = &name[name

@@ -18,14 +18,14 @@ const PLAIN: u64 = 2;
 /// A dataset of Poisson's equation with all that the format has.
 const FULL_POISSON: u64 = 5;
 
-fn content(seed: u64) -> Content {
-    static CONTENTS: LazyLock<BTreeMap<u64, Content>> =
+fn content(seed: u64) -> ObjectTree {
+    static CONTENTS: LazyLock<BTreeMap<u64, ObjectTree>> =
         LazyLock::new(|| [FULL, PLAIN, FULL_POISSON].map(|seed| (seed, encoded(seed, 3))).into());
     CONTENTS[&seed].clone()
 }
 
 /// The content of a dataset up to some number of steps.
-fn encoded(seed: u64, steps: usize) -> Content {
+fn encoded(seed: u64, steps: usize) -> ObjectTree {
     let mut data = everything::dataset(seed);
     data.problem = Some("title = \"all\"\n".into());
     data.steps.truncate(steps);
@@ -33,7 +33,7 @@ fn encoded(seed: u64, steps: usize) -> Content {
 }
 
 /// The complaint of the reader about a content, in a file with the right checksum.
-fn complaint(mut content: Content) -> Option<String> {
+fn complaint(mut content: ObjectTree) -> Option<String> {
     let mut counted = content.clone();
     remove(&mut counted, "user");
     checksum::seal(&mut counted);
@@ -68,13 +68,13 @@ fn errors_name_objects_of_the_file() {
         for error in crate::bytes::diagnose(&damaged) {
             let Some(place) = error.place() else { continue };
             let path = &place[..place.find(['[', ' ']).unwrap_or(place.len())];
-            let is_there = |c: &Content| c.contains_key(path) || c.has_group(path);
+            let is_there = |c: &ObjectTree| c.contains_key(path) || c.has_group(path);
             assert!(is_there(&good) || is_there(&damaged), "{rule}: {place}");
         }
     }
 }
 
-type Damage = fn(&mut Content);
+type Damage = fn(&mut ObjectTree);
 
 /// Damages of objects that do not depend on each other, and the objects.
 const INDEPENDENT: &[(&str, Damage)] = &[

@@ -2,12 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use super::error::{Parsed, fail};
-use super::source::{Cursor, Hdf5File};
+use super::error::{ReadResult, fail};
+use super::source::{Cursor, Hdf5Source};
 
 /// Parts of an array, each read and checked once.
 struct Blocks<'f> {
-    source: Hdf5File<'f>,
+    source: Hdf5Source<'f>,
     known: BTreeMap<u64, Cursor<'f>>,
     /// Bytes of an entry.
     entry: usize,
@@ -18,11 +18,11 @@ const CHECKSUM: u64 = 4;
 
 impl<'f> Blocks<'f> {
     /// The block of so many bytes, its checksum not counted, at an address.
-    fn get(&mut self, address: u64, length: u64) -> Parsed<Cursor<'f>> {
+    fn get(&mut self, address: u64, length: u64) -> ReadResult<Cursor<'f>> {
         if let Some(block) = self.known.get(&address) {
             return Ok(*block);
         }
-        let block = self.source.sealed(address, length.saturating_add(CHECKSUM))?;
+        let block = self.source.with_checksum(address, length.saturating_add(CHECKSUM))?;
         self.known.insert(address, block);
         Ok(block)
     }
@@ -33,12 +33,18 @@ impl<'f> Blocks<'f> {
     }
 
     /// An entry of a block of them.
-    fn pick(&self, block: Cursor<'f>, at: u64) -> Parsed<Option<Cursor<'f>>> {
+    fn pick(&self, block: Cursor<'f>, at: u64) -> ReadResult<Option<Cursor<'f>>> {
         slice(block, self.bytes(0, at), self.entry).map(Some)
     }
 
     /// An entry of a page: pages of so many entries each stand one behind the other.
-    fn page(&mut self, first: u64, size: u64, at: u64, used: u64) -> Parsed<Option<Cursor<'f>>> {
+    fn page(
+        &mut self,
+        first: u64,
+        size: u64,
+        at: u64,
+        used: u64,
+    ) -> ReadResult<Option<Cursor<'f>>> {
         let (page, within) = (at / size, at % size);
         let address = page.saturating_mul(self.bytes(CHECKSUM, size)).saturating_add(first);
         let block = self.get(address, self.bytes(0, used.min(size)))?;
@@ -47,7 +53,7 @@ impl<'f> Blocks<'f> {
 }
 
 /// A few bytes of a block, which count as a reading.
-fn slice(mut block: Cursor, at: u64, length: usize) -> Parsed<Cursor> {
+fn slice(mut block: Cursor, at: u64, length: usize) -> ReadResult<Cursor> {
     let source = block.source;
     if !source.account.pay_reading(length as u64) {
         return fail("it takes more readings than the file is worth");
@@ -62,22 +68,22 @@ fn is_set(bits: &[u8], at: u64) -> bool {
 }
 
 /// Bytes before the entries of a block: signature, version, kind, address of the header.
-fn prefix(source: Hdf5File) -> u64 {
+fn prefix(source: Hdf5Source) -> u64 {
     6 + source.offset_size() as u64
 }
 
 /// An array of fixed length.
-pub(super) struct Fixed<'f> {
+pub(super) struct FixedArray<'f> {
     blocks: Blocks<'f>,
     count: u64,
     page: u64,
     data: Option<u64>,
 }
 
-impl<'f> Fixed<'f> {
-    pub(super) fn open(source: Hdf5File<'f>, address: u64) -> Parsed<Self> {
+impl<'f> FixedArray<'f> {
+    pub(super) fn open(source: Hdf5Source<'f>, address: u64) -> ReadResult<Self> {
         let length = 12 + source.offset_size() + source.length_size();
-        let mut header = source.sealed(address, length as u64)?;
+        let mut header = source.with_checksum(address, length as u64)?;
         header.signature(b"FAHD")?;
         header.version(0, "the index of its chunks is")?;
         let (entry, page_bits) = (header.skip(1)?.u8()?, header.u8()?);
@@ -89,7 +95,7 @@ impl<'f> Fixed<'f> {
         Ok(Self { blocks, count, page: 1 << page_bits, data })
     }
 
-    pub(super) fn entry(&mut self, number: u64) -> Parsed<Option<Cursor<'f>>> {
+    pub(super) fn entry(&mut self, number: u64) -> ReadResult<Option<Cursor<'f>>> {
         let Some(data) = self.data else { return Ok(None) };
         if number >= self.count {
             return fail("the index of its chunks is too short");
@@ -104,7 +110,7 @@ impl<'f> Fixed<'f> {
     }
 
     /// Long arrays come in pages, with a bit for each that is in use.
-    fn paged(&mut self, data: u64, prefix: u64, number: u64) -> Parsed<Option<Cursor<'f>>> {
+    fn paged(&mut self, data: u64, prefix: u64, number: u64) -> ReadResult<Option<Cursor<'f>>> {
         let page = number / self.page;
         let bits = self.count.div_ceil(self.page).div_ceil(8);
         let mut block = self.blocks.get(data, prefix + bits)?;
@@ -145,9 +151,9 @@ struct EntryIndex {
 }
 
 impl<'f> Extensible<'f> {
-    pub(super) fn open(source: Hdf5File<'f>, address: u64) -> Parsed<Self> {
+    pub(super) fn open(source: Hdf5Source<'f>, address: u64) -> ReadResult<Self> {
         let length = 16 + source.offset_size() + 6 * source.length_size();
-        let mut header = source.sealed(address, length as u64)?;
+        let mut header = source.with_checksum(address, length as u64)?;
         header.signature(b"EAHD")?;
         header.version(0, "the index of its chunks is")?;
         let (entry, bits, direct) = (header.skip(1)?.u8()?, header.u8()?, header.u8()?);
@@ -170,7 +176,7 @@ impl<'f> Extensible<'f> {
         })
     }
 
-    pub(super) fn entry(&mut self, number: u64) -> Parsed<Option<Cursor<'f>>> {
+    pub(super) fn entry(&mut self, number: u64) -> ReadResult<Option<Cursor<'f>>> {
         let Some(index) = self.index else { return Ok(None) };
         let offset = self.offset_size();
         let prefix = prefix(self.blocks.source);
@@ -209,7 +215,7 @@ impl<'f> Extensible<'f> {
     }
 
     /// An entry in a data block of a group that has a super block.
-    fn far(&mut self, group: u64, place: &EntryIndex) -> Parsed<Option<Cursor<'f>>> {
+    fn far(&mut self, group: u64, place: &EntryIndex) -> ReadResult<Option<Cursor<'f>>> {
         let (offset, count) = (self.offset_size(), 1_u64 << (place.group / 2));
         let pages = if place.entries > self.page { place.entries / self.page } else { 0 };
         let (prefix, bits) = (self.prefix(), pages.div_ceil(8).saturating_mul(count));
@@ -234,7 +240,7 @@ impl<'f> Extensible<'f> {
         prefix(self.blocks.source) + self.width
     }
 
-    fn data(&mut self, data: u64, place: &EntryIndex) -> Parsed<Option<Cursor<'f>>> {
+    fn data(&mut self, data: u64, place: &EntryIndex) -> ReadResult<Option<Cursor<'f>>> {
         let prefix = self.prefix();
         let mut block = self.blocks.get(data, self.blocks.bytes(prefix, place.entries))?;
         block.skip(prefix as usize)?;

@@ -1,12 +1,12 @@
 //! Attributes of a group.
 
 use super::super::account::memory;
-use super::error::{Parsed, fail};
+use super::error::{ReadResult, fail};
 use super::header::{ATTRIBUTE, ATTRIBUTE_INFO, DATATYPE, Header, shared};
 use super::heap::dense;
 use super::source::Cursor;
-use super::texts::{Texts, end_without, text};
-use super::types::{DatatypeClass, Space, Type};
+use super::texts::{TextCollections, end_without, text};
+use super::types::{Dataspace, DatatypeClass, Type};
 use crate::content::{Array, ArrayValues};
 
 /// Kind of the index of attributes by name.
@@ -20,17 +20,17 @@ const RECORD: usize = 8 + 1 + 4 + 4;
 const SHARED: u8 = 1 << 1;
 
 /// An attribute that is not read yet: its name and where it is described.
-pub(super) struct Attribute<'f> {
+pub(super) struct AttributeEntry<'f> {
     pub(super) name: String,
     kind: Type,
-    space: Option<Space>,
+    space: Option<Dataspace>,
     data: Cursor<'f>,
 }
 
 /// All attributes of an object.
-pub(super) fn attributes<'f>(header: &Header<'f>) -> Parsed<Vec<Attribute<'f>>> {
+pub(super) fn attributes<'f>(header: &Header<'f>) -> ReadResult<Vec<AttributeEntry<'f>>> {
     let mut found: Vec<_> =
-        header.all(ATTRIBUTE).map(|message| attribute(message?)).collect::<Parsed<_>>()?;
+        header.all(ATTRIBUTE).map(|message| attribute(message?)).collect::<ReadResult<_>>()?;
     if let Some(info) = header.find(ATTRIBUTE_INFO)?
         && let Some((heap, records)) = dense(info, 2, INDEX)?
     {
@@ -45,7 +45,7 @@ pub(super) fn attributes<'f>(header: &Header<'f>) -> Parsed<Vec<Attribute<'f>>> 
     Ok(found)
 }
 
-fn attribute(mut message: Cursor) -> Parsed<Attribute> {
+fn attribute(mut message: Cursor) -> ReadResult<AttributeEntry> {
     let (version, flags) = (message.u8()?, message.u8()?);
     let (name, kind, space) = (message.u16()?, message.u16()?, message.u16()?);
     let padded = |size: u16| match version {
@@ -66,12 +66,12 @@ fn attribute(mut message: Cursor) -> Parsed<Attribute> {
     if version > 1 && flags & 2 != 0 {
         return fail("an attribute shares its shape, which is not read");
     }
-    let space = Space::parse(source.cursor(message.take(padded(space))?))?;
-    Ok(Attribute { name, kind: Type::parse(kind)?, space, data: message })
+    let space = Dataspace::parse(source.cursor(message.take(padded(space))?))?;
+    Ok(AttributeEntry { name, kind: Type::parse(kind)?, space, data: message })
 }
 
-impl Attribute<'_> {
-    pub(super) fn read(mut self, texts: &mut Texts) -> Parsed<Array> {
+impl AttributeEntry<'_> {
+    pub(super) fn read(mut self, texts: &mut TextCollections) -> ReadResult<Array> {
         let Some(space) = self.space.filter(|_| !matches!(self.kind.kind, DatatypeClass::Other(_)))
         else {
             let DatatypeClass::Other(name) = self.kind.kind else {

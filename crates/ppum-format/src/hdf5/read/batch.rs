@@ -5,22 +5,22 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use super::chunks::{ChunkGrid, Stored};
-use super::error::{Parsed, fail};
+use super::chunks::{ChunkGrid, ChunkLocation};
+use super::error::{ReadResult, fail};
 use super::filters::{Pipeline, Undone};
-use super::source::Hdf5File;
+use super::source::Hdf5Source;
 use super::types::step;
 
 /// Chunks whose filters are undone together, on several threads.
-pub(super) struct Batch<'a, 'f> {
-    source: Hdf5File<'f>,
+pub(super) struct ChunkBatch<'a, 'f> {
+    source: Hdf5Source<'f>,
     pipeline: &'a Pipeline,
     array: &'a mut [u8],
-    waiting: Vec<Waiting<'a, 'f>>,
+    waiting: Vec<StoredBytes<'a, 'f>>,
 }
 
 /// A chunk as it is stored.
-struct Waiting<'a, 'f> {
+struct StoredBytes<'a, 'f> {
     slab: Hyperslab<'a>,
     raw: Cow<'f, [u8]>,
     mask: u32,
@@ -31,17 +31,17 @@ struct Waiting<'a, 'f> {
 const BATCH_CHUNKS: usize = 16;
 const BATCH_BYTES: u64 = 1 << 24;
 
-impl<'a, 'f> Batch<'a, 'f> {
-    pub(super) fn new(source: Hdf5File<'f>, pipeline: &'a Pipeline, array: &'a mut [u8]) -> Self {
+impl<'a, 'f> ChunkBatch<'a, 'f> {
+    pub(super) fn new(source: Hdf5Source<'f>, pipeline: &'a Pipeline, array: &'a mut [u8]) -> Self {
         Self { source, pipeline, array, waiting: Vec::new() }
     }
 
     pub(super) fn add(
         &mut self,
         slab: Hyperslab<'a>,
-        stored: Stored,
+        stored: ChunkLocation,
         is_plain: bool,
-    ) -> Parsed<()> {
+    ) -> ReadResult<()> {
         if is_plain || !self.pipeline.applies(stored.mask) {
             return self.copy(&slab, stored.address);
         }
@@ -53,7 +53,7 @@ impl<'a, 'f> Batch<'a, 'f> {
         }
         let raw = self.source.values(stored.address, stored.bytes)?;
         self.pipeline.pay(stored, slab.keep(), self.source.account)?;
-        self.waiting.push(Waiting { slab, raw, mask: stored.mask });
+        self.waiting.push(StoredBytes { slab, raw, mask: stored.mask });
         Ok(())
     }
 
@@ -63,7 +63,7 @@ impl<'a, 'f> Batch<'a, 'f> {
     }
 
     /// Copies a chunk without filters.
-    fn copy(&mut self, slab: &Hyperslab, address: u64) -> Parsed<()> {
+    fn copy(&mut self, slab: &Hyperslab, address: u64) -> ReadResult<()> {
         let size = self.pipeline.size;
         if let Some(place) = slab.place(size) {
             return self.source.fill(address, &mut self.array[place]);
@@ -73,22 +73,22 @@ impl<'a, 'f> Batch<'a, 'f> {
         Ok(())
     }
 
-    /// Undoes the filters of the chunks that wait. Of several mistakes that of the first chunk
-    /// is told.
-    pub(super) fn finish(&mut self) -> Parsed<()> {
+    /// Undoes the filters of the chunks that wait. If there are several errors, that of the first
+    /// chunk is returned.
+    pub(super) fn finish(&mut self) -> ReadResult<()> {
         let (pipeline, waiting) = (self.pipeline, std::mem::take(&mut self.waiting));
         let undone: Vec<_> = waiting
             .par_iter()
-            .map(|Waiting { slab, raw, mask }| pipeline.undo(raw, *mask, slab.keep()))
+            .map(|StoredBytes { slab, raw, mask }| pipeline.undo(raw, *mask, slab.keep()))
             .collect();
-        for (Waiting { slab, .. }, undone) in waiting.iter().zip(undone) {
+        for (StoredBytes { slab, .. }, undone) in waiting.iter().zip(undone) {
             self.put(slab, &undone?)?;
         }
         Ok(())
     }
 
     /// Puts the elements of a chunk where they belong.
-    fn put(&mut self, slab: &Hyperslab, undone: &Undone) -> Parsed<()> {
+    fn put(&mut self, slab: &Hyperslab, undone: &Undone) -> ReadResult<()> {
         let bytes = self.kept(slab) as usize;
         let size = self.pipeline.size;
         if undone.len() < bytes {

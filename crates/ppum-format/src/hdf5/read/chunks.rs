@@ -1,14 +1,14 @@
 //! The indexes of chunks.
 
-use super::arrays::{Extensible, Fixed};
-use super::error::{Parsed, fail};
-use super::source::{Cursor, Hdf5File};
+use super::arrays::{Extensible, FixedArray};
+use super::error::{ReadResult, fail};
+use super::source::{Cursor, Hdf5Source};
 use super::trees::{self, CHUNKS};
-use super::types::{Space, step};
+use super::types::{Dataspace, step};
 
 /// The division of an array.
 pub(super) struct ChunkGrid<'a> {
-    pub(super) space: &'a Space,
+    pub(super) space: &'a Dataspace,
     /// Elements of a chunk in each direction.
     pub(super) chunk: &'a [u64],
     /// Bytes of a chunk.
@@ -18,7 +18,7 @@ pub(super) struct ChunkGrid<'a> {
 
 /// The place of a chunk.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stored {
+pub(super) struct ChunkLocation {
     pub(super) address: u64,
     pub(super) bytes: u64,
     /// The filters that were left out, one bit each.
@@ -46,11 +46,11 @@ const SINGLE_FILTERED: u8 = 2;
 /// Kinds of the trees of chunks: without and with filters.
 const TREES: [u8; 2] = [10, 11];
 
-type Visit<'a> = &'a mut dyn FnMut(&[u64], Stored) -> Parsed<()>;
+type Visit<'a> = &'a mut dyn FnMut(&[u64], ChunkLocation) -> ReadResult<()>;
 
 impl Index {
     /// The index at the end of a layout.
-    pub(super) fn parse(layout: &mut Cursor, flags: u8, space: &Space) -> Parsed<Self> {
+    pub(super) fn parse(layout: &mut Cursor, flags: u8, space: &Dataspace) -> ReadResult<Self> {
         Ok(match layout.u8()? {
             1 => {
                 let filtered = match flags & SINGLE_FILTERED {
@@ -74,22 +74,27 @@ impl Index {
     }
 
     /// Calls `visit` with the first element and the place of each chunk that is stored.
-    pub(super) fn visit(self, source: Hdf5File, grid: &ChunkGrid, visit: Visit) -> Parsed<()> {
+    pub(super) fn visit(
+        self,
+        source: Hdf5Source,
+        grid: &ChunkGrid,
+        visit: Visit,
+    ) -> ReadResult<()> {
         match self {
             Self::OldTree(Some(address)) => old_tree(source, address, grid, visit),
             Self::Tree(Some(address)) => tree(source, address, grid, visit),
             Self::Single { address: Some(address), filtered } => {
                 let (bytes, mask) = filtered.unwrap_or((grid.bytes, 0));
                 let start = vec![0; grid.chunk.len()];
-                visit(&start, Stored { address, bytes, mask })
+                visit(&start, ChunkLocation { address, bytes, mask })
             }
             Self::Implicit(Some(address)) => each(grid, visit, 0, |number| {
                 let place = number.checked_mul(grid.bytes).and_then(|n| n.checked_add(address));
                 let Some(address) = place else { return fail("its chunks are too large") };
-                Ok(Some(Stored { address, bytes: grid.bytes, mask: 0 }))
+                Ok(Some(ChunkLocation { address, bytes: grid.bytes, mask: 0 }))
             }),
             Self::Fixed(Some(address)) => {
-                let mut array = Fixed::open(source, address)?;
+                let mut array = FixedArray::open(source, address)?;
                 each(grid, visit, 0, |number| entry(array.entry(number)?, grid))
             }
             Self::Extensible(Some(address), growing) => {
@@ -102,7 +107,7 @@ impl Index {
 }
 
 /// The chunk of an entry of an array; none if it is not stored.
-fn entry(entry: Option<Cursor>, grid: &ChunkGrid) -> Parsed<Option<Stored>> {
+fn entry(entry: Option<Cursor>, grid: &ChunkGrid) -> ReadResult<Option<ChunkLocation>> {
     let Some(mut entry) = entry else { return Ok(None) };
     let Some(address) = entry.offset()? else { return Ok(None) };
     stored(address, &mut entry, grid, 0).map(Some)
@@ -110,38 +115,43 @@ fn entry(entry: Option<Cursor>, grid: &ChunkGrid) -> Parsed<Option<Stored>> {
 
 /// The place of a chunk, given at the front of an entry that has `after` bytes of something else at
 /// its end.
-fn stored(address: u64, entry: &mut Cursor, grid: &ChunkGrid, after: usize) -> Parsed<Stored> {
+fn stored(
+    address: u64,
+    entry: &mut Cursor,
+    grid: &ChunkGrid,
+    after: usize,
+) -> ReadResult<ChunkLocation> {
     if !grid.is_filtered {
-        return Ok(Stored { address, bytes: grid.bytes, mask: 0 });
+        return Ok(ChunkLocation { address, bytes: grid.bytes, mask: 0 });
     }
     let Some(width) = entry.rest().len().checked_sub(4 + after) else {
         return fail("the entries of the index of its chunks are too short");
     };
-    Ok(Stored { address, bytes: entry.number(width)?, mask: entry.u32()? })
+    Ok(ChunkLocation { address, bytes: entry.number(width)?, mask: entry.u32()? })
 }
 
-fn old_tree(source: Hdf5File, address: u64, grid: &ChunkGrid, visit: Visit) -> Parsed<()> {
+fn old_tree(source: Hdf5Source, address: u64, grid: &ChunkGrid, visit: Visit) -> ReadResult<()> {
     let rank = grid.chunk.len();
     for (key, address) in trees::entries(source, address, CHUNKS, 8 * (rank + 2))? {
         let mut key = source.cursor(key);
         let (bytes, mask) = (key.number(4)?, key.u32()?);
-        let start: Vec<u64> = (0..rank).map(|_| key.number(8)).collect::<Parsed<_>>()?;
+        let start: Vec<u64> = (0..rank).map(|_| key.number(8)).collect::<ReadResult<_>>()?;
         if start.iter().zip(grid.chunk).any(|(start, chunk)| start % chunk != 0) {
             return fail("a chunk is at an impossible place");
         }
-        visit(&start, Stored { address, bytes, mask })?;
+        visit(&start, ChunkLocation { address, bytes, mask })?;
     }
     Ok(())
 }
 
-fn tree(source: Hdf5File, address: u64, grid: &ChunkGrid, visit: Visit) -> Parsed<()> {
+fn tree(source: Hdf5Source, address: u64, grid: &ChunkGrid, visit: Visit) -> ReadResult<()> {
     let rank = grid.chunk.len();
     for record in trees::records(source, address, &TREES)? {
         let mut record = source.cursor(record);
         let Some(address) = record.offset()? else { continue };
         let place = stored(address, &mut record, grid, 8 * rank)?;
         let start = grid.chunk.iter().map(|&chunk| Ok(record.number(8)?.checked_mul(chunk)));
-        match start.collect::<Parsed<Option<Vec<u64>>>>()? {
+        match start.collect::<ReadResult<Option<Vec<u64>>>>()? {
             Some(start) => visit(&start, place)?,
             None => return fail("a chunk is at an impossible place"),
         }
@@ -155,8 +165,8 @@ fn each(
     grid: &ChunkGrid,
     visit: Visit,
     growing: usize,
-    mut find: impl FnMut(u64) -> Parsed<Option<Stored>>,
-) -> Parsed<()> {
+    mut find: impl FnMut(u64) -> ReadResult<Option<ChunkLocation>>,
+) -> ReadResult<()> {
     let chunks = |shape: &[u64]| -> Vec<u64> {
         shape.iter().zip(grid.chunk).map(|(n, chunk)| n.div_ceil(*chunk)).collect()
     };

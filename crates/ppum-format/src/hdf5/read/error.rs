@@ -6,7 +6,7 @@ use std::borrow::Cow;
 #[derive(Debug)]
 pub(super) struct Hdf5Error(pub(super) Cow<'static, str>);
 
-pub(super) type Parsed<T> = Result<T, Hdf5Error>;
+pub(super) type ReadResult<T> = Result<T, Hdf5Error>;
 
 impl From<&'static str> for Hdf5Error {
     fn from(text: &'static str) -> Self {
@@ -20,6 +20,6 @@ impl From<String> for Hdf5Error {
     }
 }
 
-pub(super) fn fail<T>(mistake: impl Into<Hdf5Error>) -> Parsed<T> {
+pub(super) fn fail<T>(mistake: impl Into<Hdf5Error>) -> ReadResult<T> {
     Err(mistake.into())
 }

@@ -3,8 +3,8 @@
 use std::borrow::Cow;
 
 use super::super::account::Account;
-use super::chunks::Stored;
-use super::error::{Parsed, fail};
+use super::chunks::ChunkLocation;
+use super::error::{ReadResult, fail};
 use super::inflate;
 use super::packing::{scale_offset, unpacked};
 use super::shuffle::unshuffle;
@@ -27,7 +27,7 @@ pub(super) struct Filter {
 }
 
 /// The filters of an array, in the order in which they were applied.
-pub(super) fn filters(mut message: Cursor) -> Parsed<Vec<Filter>> {
+pub(super) fn filters(mut message: Cursor) -> ReadResult<Vec<Filter>> {
     let (version, count) = (message.u8()?, message.u8()?);
     match version {
         1 => drop(message.skip(6)?),
@@ -37,12 +37,12 @@ pub(super) fn filters(mut message: Cursor) -> Parsed<Vec<Filter>> {
     (0..count).map(|_| filter(&mut message, version == 1)).collect()
 }
 
-fn filter(message: &mut Cursor, is_old: bool) -> Parsed<Filter> {
+fn filter(message: &mut Cursor, is_old: bool) -> ReadResult<Filter> {
     let id = message.u16()?;
     let name = if is_old || id >= NAMED { usize::from(message.u16()?) } else { 0 };
     let count = message.skip(2)?.u16()?;
     message.skip(if is_old { name.next_multiple_of(8) } else { name })?;
-    let parameters = (0..count).map(|_| message.u32()).collect::<Parsed<_>>()?;
+    let parameters = (0..count).map(|_| message.u32()).collect::<ReadResult<_>>()?;
     message.skip(if is_old && count % 2 == 1 { 4 } else { 0 })?;
     Ok(Filter { id, parameters })
 }
@@ -58,9 +58,9 @@ pub(super) struct Pipeline {
 /// Bytes by which a filter may lengthen a chunk: checksums, headers of packed numbers.
 const LENGTHENING: u64 = 1024;
 
-/// What deflation gives of a chunk.
-enum Inflated {
-    /// Of each of so many planes of a length, which make up the chunk, its first bytes. One is a
+/// The result of deflation for a chunk.
+enum InflateResult {
+    /// The first bytes of each of so many planes of a length, which make up the chunk. One is a
     /// chunk that is not divided.
     Planes { count: u64, length: u64, keep: u64 },
     /// All of what other filters have made of it.
@@ -82,7 +82,12 @@ impl Pipeline {
 
     /// Pays for what [`undo`](Self::undo) does with a chunk: for the bytes that filters give, and
     /// for those of them that are kept for a while.
-    pub(super) fn pay(&self, stored: Stored, keep: u64, account: &Account) -> Parsed<()> {
+    pub(super) fn pay(
+        &self,
+        stored: ChunkLocation,
+        keep: u64,
+        account: &Account,
+    ) -> ReadResult<()> {
         let applied = self.applied(stored.mask);
         for (k, filter) in applied.iter().enumerate().rev() {
             let (expanded, kept) = match filter.id {
@@ -102,13 +107,13 @@ impl Pipeline {
         self.bytes.saturating_add(LENGTHENING)
     }
 
-    fn whole(&self) -> Parsed<usize> {
+    fn whole(&self) -> ReadResult<usize> {
         usize::try_from(self.most()).or(fail(TOO_LARGE))
     }
 
     /// The elements of a chunk as they were before the filters, the first `keep` at least. It has
     /// been paid for.
-    pub(super) fn undo<'r>(&self, raw: &'r [u8], mask: u32, keep: u64) -> Parsed<Undone<'r>> {
+    pub(super) fn undo<'r>(&self, raw: &'r [u8], mask: u32, keep: u64) -> ReadResult<Undone<'r>> {
         let (applied, mut data) = (self.applied(mask), Cow::Borrowed(raw));
         for (k, filter) in applied.iter().enumerate().rev() {
             data = match filter.id {
@@ -131,30 +136,30 @@ impl Pipeline {
         shuffle.parameters.first().is_some_and(|&size| size as usize != self.size)
     }
 
-    /// What deflation gives, which came after some other filters. Of a chunk that is larger than
-    /// its array only the beginning is kept: of its bytes, or of each of the planes that shuffling
-    /// divides it into.
-    fn inflated(&self, before: &[&Filter], keep: u64) -> Inflated {
+    /// Returns the result of deflation, which came after some other filters. If a chunk is larger
+    /// than its array, only the beginning is kept: of its bytes, or of each of the planes that
+    /// shuffling divides it into.
+    fn inflated(&self, before: &[&Filter], keep: u64) -> InflateResult {
         let size = self.size as u64;
         match before {
-            [] => Inflated::Planes { count: 1, length: self.bytes, keep: keep * size },
+            [] => InflateResult::Planes { count: 1, length: self.bytes, keep: keep * size },
             [one] if one.id == SHUFFLE => {
-                Inflated::Planes { count: size, length: self.bytes / size, keep }
+                InflateResult::Planes { count: size, length: self.bytes / size, keep }
             }
-            _ => Inflated::All,
+            _ => InflateResult::All,
         }
     }
 
-    fn inflate(&self, data: &[u8], before: &[&Filter], keep: u64) -> Parsed<Vec<u8>> {
+    fn inflate(&self, data: &[u8], before: &[&Filter], keep: u64) -> ReadResult<Vec<u8>> {
         let inflated = match self.inflated(before, keep) {
-            Inflated::Planes { count, length, keep } => planes(data, [count, length, keep]),
-            Inflated::All => inflate::all(data, self.whole()?),
+            InflateResult::Planes { count, length, keep } => planes(data, [count, length, keep]),
+            InflateResult::All => inflate::all(data, self.whole()?),
         };
         inflated.ok_or_else(|| "a chunk cannot be decompressed".into())
     }
 }
 
-impl Inflated {
+impl InflateResult {
     /// The bytes that are made, and those of them that are kept.
     fn cost(&self, chunk: u64) -> (u64, u64) {
         match *self {
@@ -195,7 +200,7 @@ impl Undone<'_> {
 const TOO_LARGE: &str = "its chunks are too large for the file's length";
 
 /// Takes a checksum off the end.
-fn checked(data: Cow<'_, [u8]>) -> Parsed<Cow<'_, [u8]>> {
+fn checked(data: Cow<'_, [u8]>) -> ReadResult<Cow<'_, [u8]>> {
     match data.split_last_chunk() {
         Some((body, sum)) if fletcher32(body) == u32::from_le_bytes(*sum) => {}
         _ => return fail("the checksum of a chunk is wrong"),

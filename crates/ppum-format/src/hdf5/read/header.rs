@@ -1,7 +1,7 @@
 //! Headers of objects: what a file says of a group or an array is a list of messages.
 
-use super::error::{Parsed, fail};
-use super::source::{Cursor, Hdf5File};
+use super::error::{ReadResult, fail};
+use super::source::{Cursor, Hdf5Source};
 
 /// Kinds of messages.
 pub(super) const DATASPACE: u16 = 0x01;
@@ -24,7 +24,7 @@ const LAST: u16 = 0x18;
 const SHARED: u8 = 1 << 1;
 const ESSENTIAL: u8 = 1 << 7;
 
-struct Message<'f> {
+struct RawMessage<'f> {
     kind: u16,
     is_shared: bool,
     body: &'f [u8],
@@ -32,12 +32,12 @@ struct Message<'f> {
 
 /// The messages of an object.
 pub(super) struct Header<'f> {
-    pub(super) source: Hdf5File<'f>,
-    messages: Vec<Message<'f>>,
+    pub(super) source: Hdf5Source<'f>,
+    messages: Vec<RawMessage<'f>>,
 }
 
 impl<'f> Header<'f> {
-    pub(super) fn read(source: Hdf5File<'f>, address: u64) -> Parsed<Self> {
+    pub(super) fn read(source: Hdf5Source<'f>, address: u64) -> ReadResult<Self> {
         let mut header = Self { source, messages: Vec::new() };
         let is_new = source.at(address, 4)?.rest() == b"OHDR";
         if is_new {
@@ -49,7 +49,7 @@ impl<'f> Header<'f> {
     }
 
     /// Version 1: a prefix of 16 bytes, messages with prefixes of eight.
-    fn read_old(&mut self, address: u64) -> Parsed<()> {
+    fn read_old(&mut self, address: u64) -> ReadResult<()> {
         let mut prefix = self.source.at(address, 16)?;
         prefix.version(1, "its header is")?;
         let length = prefix.skip(7)?.u32()?;
@@ -66,7 +66,7 @@ impl<'f> Header<'f> {
     }
 
     /// Version 2: checksums, and prefixes that depend on flags.
-    fn read_new(&mut self, address: u64) -> Parsed<()> {
+    fn read_new(&mut self, address: u64) -> ReadResult<()> {
         let mut prefix = self.source.at(address, 6)?;
         prefix.skip(4)?.version(2, "its header is")?;
         let flags = prefix.u8()?;
@@ -80,10 +80,10 @@ impl<'f> Header<'f> {
         let Some(length) = size.checked_add(before + width + 4) else {
             return fail("its header is too long");
         };
-        let mut first = self.source.sealed(address, length)?;
+        let mut first = self.source.with_checksum(address, length)?;
         first.skip((before + width) as usize)?;
-        let next = |source: Hdf5File<'f>, address, length| {
-            let mut block = source.sealed(address, length)?;
+        let next = |source: Hdf5Source<'f>, address, length| {
+            let mut block = source.with_checksum(address, length)?;
             block.signature(b"OCHK")?;
             Ok(block)
         };
@@ -99,9 +99,9 @@ impl<'f> Header<'f> {
     fn blocks(
         &mut self,
         first: Cursor<'f>,
-        next: impl Fn(Hdf5File<'f>, u64, u64) -> Parsed<Cursor<'f>>,
-        prefix: impl Fn(&mut Cursor<'f>) -> Parsed<(u16, u16, u8)>,
-    ) -> Parsed<()> {
+        next: impl Fn(Hdf5Source<'f>, u64, u64) -> ReadResult<Cursor<'f>>,
+        prefix: impl Fn(&mut Cursor<'f>) -> ReadResult<(u16, u16, u8)>,
+    ) -> ReadResult<()> {
         let (mut blocks, mut total) = (vec![first], 0);
         while let Some(mut block) = blocks.pop() {
             total += block.rest().len() as u64;
@@ -122,11 +122,11 @@ impl<'f> Header<'f> {
         Ok(())
     }
 
-    fn add(&mut self, kind: u16, flags: u8, body: &'f [u8]) -> Parsed<()> {
+    fn add(&mut self, kind: u16, flags: u8, body: &'f [u8]) -> ReadResult<()> {
         if kind > LAST && flags & ESSENTIAL != 0 {
             return fail(format!("it has a property of HDF5 that is not known ({kind})"));
         }
-        self.messages.push(Message { kind, is_shared: flags & SHARED != 0, body });
+        self.messages.push(RawMessage { kind, is_shared: flags & SHARED != 0, body });
         Ok(())
     }
 
@@ -135,17 +135,17 @@ impl<'f> Header<'f> {
     }
 
     /// The first message of a kind.
-    pub(super) fn find(&self, kind: u16) -> Parsed<Option<Cursor<'f>>> {
+    pub(super) fn find(&self, kind: u16) -> ReadResult<Option<Cursor<'f>>> {
         self.all(kind).next().transpose()
     }
 
     /// The message of a kind that there must be.
-    pub(super) fn get(&self, kind: u16) -> Parsed<Cursor<'f>> {
+    pub(super) fn get(&self, kind: u16) -> ReadResult<Cursor<'f>> {
         self.find(kind)?.ok_or_else(|| "a part of its description is missing".into())
     }
 
     /// All messages of a kind.
-    pub(super) fn all(&self, kind: u16) -> impl Iterator<Item = Parsed<Cursor<'f>>> {
+    pub(super) fn all(&self, kind: u16) -> impl Iterator<Item = ReadResult<Cursor<'f>>> {
         self.messages.iter().filter(move |message| message.kind == kind).map(|message| {
             let body = self.source.cursor(message.body);
             if message.is_shared { shared(body, message.kind) } else { Ok(body) }
@@ -154,7 +154,7 @@ impl<'f> Header<'f> {
 }
 
 /// A message that stands in the header of another object, such as a named type.
-pub(super) fn shared(mut place: Cursor, kind: u16) -> Parsed<Cursor> {
+pub(super) fn shared(mut place: Cursor, kind: u16) -> ReadResult<Cursor> {
     let (version, of) = (place.u8()?, place.u8()?);
     let address = match (version, of) {
         (1, _) => place.skip(6)?.address()?,

@@ -1,7 +1,7 @@
 //! Fractal heaps, where groups with many links or attributes keep them.
 
-use super::error::{Parsed, fail};
-use super::source::{Cursor, Hdf5File};
+use super::error::{ReadResult, fail};
+use super::source::{Cursor, Hdf5Source};
 use super::trees::{records, width};
 
 /// Types of the objects of a heap, from bits 4 and 5 of the first byte of their identifiers.
@@ -17,7 +17,7 @@ const HUGE_INDEX: u8 = 1;
 
 /// A heap: blocks of doubling size, some hold objects and some the addresses of others.
 pub(super) struct Heap<'f> {
-    source: Hdf5File<'f>,
+    source: Hdf5Source<'f>,
     id_length: usize,
     huge: Option<u64>,
     /// Blocks in a row.
@@ -34,9 +34,9 @@ pub(super) struct Heap<'f> {
 }
 
 impl<'f> Heap<'f> {
-    pub(super) fn open(source: Hdf5File<'f>, address: u64) -> Parsed<Self> {
+    pub(super) fn open(source: Hdf5Source<'f>, address: u64) -> ReadResult<Self> {
         let length = 26 + 3 * source.offset_size() + 12 * source.length_size();
-        let mut header = source.sealed(address, length as u64)?;
+        let mut header = source.with_checksum(address, length as u64)?;
         header.signature(b"FRHP")?;
         header.version(0, "a heap is")?;
         let (id_length, filters) = (header.u16()?, header.u16()?);
@@ -74,7 +74,7 @@ impl<'f> Heap<'f> {
     }
 
     /// The object of an identifier, of which there are the first bytes at least.
-    pub(super) fn object(&self, id: &[u8]) -> Parsed<&'f [u8]> {
+    pub(super) fn object(&self, id: &[u8]) -> ReadResult<&'f [u8]> {
         let Some((&head, rest)) =
             id.get(..id.len().min(self.id_length)).and_then(<[u8]>::split_first)
         else {
@@ -91,7 +91,7 @@ impl<'f> Heap<'f> {
         }
     }
 
-    fn place(&self, id: &[u8]) -> Parsed<(u64, u64)> {
+    fn place(&self, id: &[u8]) -> ReadResult<(u64, u64)> {
         let number = |range: std::ops::Range<usize>| {
             let bytes = id.get(range).filter(|bytes| bytes.len() <= 8)?;
             Some(bytes.iter().rev().fold(0, |number, &byte| number << 8 | u64::from(byte)))
@@ -103,7 +103,7 @@ impl<'f> Heap<'f> {
     }
 
     /// An object in a block of the heap: down from the root, through blocks of addresses.
-    fn managed(&self, mut offset: u64, length: u64) -> Parsed<&'f [u8]> {
+    fn managed(&self, mut offset: u64, length: u64) -> ReadResult<&'f [u8]> {
         let Some(mut block) = self.root else { return fail("a heap is empty") };
         let (mut rows, mut size) = (self.root_rows, self.first);
         while rows > 0 {
@@ -129,7 +129,7 @@ impl<'f> Heap<'f> {
     }
 
     /// The row that holds an offset, and the offset at which it starts.
-    fn row(&self, offset: u64, rows: u64) -> Parsed<(u64, u64)> {
+    fn row(&self, offset: u64, rows: u64) -> ReadResult<(u64, u64)> {
         let row = match offset / self.width / self.first {
             0 => 0,
             n => u64::from(n.ilog2()) + 1,
@@ -147,7 +147,7 @@ impl<'f> Heap<'f> {
     }
 
     /// The address of a block in a block of addresses.
-    fn entry(&self, block: u64, index: u64) -> Parsed<u64> {
+    fn entry(&self, block: u64, index: u64) -> ReadResult<u64> {
         let address = self.source.offset_size();
         let before = 5 + address + self.offset_width;
         self.source.at(block, 5)?.signature(b"FHIB")?;
@@ -160,7 +160,7 @@ impl<'f> Heap<'f> {
     }
 
     /// An object that stands by itself.
-    fn huge(&self, id: &[u8]) -> Parsed<&'f [u8]> {
+    fn huge(&self, id: &[u8]) -> ReadResult<&'f [u8]> {
         let (address, length) = (self.source.offset_size(), self.source.length_size());
         // the number is the place itself if there is room for that
         if self.id_length > address + length {
@@ -177,7 +177,7 @@ impl<'f> Heap<'f> {
         }
     }
 
-    fn at_place(&self, place: &[u8]) -> Parsed<&'f [u8]> {
+    fn at_place(&self, place: &[u8]) -> ReadResult<&'f [u8]> {
         let (address, length) = (self.source.offset_size(), self.source.length_size());
         let number = |bytes: &[u8]| {
             bytes.iter().rev().fold(0, |number: u64, &byte| number << 8 | u64::from(byte))
@@ -192,11 +192,11 @@ impl<'f> Heap<'f> {
 }
 
 /// A heap and its index.
-type Dense<'f> = (Heap<'f>, Vec<&'f [u8]>);
+type DenseLinks<'f> = (Heap<'f>, Vec<&'f [u8]>);
 
 /// The heap and the records of the index that goes with it; none if all stands in the
 /// header itself.
-pub(super) fn dense(mut info: Cursor, order: usize, kind: u8) -> Parsed<Option<Dense>> {
+pub(super) fn dense(mut info: Cursor, order: usize, kind: u8) -> ReadResult<Option<DenseLinks>> {
     info.version(0, "an index is")?;
     if info.u8()? & 1 != 0 {
         info.skip(order)?;

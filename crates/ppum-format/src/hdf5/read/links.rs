@@ -1,13 +1,13 @@
 //! The links of a group, in the three ways that HDF5 keeps them.
 
-use super::error::{Parsed, fail};
+use super::error::{ReadResult, fail};
 use super::header::{Header, LINK, LINK_INFO, SYMBOL_TABLE};
 use super::heap::dense;
-use super::source::{Cursor, Hdf5File};
+use super::source::{Cursor, Hdf5Source};
 use super::trees::{GROUPS, entries};
 
 /// The end of a link: an object of this file, or nothing that is read.
-pub(super) enum Target {
+pub(super) enum LinkTarget {
     Object(u64),
     Elsewhere,
 }
@@ -16,7 +16,7 @@ pub(super) enum Target {
 const INDEX: u8 = 5;
 
 /// Names and targets of all links of a group.
-pub(super) fn links(header: &Header) -> Parsed<Vec<(String, Target)>> {
+pub(super) fn links(header: &Header) -> ReadResult<Vec<(String, LinkTarget)>> {
     let mut found = Vec::new();
     if let Some(table) = header.find(SYMBOL_TABLE)? {
         old(table, &mut found)?;
@@ -36,7 +36,7 @@ pub(super) fn links(header: &Header) -> Parsed<Vec<(String, Target)>> {
     Ok(found)
 }
 
-fn link(mut message: Cursor) -> Parsed<(String, Target)> {
+fn link(mut message: Cursor) -> ReadResult<(String, LinkTarget)> {
     message.version(1, "a link is")?;
     let flags = message.u8()?;
     let has = |bit: u8| flags & bit != 0;
@@ -44,11 +44,12 @@ fn link(mut message: Cursor) -> Parsed<(String, Target)> {
     message.skip(if has(0x04) { 8 } else { 0 } + usize::from(has(0x10)))?;
     let length = message.size(1 << (flags & 3))?;
     let name = name(message.take(length)?)?;
-    let target = if kind == 0 { Target::Object(message.address()?) } else { Target::Elsewhere };
+    let target =
+        if kind == 0 { LinkTarget::Object(message.address()?) } else { LinkTarget::Elsewhere };
     Ok((name, target))
 }
 
-fn name(raw: &[u8]) -> Parsed<String> {
+fn name(raw: &[u8]) -> ReadResult<String> {
     match std::str::from_utf8(raw) {
         Ok(name) => Ok(name.to_owned()),
         Err(_) => fail("the name of a link is not UTF-8"),
@@ -56,7 +57,7 @@ fn name(raw: &[u8]) -> Parsed<String> {
 }
 
 /// Links of the first versions of HDF5: a tree of tables, names in a heap of their own.
-fn old(mut table: Cursor, found: &mut Vec<(String, Target)>) -> Parsed<()> {
+fn old(mut table: Cursor, found: &mut Vec<(String, LinkTarget)>) -> ReadResult<()> {
     let source = table.source;
     let (tree, names) = (table.address()?, names(source, table.address()?)?);
     for (_, node) in entries(source, tree, GROUPS, source.length_size())? {
@@ -77,8 +78,8 @@ fn old(mut table: Cursor, found: &mut Vec<(String, Target)>) -> Parsed<()> {
                 .next()
                 .unwrap_or_default();
             let target = match address {
-                Some(address) if kind != SOFT => Target::Object(address),
-                _ => Target::Elsewhere,
+                Some(address) if kind != SOFT => LinkTarget::Object(address),
+                _ => LinkTarget::Elsewhere,
             };
             if !source.account.pay_reading(raw.len() as u64) {
                 return fail("its names are longer than the file is worth");
@@ -93,7 +94,7 @@ fn old(mut table: Cursor, found: &mut Vec<(String, Target)>) -> Parsed<()> {
 const SOFT: u32 = 2;
 
 /// The names of the links of a group.
-fn names(source: Hdf5File<'_>, address: u64) -> Parsed<&[u8]> {
+fn names(source: Hdf5Source<'_>, address: u64) -> ReadResult<&[u8]> {
     let mut heap =
         source.at(address, 8 + 2 * source.length_size() as u64 + source.offset_size() as u64)?;
     heap.signature(b"HEAP")?;

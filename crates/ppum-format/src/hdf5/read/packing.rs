@@ -1,9 +1,9 @@
 //! Filters that pack numbers and texts: LZF of h5py, scale-offset of HDF5.
 
-use super::error::{Parsed, fail};
+use super::error::{ReadResult, fail};
 
 /// Undoes LZF (Marc Lehmann's liblzf): runs of literals, and references to what is there already.
-pub(super) fn unpacked(data: &[u8], most: usize) -> Parsed<Vec<u8>> {
+pub(super) fn unpacked(data: &[u8], most: usize) -> ReadResult<Vec<u8>> {
     let (mut rest, mut out) = (data, Vec::new());
     while !rest.is_empty() {
         if out.len() > most || token(&mut rest, &mut out).is_none() {
@@ -48,7 +48,7 @@ const INTEGER: u32 = 2;
 const HEADER: usize = 4 + 1 + 16;
 
 /// Undoes scale-offset: numbers are packed as their differences to the smallest one.
-pub(super) fn scale_offset(data: &[u8], parameters: &[u32], most: usize) -> Parsed<Vec<u8>> {
+pub(super) fn scale_offset(data: &[u8], parameters: &[u32], most: usize) -> ReadResult<Vec<u8>> {
     match numbers(data, parameters, most) {
         Some(numbers) => Ok(numbers),
         None => fail("a chunk cannot be unpacked (scale-offset)"),

@@ -3,13 +3,13 @@
 use std::borrow::Cow;
 
 use super::super::account::Account;
-use super::error::{Parsed, fail};
+use super::error::{ReadResult, fail};
 use super::store::Bytes;
 use crate::lookup3::lookup3;
 
 /// A file, with the widths of addresses and lengths in it.
 #[derive(Clone, Copy)]
-pub(super) struct Hdf5File<'f> {
+pub(super) struct Hdf5Source<'f> {
     bytes: Bytes<'f>,
     offset_size: usize,
     length_size: usize,
@@ -19,8 +19,8 @@ pub(super) struct Hdf5File<'f> {
 /// Bytes of a checksum.
 const CHECKSUM: usize = 4;
 
-impl<'f> Hdf5File<'f> {
-    pub(super) fn new(bytes: Bytes<'f>, sizes: (u8, u8), account: &'f Account) -> Parsed<Self> {
+impl<'f> Hdf5Source<'f> {
+    pub(super) fn new(bytes: Bytes<'f>, sizes: (u8, u8), account: &'f Account) -> ReadResult<Self> {
         if [sizes.0, sizes.1].iter().any(|size| ![2, 4, 8].contains(size)) {
             return fail("its addresses or lengths have an unknown width");
         }
@@ -42,24 +42,24 @@ impl<'f> Hdf5File<'f> {
     }
 
     /// A part of the file, which is read now.
-    pub(super) fn at(self, address: u64, length: u64) -> Parsed<Cursor<'f>> {
+    pub(super) fn at(self, address: u64, length: u64) -> ReadResult<Cursor<'f>> {
         self.pay(address, length)?;
         Ok(Cursor { source: self, left: self.bytes.get(address, length, self.account)? })
     }
 
     /// The bytes of values, which are read now and need not stay in memory.
-    pub(super) fn values(self, address: u64, length: u64) -> Parsed<Cow<'f, [u8]>> {
+    pub(super) fn values(self, address: u64, length: u64) -> ReadResult<Cow<'f, [u8]>> {
         self.pay(address, length)?;
         self.bytes.values(address, length, self.account)
     }
 
     /// Fills a buffer with the bytes of values.
-    pub(super) fn fill(self, address: u64, buffer: &mut [u8]) -> Parsed<()> {
+    pub(super) fn fill(self, address: u64, buffer: &mut [u8]) -> ReadResult<()> {
         self.pay(address, buffer.len() as u64)?;
         self.bytes.fill(address, buffer, self.account)
     }
 
-    fn pay(self, address: u64, length: u64) -> Parsed<()> {
+    fn pay(self, address: u64, length: u64) -> ReadResult<()> {
         if address.checked_add(length).is_none_or(|end| end > self.length()) {
             return fail("it leads beyond the end of the file");
         }
@@ -70,7 +70,7 @@ impl<'f> Hdf5File<'f> {
     }
 
     /// A part that ends in its checksum, which is looked at and left out.
-    pub(super) fn sealed(self, address: u64, length: u64) -> Parsed<Cursor<'f>> {
+    pub(super) fn with_checksum(self, address: u64, length: u64) -> ReadResult<Cursor<'f>> {
         let part = self.at(address, length)?.left;
         match part.split_last_chunk::<CHECKSUM>() {
             Some((body, sum)) if lookup3(body) == u32::from_le_bytes(*sum) => Ok(self.cursor(body)),
@@ -87,12 +87,12 @@ impl<'f> Hdf5File<'f> {
 /// Bytes of the file, taken from the front.
 #[derive(Clone, Copy)]
 pub(super) struct Cursor<'f> {
-    pub(super) source: Hdf5File<'f>,
+    pub(super) source: Hdf5Source<'f>,
     left: &'f [u8],
 }
 
 impl<'f> Cursor<'f> {
-    pub(super) fn take(&mut self, count: usize) -> Parsed<&'f [u8]> {
+    pub(super) fn take(&mut self, count: usize) -> ReadResult<&'f [u8]> {
         let Some((taken, left)) = self.left.split_at_checked(count) else {
             return fail("a part of its description is too short");
         };
@@ -104,54 +104,54 @@ impl<'f> Cursor<'f> {
         self.left
     }
 
-    /// The same, after so many bytes of no interest.
-    pub(super) fn skip(&mut self, count: usize) -> Parsed<&mut Self> {
+    /// Skips so many bytes, and returns the cursor.
+    pub(super) fn skip(&mut self, count: usize) -> ReadResult<&mut Self> {
         self.take(count)?;
         Ok(self)
     }
 
     /// An unsigned number of so many bytes, at most eight.
-    pub(super) fn number(&mut self, width: usize) -> Parsed<u64> {
+    pub(super) fn number(&mut self, width: usize) -> ReadResult<u64> {
         let mut bytes = [0; 8];
         let Some(part) = bytes.get_mut(..width) else { return fail("a number is too wide") };
         part.copy_from_slice(self.take(width)?);
         Ok(u64::from_le_bytes(bytes))
     }
 
-    pub(super) fn u8(&mut self) -> Parsed<u8> {
+    pub(super) fn u8(&mut self) -> ReadResult<u8> {
         Ok(self.number(1)? as u8)
     }
 
-    pub(super) fn u16(&mut self) -> Parsed<u16> {
+    pub(super) fn u16(&mut self) -> ReadResult<u16> {
         Ok(self.number(2)? as u16)
     }
 
-    pub(super) fn u32(&mut self) -> Parsed<u32> {
+    pub(super) fn u32(&mut self) -> ReadResult<u32> {
         Ok(self.number(4)? as u32)
     }
 
     /// A number that counts bytes in memory.
-    pub(super) fn size(&mut self, width: usize) -> Parsed<usize> {
+    pub(super) fn size(&mut self, width: usize) -> ReadResult<usize> {
         usize::try_from(self.number(width)?).or(fail("a size is too large"))
     }
 
-    pub(super) fn length(&mut self) -> Parsed<u64> {
+    pub(super) fn length(&mut self) -> ReadResult<u64> {
         self.number(self.source.length_size)
     }
 
     /// An address; none if it is the one that leads nowhere, all bits set.
-    pub(super) fn offset(&mut self) -> Parsed<Option<u64>> {
+    pub(super) fn offset(&mut self) -> ReadResult<Option<u64>> {
         let address = self.number(self.source.offset_size)?;
         let nowhere = u64::MAX >> (64 - 8 * self.source.offset_size);
         Ok((address != nowhere).then_some(address))
     }
 
     /// An address that must lead somewhere.
-    pub(super) fn address(&mut self) -> Parsed<u64> {
+    pub(super) fn address(&mut self) -> ReadResult<u64> {
         self.offset()?.ok_or_else(|| "an address is missing".into())
     }
 
-    pub(super) fn signature(&mut self, expected: &[u8; 4]) -> Parsed<()> {
+    pub(super) fn signature(&mut self, expected: &[u8; 4]) -> ReadResult<()> {
         if self.take(4)? == expected {
             return Ok(());
         }
@@ -159,7 +159,7 @@ impl<'f> Cursor<'f> {
     }
 
     /// A version, or anything else that has to have this value.
-    pub(super) fn version(&mut self, expected: u8, what: &str) -> Parsed<()> {
+    pub(super) fn version(&mut self, expected: u8, what: &str) -> ReadResult<()> {
         match self.u8()? {
             version if version == expected => Ok(()),
             version => fail(format!("{what} of version {version}, not {expected}")),

@@ -1,12 +1,12 @@
 //! Places of the values of an array: in its header, in one piece, or in chunks.
 
-use super::batch::{Batch, Hyperslab};
+use super::batch::{ChunkBatch, Hyperslab};
 use super::chunks::{ChunkGrid, Index};
-use super::error::{Parsed, fail};
+use super::error::{ReadResult, fail};
 use super::filters::{Pipeline, filters};
 use super::header::{EXTERNAL_FILES, FILL_VALUE, FILTERS, Header, LAYOUT, OLD_FILL_VALUE};
 use super::source::Cursor;
-use super::types::{Space, product};
+use super::types::{Dataspace, product};
 
 /// Classes of layouts.
 const COMPACT: u8 = 0;
@@ -17,10 +17,10 @@ const VIRTUAL: u8 = 3;
 /// Fills a buffer, which is zero, with the bytes of all elements of an array, row-major.
 pub(super) fn elements(
     header: &Header,
-    space: &Space,
+    space: &Dataspace,
     size: usize,
     array: &mut [u8],
-) -> Parsed<()> {
+) -> ReadResult<()> {
     let mut layout = header.get(LAYOUT)?;
     let version = layout.u8()?;
     if !(3..=5).contains(&version) {
@@ -37,7 +37,7 @@ pub(super) fn elements(
     }
 }
 
-fn compact(mut layout: Cursor, array: &mut [u8]) -> Parsed<()> {
+fn compact(mut layout: Cursor, array: &mut [u8]) -> ReadResult<()> {
     let stored = layout.u16()?;
     match layout.take(stored.into())?.get(..array.len()) {
         Some(values) => array.copy_from_slice(values),
@@ -48,7 +48,12 @@ fn compact(mut layout: Cursor, array: &mut [u8]) -> Parsed<()> {
 
 const FEWER: &str = "holds fewer values than its shape says";
 
-fn contiguous(header: &Header, mut layout: Cursor, size: usize, array: &mut [u8]) -> Parsed<()> {
+fn contiguous(
+    header: &Header,
+    mut layout: Cursor,
+    size: usize,
+    array: &mut [u8],
+) -> ReadResult<()> {
     let (address, stored) = (layout.offset()?, layout.length()?);
     if header.has(EXTERNAL_FILES) {
         return fail("its values stand in another file, which is not read");
@@ -76,7 +81,7 @@ fn repeat(array: &mut [u8], element: &[u8]) {
 }
 
 /// The bytes of an element that is not stored.
-fn fill(header: &Header, size: usize) -> Parsed<Vec<u8>> {
+fn fill(header: &Header, size: usize) -> ReadResult<Vec<u8>> {
     let value = match (header.find(FILL_VALUE)?, header.find(OLD_FILL_VALUE)?) {
         (Some(message), _) => new_fill(message)?,
         (None, Some(mut message)) => sized(&mut message)?,
@@ -85,7 +90,7 @@ fn fill(header: &Header, size: usize) -> Parsed<Vec<u8>> {
     Ok(if value.len() == size { value.to_vec() } else { vec![0; size] })
 }
 
-fn new_fill(mut message: Cursor<'_>) -> Parsed<&[u8]> {
+fn new_fill(mut message: Cursor<'_>) -> ReadResult<&[u8]> {
     let version = message.u8()?;
     let is_defined = match version {
         1 | 2 => message.skip(2)?.u8()? != 0,
@@ -95,7 +100,7 @@ fn new_fill(mut message: Cursor<'_>) -> Parsed<&[u8]> {
     if is_defined { sized(&mut message) } else { Ok(&[]) }
 }
 
-fn sized<'f>(message: &mut Cursor<'f>) -> Parsed<&'f [u8]> {
+fn sized<'f>(message: &mut Cursor<'f>) -> ReadResult<&'f [u8]> {
     let size = message.size(4)?;
     message.take(size)
 }
@@ -107,10 +112,10 @@ fn chunked(
     header: &Header,
     mut layout: Cursor,
     version: u8,
-    space: &Space,
+    space: &Dataspace,
     size: usize,
     array: &mut [u8],
-) -> Parsed<()> {
+) -> ReadResult<()> {
     let pipeline = header.find(FILTERS)?.map_or(Ok(vec![]), filters)?;
     let (flags, chunk, index) =
         if version == 3 { old_chunks(&mut layout)? } else { new_chunks(&mut layout, space)? };
@@ -126,7 +131,7 @@ fn chunked(
     let grid = ChunkGrid { space, chunk, bytes, is_filtered: !pipeline.is_empty() };
     let pipeline = Pipeline { filters: pipeline, size, bytes };
     repeat(array, &fill(header, size)?);
-    let mut batch = Batch::new(header.source, &pipeline, array);
+    let mut batch = ChunkBatch::new(header.source, &pipeline, array);
     index.visit(header.source, &grid, &mut |start, stored| {
         let Some(slab) = Hyperslab::new(&grid, start) else { return Ok(()) };
         let is_plain = flags & PLAIN_BORDER != 0 && slab.extent != grid.chunk;
@@ -138,15 +143,15 @@ fn chunked(
 /// Flags, shape with the bytes of an element, index.
 type Chunks = (u8, Vec<u64>, Index);
 
-fn old_chunks(layout: &mut Cursor) -> Parsed<Chunks> {
+fn old_chunks(layout: &mut Cursor) -> ReadResult<Chunks> {
     let rank = layout.u8()?;
     let address = layout.offset()?;
-    let chunk = (0..rank).map(|_| layout.number(4)).collect::<Parsed<_>>()?;
+    let chunk = (0..rank).map(|_| layout.number(4)).collect::<ReadResult<_>>()?;
     Ok((0, chunk, Index::OldTree(address)))
 }
 
-fn new_chunks(layout: &mut Cursor, space: &Space) -> Parsed<Chunks> {
+fn new_chunks(layout: &mut Cursor, space: &Dataspace) -> ReadResult<Chunks> {
     let (flags, rank, width) = (layout.u8()?, layout.u8()?, layout.u8()?);
-    let chunk = (0..rank).map(|_| layout.number(width.into())).collect::<Parsed<_>>()?;
+    let chunk = (0..rank).map(|_| layout.number(width.into())).collect::<ReadResult<_>>()?;
     Ok((flags, chunk, Index::parse(layout, flags, space)?))
 }

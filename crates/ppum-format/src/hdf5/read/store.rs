@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::io;
 
 use super::super::account::Account;
-use super::error::{Parsed, fail};
+use super::error::{ReadResult, fail};
 
 /// A file that can be read in parts.
 pub(crate) trait Ranges {
@@ -14,7 +14,7 @@ pub(crate) trait Ranges {
     fn read(&self, at: u64, buffer: &mut [u8]) -> io::Result<()>;
 }
 
-impl Ranges for ppum_file::Ranged {
+impl Ranges for ppum_file::RangedFile {
     fn read(&self, at: u64, buffer: &mut [u8]) -> io::Result<()> {
         self.read(at, buffer)
     }
@@ -38,14 +38,14 @@ pub(super) const PAGE: u64 = 1 << 12;
 /// Parts of a file that have been read, each in its link of a chain: what has been read once does
 /// not move.
 #[derive(Default)]
-pub(super) struct Chain(OnceCell<Box<Link>>);
+pub(super) struct StoredParts(OnceCell<Box<Link>>);
 
 struct Link {
     bytes: Vec<u8>,
     next: OnceCell<Box<Link>>,
 }
 
-impl Drop for Chain {
+impl Drop for StoredParts {
     /// Link by link: a long chain that drops itself would take as much stack as it has links.
     fn drop(&mut self) {
         let mut next = self.0.take();
@@ -74,12 +74,17 @@ pub(super) struct ReadRanges<'f> {
 }
 
 impl<'f> ReadRanges<'f> {
-    pub(super) fn new(file: &'f dyn Ranges, start: u64, length: u64, chain: &'f Chain) -> Self {
+    pub(super) fn new(
+        file: &'f dyn Ranges,
+        start: u64,
+        length: u64,
+        chain: &'f StoredParts,
+    ) -> Self {
         Self { file, start, length, end: Cell::new(&chain.0), known: RefCell::default() }
     }
 
     /// The bytes at an address, within the file.
-    fn get(&self, address: u64, length: u64, account: &Account) -> Parsed<&'f [u8]> {
+    fn get(&self, address: u64, length: u64, account: &Account) -> ReadResult<&'f [u8]> {
         let page = address - address % PAGE;
         let (from, to) = match address + length <= page + PAGE {
             true => (page, self.length.min(page + PAGE)),
@@ -94,7 +99,7 @@ impl<'f> ReadRanges<'f> {
         Ok(&part[at..at + length as usize])
     }
 
-    fn load(&self, from: u64, length: u64, account: &Account) -> Parsed<&'f [u8]> {
+    fn load(&self, from: u64, length: u64, account: &Account) -> ReadResult<&'f [u8]> {
         if !account.pay_loaded(length) {
             return fail("it takes more memory than the file is worth");
         }
@@ -105,14 +110,14 @@ impl<'f> ReadRanges<'f> {
         Ok(&link.bytes)
     }
 
-    fn read(&self, from: u64, length: u64) -> Parsed<Vec<u8>> {
+    fn read(&self, from: u64, length: u64) -> ReadResult<Vec<u8>> {
         let Ok(size) = usize::try_from(length) else { return fail("it is too large") };
         let mut bytes = vec![0; size];
         self.fill(from, &mut bytes)?;
         Ok(bytes)
     }
 
-    fn fill(&self, from: u64, buffer: &mut [u8]) -> Parsed<()> {
+    fn fill(&self, from: u64, buffer: &mut [u8]) -> ReadResult<()> {
         match self.file.read(self.start + from, buffer) {
             Ok(()) => Ok(()),
             Err(error) => fail(format!("it cannot be read: {error}")),
@@ -129,7 +134,7 @@ impl<'f> Bytes<'f> {
     }
 
     /// Bytes of the file's structures, which stay. They are within the file.
-    pub(super) fn get(self, address: u64, length: u64, account: &Account) -> Parsed<&'f [u8]> {
+    pub(super) fn get(self, address: u64, length: u64, account: &Account) -> ReadResult<&'f [u8]> {
         match self {
             Self::Memory(bytes) => Ok(&bytes[address as usize..(address + length) as usize]),
             Self::File(parts) => parts.get(address, length, account),
@@ -142,7 +147,7 @@ impl<'f> Bytes<'f> {
         address: u64,
         length: u64,
         account: &Account,
-    ) -> Parsed<Cow<'f, [u8]>> {
+    ) -> ReadResult<Cow<'f, [u8]>> {
         match self {
             Self::File(parts) if length > PAGE => parts.read(address, length).map(Cow::Owned),
             _ => self.get(address, length, account).map(Cow::Borrowed),
@@ -150,7 +155,7 @@ impl<'f> Bytes<'f> {
     }
 
     /// Fills a buffer with the bytes of values. They are within the file.
-    pub(super) fn fill(self, address: u64, buffer: &mut [u8], account: &Account) -> Parsed<()> {
+    pub(super) fn fill(self, address: u64, buffer: &mut [u8], account: &Account) -> ReadResult<()> {
         let length = buffer.len() as u64;
         match self {
             Self::File(parts) if length > PAGE => return parts.fill(address, buffer),

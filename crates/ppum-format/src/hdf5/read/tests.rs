@@ -9,16 +9,16 @@ use std::time::Duration;
 use ppum_testkit::processor::thread_time;
 
 use super::super::account::Account;
-use super::chunks::Stored;
-use super::error::{Hdf5Error, Parsed};
+use super::chunks::ChunkLocation;
+use super::error::{Hdf5Error, ReadResult};
 use super::filters::{Pipeline, filters};
 use super::header::Header;
 use super::packing::unpacked;
-use super::source::Hdf5File;
+use super::source::Hdf5Source;
 use super::store::{Bytes, PAGE};
 use super::trees::{CHUNKS, entries};
 use super::types::{DatatypeClass, Padding, Type};
-use super::{Outline, Ranges, Texts, arrays, from_bytes};
+use super::{Outline, Ranges, TextCollections, arrays, from_bytes};
 use crate::content::{ArrayValues, step_path};
 use crate::decode::RESULTS;
 use crate::forge::{seal, sealed_parts};
@@ -40,10 +40,10 @@ fn run_within_limit<T: Send>(work: impl FnOnce() -> T + Send) -> T {
 }
 
 /// The reason why a structure in a file of these bytes is refused.
-fn refusal(bytes: &[u8], read: impl Fn(Hdf5File) -> Parsed<()> + Sync) -> String {
+fn refusal(bytes: &[u8], read: impl Fn(Hdf5Source) -> ReadResult<()> + Sync) -> String {
     run_within_limit(|| {
         let account = Account::for_file(bytes.len() as u64);
-        let Ok(source) = Hdf5File::new(Bytes::Memory(bytes), (8, 8), &account) else {
+        let Ok(source) = Hdf5Source::new(Bytes::Memory(bytes), (8, 8), &account) else {
             panic!("the widths are known")
         };
         let Err(Hdf5Error(mistake)) = read(source) else { panic!("it is not refused") };
@@ -124,31 +124,32 @@ fn an_entry_far_out() {
     let parts = sealed_parts(&bytes);
     let header = parts.iter().find(|part| bytes[part.start..].starts_with(b"FAHD")).expect("there");
     let at = header.start as u64;
-    let mistake =
-        refusal(&bytes, |source| arrays::Fixed::open(source, at)?.entry((1 << 60) - 1).map(drop));
+    let mistake = refusal(&bytes, |source| {
+        arrays::FixedArray::open(source, at)?.entry((1 << 60) - 1).map(drop)
+    });
     assert!(mistake.contains("beyond the end"), "{mistake}");
 }
 
 /// Filters of a chunk, in the second version of their message.
-fn pipeline(ids: &[u8], bytes: u64) -> Parsed<Pipeline> {
+fn pipeline(ids: &[u8], bytes: u64) -> ReadResult<Pipeline> {
     let account = Account::for_file(0);
     let mut message = vec![2, ids.len() as u8];
     ids.iter().for_each(|id| message.extend([*id, 0, 0, 0, 0, 0]));
-    let source = Hdf5File::new(Bytes::Memory(&message), (8, 8), &account)?;
+    let source = Hdf5Source::new(Bytes::Memory(&message), (8, 8), &account)?;
     Ok(Pipeline { filters: filters(source.cursor(&message))?, size: 8, bytes })
 }
 
 /// Chunks that expand to more than the file is worth are refused before anything is expanded.
 #[test]
 fn bombs() {
-    let stored = Stored { address: 0, bytes: 100, mask: 0 };
+    let stored = ChunkLocation { address: 0, bytes: 100, mask: 0 };
     for (ids, bytes) in [(&[2, 1][..], 1_u64 << 33), (&[2, 1], 1 << 50), (&[3, 1], 1 << 28)] {
-        let paid = |source: Hdf5File| pipeline(ids, bytes)?.pay(stored, 5, source.account);
+        let paid = |source: Hdf5Source| pipeline(ids, bytes)?.pay(stored, 5, source.account);
         let mistake = refusal(&[0; 1000], paid);
         assert!(mistake.contains("too large"), "{ids:?} {bytes}: {mistake}");
     }
     // two of 3 GiB are together too much, though each is not; neither can be decompressed
-    let paid = |source: Hdf5File| {
+    let paid = |source: Hdf5Source| {
         let pipeline = pipeline(&[2, 1], 3 << 30)?;
         assert!(pipeline.undo(&[0; 100], 0, 5).is_err_and(|e| e.0.contains("decompressed")));
         assert!(pipeline.pay(stored, 5, source.account).is_ok());
@@ -173,7 +174,7 @@ fn packed_texts() {
 #[test]
 fn paddings() {
     let account = Account::for_file(0);
-    let Ok(source) = Hdf5File::new(Bytes::Memory(&[]), (8, 8), &account) else {
+    let Ok(source) = Hdf5Source::new(Bytes::Memory(&[]), (8, 8), &account) else {
         panic!("the widths are known")
     };
     for (padding, raw, expected) in [
@@ -186,7 +187,7 @@ fn paddings() {
     ] {
         let values = Type { kind: DatatypeClass::Text(padding), size: 5, is_big: false }.values(
             1,
-            &mut Texts::new(source),
+            &mut TextCollections::new(source),
             |bytes| {
                 bytes.copy_from_slice(raw);
                 Ok(())
@@ -203,7 +204,7 @@ fn paddings() {
 fn types_of_numbers() {
     let account = Account::for_file(0);
     let name = |message: &[u8]| {
-        let source = Hdf5File::new(Bytes::Memory(message), (8, 8), &account).ok()?;
+        let source = Hdf5Source::new(Bytes::Memory(message), (8, 8), &account).ok()?;
         Some(Type::parse(source.cursor(message)).ok()?.kind)
     };
     let integer = |flags: u8, size: u8, bits: u8| [0x10, flags, 0, 0, size, 0, 0, 0, 0, 0, bits, 0];
@@ -222,12 +223,12 @@ fn types_of_numbers() {
 }
 
 /// A file that counts what is read of it.
-struct Counted {
+struct CountingFile {
     bytes: Vec<u8>,
     read: Cell<u64>,
 }
 
-impl Ranges for Counted {
+impl Ranges for CountingFile {
     fn read(&self, at: u64, buffer: &mut [u8]) -> std::io::Result<()> {
         self.read.set(self.read.get() + buffer.len() as u64);
         Ranges::read(&self.bytes, at, buffer)
@@ -248,7 +249,7 @@ fn costs(steps: usize) -> Costs {
     dataset.steps = vec![steps::step(4); steps];
     let bytes = crate::to_bytes(&dataset).expect("valid");
     let length = bytes.len() as u64;
-    let file = Counted { bytes, read: Cell::new(0) };
+    let file = CountingFile { bytes, read: Cell::new(0) };
     let outline = Outline::read(&file, length).expect("a series");
     assert_eq!(outline.steps().len(), steps);
     let of_outline = file.read.take();
@@ -283,7 +284,7 @@ fn a_step_costs_as_much_as_it_is_long() {
     assert!(many.outline <= most, "{} {}", few.outline, many.outline);
 }
 
-/// What is read in parts is what is read as a whole, whatever wrote it.
+/// Reading in parts gives the same as reading as a whole, whatever wrote the file.
 #[test]
 fn parts_are_the_whole() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/h5py");

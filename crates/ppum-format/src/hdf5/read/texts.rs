@@ -2,11 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use super::error::{Parsed, fail};
-use super::source::Hdf5File;
+use super::error::{ReadResult, fail};
+use super::source::Hdf5Source;
 
 /// The characters of a text of the format.
-pub(super) fn text(raw: &[u8]) -> Parsed<String> {
+pub(super) fn text(raw: &[u8]) -> ReadResult<String> {
     match std::str::from_utf8(raw) {
         Ok(text) if !text.contains(['\0', char::REPLACEMENT_CHARACTER]) => Ok(text.to_owned()),
         _ => fail("a text holds NUL, is not UTF-8, or holds U+FFFD, which stands for that"),
@@ -17,21 +17,21 @@ pub(super) fn text(raw: &[u8]) -> Parsed<String> {
 const OBJECT_BYTES: u64 = 16;
 
 /// The collections that texts were found in, each parsed once as long as they fit.
-pub(super) struct Texts<'f> {
-    source: Hdf5File<'f>,
+pub(super) struct TextCollections<'f> {
+    source: Hdf5Source<'f>,
     collections: BTreeMap<u64, BTreeMap<u16, &'f [u8]>>,
     /// Objects in the collections.
     known: u64,
 }
 
-impl<'f> Texts<'f> {
-    pub(super) fn new(source: Hdf5File<'f>) -> Self {
+impl<'f> TextCollections<'f> {
+    pub(super) fn new(source: Hdf5Source<'f>) -> Self {
         Self { source, collections: BTreeMap::new(), known: 0 }
     }
 
     /// The text that an element refers to: its length, and address of a collection and number
     /// in it.
-    pub(super) fn read(&mut self, element: &'_ [u8]) -> Parsed<String> {
+    pub(super) fn read(&mut self, element: &'_ [u8]) -> ReadResult<String> {
         let (length, place) = element.split_at_checked(4).unwrap_or_default();
         let (address, number) =
             place.split_at_checked(self.source.offset_size()).unwrap_or_default();
@@ -49,7 +49,7 @@ impl<'f> Texts<'f> {
         text(&raw[..end_without(raw, 0)])
     }
 
-    fn collection(&mut self, address: u64) -> Parsed<&BTreeMap<u16, &'f [u8]>> {
+    fn collection(&mut self, address: u64) -> ReadResult<&BTreeMap<u16, &'f [u8]>> {
         if !self.collections.contains_key(&address) {
             let objects = collection(self.source, address)?;
             self.known += objects.len() as u64;
@@ -67,7 +67,7 @@ fn little(bytes: &[u8]) -> u64 {
     bytes.iter().rev().fold(0, |number, &byte| number << 8 | u64::from(byte))
 }
 
-fn collection(source: Hdf5File<'_>, address: u64) -> Parsed<BTreeMap<u16, &[u8]>> {
+fn collection(source: Hdf5Source<'_>, address: u64) -> ReadResult<BTreeMap<u16, &[u8]>> {
     let prefix = 8 + source.length_size();
     let mut start = source.at(address, prefix as u64)?;
     start.signature(b"GCOL")?;

@@ -1,7 +1,7 @@
 //! B-trees: the indexes of links, attributes and chunks.
 
-use super::error::{Parsed, fail};
-use super::source::{Cursor, Hdf5File};
+use super::error::{ReadResult, fail};
+use super::source::{Cursor, Hdf5Source};
 
 /// The uses of B-trees of the first version: the links of groups, and chunks.
 pub(super) const GROUPS: u8 = 0;
@@ -9,11 +9,11 @@ pub(super) const CHUNKS: u8 = 1;
 
 /// The keys of a tree of version 1, each with the address that belongs to it, in their order.
 pub(super) fn entries(
-    source: Hdf5File<'_>,
+    source: Hdf5Source<'_>,
     root: u64,
     kind: u8,
     key: usize,
-) -> Parsed<Vec<(&[u8], u64)>> {
+) -> ReadResult<Vec<(&[u8], u64)>> {
     let mut found = Vec::new();
     let mut nodes = vec![(root, None)];
     while let Some((address, above)) = nodes.pop() {
@@ -33,16 +33,21 @@ pub(super) fn entries(
 }
 
 /// No more of an index than the file can hold.
-fn limit(source: Hdf5File, count: usize, size: usize) -> Parsed<()> {
+fn limit(source: Hdf5Source, count: usize, size: usize) -> ReadResult<()> {
     match (count as u64).checked_mul(size as u64) {
         Some(bytes) if bytes <= source.length() => Ok(()),
         _ => fail("an index is larger than the file"),
     }
 }
 
-type Entries<'f> = Vec<(&'f [u8], u64)>;
+type TreeEntries<'f> = Vec<(&'f [u8], u64)>;
 
-fn node(source: Hdf5File<'_>, address: u64, kind: u8, key: usize) -> Parsed<(u8, Entries<'_>)> {
+fn node(
+    source: Hdf5Source<'_>,
+    address: u64,
+    kind: u8,
+    key: usize,
+) -> ReadResult<(u8, TreeEntries<'_>)> {
     let prefix = 8 + 2 * source.offset_size();
     let mut node = source.at(address, prefix as u64)?;
     node.signature(b"TREE")?;
@@ -51,7 +56,7 @@ fn node(source: Hdf5File<'_>, address: u64, kind: u8, key: usize) -> Parsed<(u8,
     let size = key + source.offset_size();
     let mut rest = source.at(address + prefix as u64, u64::from(count) * size as u64)?;
     let children = (0..count).map(|_| Ok((rest.take(key)?, rest.address()?)));
-    Ok((level, children.collect::<Parsed<_>>()?))
+    Ok((level, children.collect::<ReadResult<_>>()?))
 }
 
 /// Smallest record of a tree of version 2: what is shorter would take more memory than the file
@@ -59,8 +64,8 @@ fn node(source: Hdf5File<'_>, address: u64, kind: u8, key: usize) -> Parsed<(u8,
 const SMALLEST_RECORD: usize = 8;
 
 /// A tree of version 2.
-struct Tree<'f> {
-    source: Hdf5File<'f>,
+struct BTree2<'f> {
+    source: Hdf5Source<'f>,
     kind: u8,
     record: usize,
     /// Widths, at each level above the leaves, of the numbers of records under a child.
@@ -70,12 +75,12 @@ struct Tree<'f> {
 
 /// The records of a tree of version 2, of one of these kinds, in their order.
 pub(super) fn records<'f>(
-    source: Hdf5File<'f>,
+    source: Hdf5Source<'f>,
     address: u64,
     kinds: &[u8],
-) -> Parsed<Vec<&'f [u8]>> {
+) -> ReadResult<Vec<&'f [u8]>> {
     let length = 22 + source.offset_size() + source.length_size();
-    let mut header = source.sealed(address, length as u64)?;
+    let mut header = source.with_checksum(address, length as u64)?;
     header.signature(b"BTHD")?;
     header.version(0, "an index is")?;
     let kind = header.u8()?;
@@ -87,7 +92,7 @@ pub(super) fn records<'f>(
     let count = header.u16()?;
     let record = record.into();
     let widths = widths(source, node, record, depth)?;
-    let mut tree = Tree { source, kind, record, widths, records: Vec::new() };
+    let mut tree = BTree2 { source, kind, record, widths, records: Vec::new() };
     tree.visit(root, count.into(), depth.into())?;
     Ok(tree.records)
 }
@@ -100,7 +105,7 @@ const MOST_LEVELS: u16 = 64;
 
 /// Widths of the numbers of records that a child has itself (the first) and under it, at
 /// each level.
-fn widths(source: Hdf5File, node: u32, record: usize, depth: u16) -> Parsed<Vec<usize>> {
+fn widths(source: Hdf5Source, node: u32, record: usize, depth: u16) -> ReadResult<Vec<usize>> {
     if depth > MOST_LEVELS {
         return fail("an index is too deep");
     }
@@ -128,15 +133,15 @@ pub(super) fn width(largest: u64) -> usize {
     (largest.checked_ilog2().unwrap_or(0) / 8 + 1) as usize
 }
 
-impl<'f> Tree<'f> {
-    fn visit(&mut self, address: u64, count: usize, depth: usize) -> Parsed<()> {
+impl<'f> BTree2<'f> {
+    fn visit(&mut self, address: u64, count: usize, depth: usize) -> ReadResult<()> {
         let children = if depth == 0 { 0 } else { count + 1 };
         let pointer = match depth {
             0 => 0,
             _ => self.source.offset_size() + self.widths[0] + self.widths[depth],
         };
         let size = NODE_BYTES as usize + count * self.record + children * pointer;
-        let mut node = self.source.sealed(address, size as u64)?;
+        let mut node = self.source.with_checksum(address, size as u64)?;
         node.signature(if depth == 0 { b"BTLF" } else { b"BTIN" })?;
         node.version(0, "a node of an index is")?;
         node.version(self.kind, "a node of an index is")?;
@@ -154,7 +159,7 @@ impl<'f> Tree<'f> {
         Ok(())
     }
 
-    fn child(&mut self, node: &mut Cursor<'f>, depth: usize) -> Parsed<()> {
+    fn child(&mut self, node: &mut Cursor<'f>, depth: usize) -> ReadResult<()> {
         let (address, count) = (node.address()?, node.size(self.widths[0])?);
         node.skip(self.widths[depth])?;
         if count > usize::from(u16::MAX) {

@@ -2,10 +2,10 @@
 
 use bytemuck::Pod;
 
-use super::error::{Parsed, fail};
+use super::error::{ReadResult, fail};
 use super::source::Cursor;
-use super::texts::{Texts, end_without, text};
-use crate::content::{ArrayValues, Element as _};
+use super::texts::{TextCollections, end_without, text};
+use crate::content::{ArrayValues, ElementType as _};
 
 /// An element type.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -62,7 +62,7 @@ const CLASSES: [&str; 12] = [
 ];
 
 impl Type {
-    pub(super) fn parse(mut message: Cursor) -> Parsed<Self> {
+    pub(super) fn parse(mut message: Cursor) -> ReadResult<Self> {
         let head = message.u8()?;
         let (class, flags) = (usize::from(head & 15), message.number(3)?);
         let size = message.u32()?;
@@ -89,9 +89,9 @@ impl Type {
     pub(super) fn values(
         &self,
         count: usize,
-        texts: &mut Texts,
-        fill: impl FnOnce(&mut [u8]) -> Parsed<()>,
-    ) -> Parsed<ArrayValues> {
+        texts: &mut TextCollections,
+        fill: impl FnOnce(&mut [u8]) -> ReadResult<()>,
+    ) -> ReadResult<ArrayValues> {
         Ok(match &self.kind {
             DatatypeClass::F64 => f64::wrap(self.numbers(count, fill)?),
             DatatypeClass::U8 => u8::wrap(self.numbers(count, fill)?),
@@ -102,13 +102,13 @@ impl Type {
                 let mut raw = vec![0; count * self.size];
                 fill(&mut raw)?;
                 let texts = raw.chunks_exact(self.size).map(|raw| self.text(raw, texts));
-                String::wrap(texts.collect::<Parsed<_>>()?)
+                String::wrap(texts.collect::<ReadResult<_>>()?)
             }
             DatatypeClass::Other(name) => ArrayValues::Other(name.clone()),
         })
     }
 
-    fn text(&self, raw: &[u8], texts: &mut Texts) -> Parsed<String> {
+    fn text(&self, raw: &[u8], texts: &mut TextCollections) -> ReadResult<String> {
         match self.kind {
             DatatypeClass::Text(padding) => text(padding.cut(raw)),
             _ => texts.read(raw),
@@ -119,8 +119,8 @@ impl Type {
     fn numbers<T: Pod>(
         &self,
         count: usize,
-        fill: impl FnOnce(&mut [u8]) -> Parsed<()>,
-    ) -> Parsed<Vec<T>> {
+        fill: impl FnOnce(&mut [u8]) -> ReadResult<()>,
+    ) -> ReadResult<Vec<T>> {
         let mut numbers = bytemuck::zeroed_vec(count);
         let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut numbers);
         fill(bytes)?;
@@ -131,7 +131,7 @@ impl Type {
     }
 }
 
-fn integer(flags: u64, size: u32, message: &mut Cursor) -> Parsed<DatatypeClass> {
+fn integer(flags: u64, size: u32, message: &mut Cursor) -> ReadResult<DatatypeClass> {
     let (offset, bits) = (message.u16()?, message.u16()?);
     let is_whole = offset == 0 && u64::from(bits) == 8 * u64::from(size);
     let is_signed = flags & 8 != 0;
@@ -151,7 +151,7 @@ const BIG_ENDIAN: u64 = 1;
 /// of exponent and mantissa, the exponent's bias.
 const DOUBLE: (u64, [u8; 12]) = (0x3f20, [0, 0, 64, 0, 52, 11, 0, 52, 0xff, 3, 0, 0]);
 
-fn float(flags: u64, size: u32, message: &mut Cursor) -> Parsed<DatatypeClass> {
+fn float(flags: u64, size: u32, message: &mut Cursor) -> ReadResult<DatatypeClass> {
     let is_ieee = flags & !BIG_ENDIAN == DOUBLE.0 && size == 8;
     let is_double = is_ieee && message.take(12)? == DOUBLE.1;
     Ok(if is_double {
@@ -161,7 +161,7 @@ fn float(flags: u64, size: u32, message: &mut Cursor) -> Parsed<DatatypeClass> {
     })
 }
 
-fn padding(flags: u64) -> Parsed<Padding> {
+fn padding(flags: u64) -> ReadResult<Padding> {
     Ok(match flags & 15 {
         0 => Padding::Terminated,
         1 => Padding::Nuls,
@@ -184,15 +184,15 @@ impl Padding {
 
 /// The shape of an array.
 #[derive(Clone, Debug)]
-pub(super) struct Space {
+pub(super) struct Dataspace {
     pub(super) shape: Vec<u64>,
     /// The length that it can grow to; [`u64::MAX`] without bound.
     pub(super) most: Vec<u64>,
 }
 
-impl Space {
+impl Dataspace {
     /// None if there is not even a shape.
-    pub(super) fn parse(mut message: Cursor) -> Parsed<Option<Self>> {
+    pub(super) fn parse(mut message: Cursor) -> ReadResult<Option<Self>> {
         let (version, rank, flags) = (message.u8()?, message.u8()?, message.u8()?);
         match version {
             1 => drop(message.skip(5)?),
@@ -200,12 +200,12 @@ impl Space {
             2 => {}
             _ => return fail(format!("its shape has version {version}, which is not known")),
         }
-        let shape: Vec<u64> = (0..rank).map(|_| message.length()).collect::<Parsed<_>>()?;
+        let shape: Vec<u64> = (0..rank).map(|_| message.length()).collect::<ReadResult<_>>()?;
         let nothing = u64::MAX >> (64 - 8 * message.source.length_size());
         let unlimited = |most| if most == nothing { u64::MAX } else { most };
         let most = match flags & 1 {
             0 => shape.clone(),
-            _ => (0..rank).map(|_| message.length().map(unlimited)).collect::<Parsed<_>>()?,
+            _ => (0..rank).map(|_| message.length().map(unlimited)).collect::<ReadResult<_>>()?,
         };
         Ok(Some(Self { shape, most }))
     }

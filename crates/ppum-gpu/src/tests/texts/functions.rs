@@ -1,7 +1,9 @@
 use ppum::crack::{Crack, CrackEnd, End, SegmentId, Side, TipId, tips};
 use ppum::dataset::Step;
 use ppum::formula::Table;
-use ppum::function::{Cut, Frame, Function, FunctionKind, FunctionTable, Part, Slot, WESTERGAARD};
+use ppum::function::{
+    Cut, CutSide, Frame, Function, FunctionKind, FunctionTable, Slot, WESTERGAARD,
+};
 use ppum::jet::Jet;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_testkit::random::Random;
@@ -11,9 +13,9 @@ use std::sync::Arc;
 
 use super::{call, module};
 use crate::error::GpuError;
-use crate::frame::geometry::{Geometry, constants};
-use crate::scene::groups::{GroupFrame, Groups};
-use crate::shader::functions::{Surroundings, functions_wgsl};
+use crate::frame::geometry::{PairGeometry, constants};
+use crate::scene::groups::{FunctionGroups, GroupFrame};
+use crate::shader::functions::{FormulaContext, functions_wgsl};
 use crate::shader::texts::{
     CRACK, GEOMETRY, INDICATOR, JET, TIP, WESTERGAARD as WESTERGAARD_KERNEL,
 };
@@ -24,7 +26,7 @@ const CENTER: Vec2 = vec2(0.8, 0.2);
 /// The data of a view and what reads them, with the other declarations that point functions need.
 fn view(step: &Step, frames: &[GroupFrame], order: usize) -> String {
     let domain = Rect::new(vec2(-9.0, -9.0), vec2(9.0, 9.0)).into();
-    let geometry = Geometry::new(step, &domain, frames, CENTER);
+    let geometry = PairGeometry::new(step, &domain, frames, CENTER);
     let words = geometry.pairs.iter().flatten().map(|v| format!("{:#x}u", v.to_bits()));
     let bits: Vec<String> = words.collect();
     let (count, bits) = (bits.len(), bits.join(", "));
@@ -57,12 +59,12 @@ const NUMBERS: &str = "
 /// The module of some functions, and their text.
 fn shader(
     functions: &[Function],
-    groups: &Groups,
+    groups: &FunctionGroups,
     cracks: &[Crack],
     tables: &[Arc<Table>],
     order: usize,
 ) -> (Module, String) {
-    let surroundings = Surroundings { cracks: cracks.len(), tables, order };
+    let surroundings = FormulaContext { cracks: cracks.len(), tables, order };
     let (text, kernels) = functions_wgsl(functions, groups, surroundings).expect("a text");
     assert_eq!(kernels.len(), groups.count());
     assert!(kernels.iter().all(|kernel| text.contains(&format!("fn functions_{kernel}("))));
@@ -98,7 +100,7 @@ fn formula(text: &str, frame: Frame, parameters: &[(&str, f64)]) -> FunctionKind
 
 /// Compares all functions with derivatives up to an order with the reference: formulas in
 /// double precision.
-fn compare(functions: &[Function], groups: &Groups, tables: &[Arc<Table>], order: usize) {
+fn compare(functions: &[Function], groups: &FunctionGroups, tables: &[Arc<Table>], order: usize) {
     let cracks = &cracks();
     let (shader, _) = shader(functions, groups, cracks, tables, order);
     let table = FunctionTable::of_formulas(functions, cracks.len(), tables).expect("functions");
@@ -159,10 +161,10 @@ fn component() -> FunctionKind {
     let cut =
         |crack, segment, left, right| Cut { segment: SegmentId { crack, segment }, left, right };
     let cuts = vec![
-        cut(0, 1, Part::Cut(1), Part::Cut(2)),
-        cut(1, 0, Part::Outside, Part::Inside),
-        cut(0, 0, Part::Outside, Part::Cut(3)),
-        cut(1, 0, Part::Outside, Part::Inside),
+        cut(0, 1, CutSide::Cut(1), CutSide::Cut(2)),
+        cut(1, 0, CutSide::Outside, CutSide::Inside),
+        cut(0, 0, CutSide::Outside, CutSide::Cut(3)),
+        cut(1, 0, CutSide::Outside, CutSide::Inside),
     ];
     FunctionKind::Component { cuts }
 }
@@ -179,7 +181,7 @@ fn tables() -> Vec<Arc<Table>> {
 fn functions_of_every_kind() {
     let functions = recipe(all_kinds());
     for order in 0..=2 {
-        compare(&functions, &Groups::new(&functions), &tables(), order);
+        compare(&functions, &FunctionGroups::new(&functions), &tables(), order);
     }
 }
 
@@ -190,7 +192,7 @@ fn replaced_functions() {
     let plain = Recipe { cracks: cracks(), ..Recipe::default() };
     let mut step = plain.dataset().steps.remove(0);
     step.functions = recipe(all_kinds());
-    let groups = Groups::new(&step.functions);
+    let groups = FunctionGroups::new(&step.functions);
     let component = step.functions.iter().position(|f| f.kind == component());
     let component = component.expect("a component").to_string();
     for (which, text) in [
@@ -223,7 +225,7 @@ fn kernels_are_shared() {
     }
     functions.extend((0..50).map(|_| Function { name: "component".into(), kind: component() }));
     functions.push(Function { name: "side".into(), kind: FunctionKind::Side { crack: 3 } });
-    let groups = Groups::new(&functions);
+    let groups = FunctionGroups::new(&functions);
     assert_eq!(groups.count(), 1 + 145 + 50 + 288 + 288);
     let (_, text) = shader(&functions, &groups, &cracks, &[], 2);
     assert_eq!(text.matches("fn functions_").count(), 5);
@@ -237,7 +239,7 @@ fn random_recipes_are_valid() {
         let recipe = Recipe::random(seed);
         let functions = recipe.functions();
         for order in 0..=2 {
-            shader(&functions, &Groups::new(&functions), &recipe.cracks, &[], order);
+            shader(&functions, &FunctionGroups::new(&functions), &recipe.cracks, &[], order);
         }
     }
 }
@@ -249,8 +251,9 @@ fn what_cannot_be_drawn_is_an_error_with_the_functions_name() {
     let error = |text: &str| {
         let functions =
             [Function { name: "load".into(), kind: FunctionKind::formula(text, Frame::World) }];
-        let surroundings = Surroundings { cracks: 0, tables: &long, order: 1 };
-        functions_wgsl(&functions, &Groups::new(&functions), surroundings).expect_err("no text")
+        let surroundings = FormulaContext { cracks: 0, tables: &long, order: 1 };
+        functions_wgsl(&functions, &FunctionGroups::new(&functions), surroundings)
+            .expect_err("no text")
     };
     let long = error("table(long, x)");
     assert!(matches!(long, GpuError::FormulaTooLarge { .. }), "{long}");

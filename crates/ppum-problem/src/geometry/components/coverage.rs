@@ -8,24 +8,24 @@ use ppum::segment::Segment;
 use ppum::vec2::Vec2;
 
 /// An interval of places on a line.
-type Interval = [f64; 2];
+type LineInterval = [f64; 2];
 
-/// What is known of a cut.
+/// A cut, with the cracks along it and the parts on its sides.
 #[derive(Debug)]
-pub(super) struct Sides {
+pub(super) struct CutSides {
     line: Line,
     /// Where cracks lie on it.
-    covered: Vec<Interval>,
+    covered: Vec<LineInterval>,
     /// The parts along it on the left and on the right.
-    parts: [Vec<(usize, Interval)>; 2],
+    parts: [Vec<(usize, LineInterval)>; 2],
 }
 
-impl Sides {
+impl CutSides {
     pub(super) fn new(line: Line) -> Self {
         Self { line, covered: Vec::new(), parts: [Vec::new(), Vec::new()] }
     }
 
-    fn interval(&self, ends: Segment) -> Interval {
+    fn interval(&self, ends: Segment) -> LineInterval {
         let [a, b] = ends.map(|p| self.line.foot(p));
         [a.min(b), a.max(b)]
     }
@@ -46,7 +46,7 @@ impl Sides {
     pub(super) fn open(&self, holes: &[&Hole], gap: f64) -> Vec<[usize; 2]> {
         let [left, right] = &self.parts;
         let pairs = left.iter().flat_map(|a| right.iter().map(move |b| (a, b)));
-        let is_open = |((_, a), (_, b)): &(&(usize, Interval), &(usize, Interval))| {
+        let is_open = |((_, a), (_, b)): &(&(usize, LineInterval), &(usize, LineInterval))| {
             self.is_open([a[0].max(b[0]), a[1].min(b[1])], holes, gap)
         };
         pairs.filter(is_open).map(|(a, b)| [a.0, b.0]).collect()
@@ -56,13 +56,13 @@ impl Sides {
     pub(super) fn beside(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
         let [left, right] = &self.parts;
         let pairs = left.iter().flat_map(move |a| right.iter().map(move |b| (a, b)));
-        let touch = |((_, a), (_, b)): &(&(usize, Interval), &(usize, Interval))| {
+        let touch = |((_, a), (_, b)): &(&(usize, LineInterval), &(usize, LineInterval))| {
             a[0].max(b[0]) < a[1].min(b[1])
         };
         pairs.filter(touch).map(|(a, b)| [a.0, b.0])
     }
 
-    fn is_open(&self, [from, to]: Interval, holes: &[&Hole], gap: f64) -> bool {
+    fn is_open(&self, [from, to]: LineInterval, holes: &[&Hole], gap: f64) -> bool {
         if to - from <= gap {
             return false;
         }
@@ -80,7 +80,7 @@ impl Sides {
     }
 
     /// The parts of an interval that lie in a hole.
-    fn in_hole(&self, [from, to]: Interval, hole: &Hole) -> Vec<Interval> {
+    fn in_hole(&self, [from, to]: LineInterval, hole: &Hole) -> Vec<LineInterval> {
         let crossings = rim_crossings(self.line.at(from), self.line.at(to), hole);
         let mut breaks: Vec<f64> = crossings.into_iter().filter(|t| *t > 0.0 && *t < 1.0).collect();
         breaks.extend([0.0, 1.0]);

@@ -13,14 +13,14 @@ mod coverage;
 mod region;
 mod tree;
 
-use coverage::Sides;
+use coverage::CutSides;
 use ppum::crack::SegmentId;
 use ppum::domain::Hole;
 use ppum::function::Cut;
 use ppum::segment::Segment;
 use ppum::vec2::Rect;
-use region::{Region, SegmentPiece};
-use tree::{Node, Tree};
+use region::{ConvexRegion, SegmentPiece};
+use tree::{ComponentNode, CutTree};
 
 /// Thickness of parts that are rounding, in sizes of the box; the same as quadrature has.
 const THINNEST: f64 = 1e-12;
@@ -31,7 +31,7 @@ const MIDDLE: f64 = 0.5;
 /// Weight of areas outside of the middle.
 const ELSEWHERE: f64 = 1e-3;
 
-/// The same in parts of the coordinates.
+/// Thickness that counts as rounding, relative to the coordinates.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// The middle of a box.
@@ -41,10 +41,11 @@ pub(crate) fn middle(open: &Rect) -> Rect {
 
 /// The components of a box.
 pub(crate) struct Components {
-    tree: Tree,
-    /// Of each leaf of the tree, the component.
+    tree: CutTree,
+    /// The component of each leaf of the tree.
     of_leaf: Vec<u32>,
-    /// Of each component, the area in the middle of the box, and a little for what else there is.
+    /// The area of each component in the middle of the box, plus a small weight of its area
+    /// elsewhere.
     weights: Vec<f64>,
 }
 
@@ -63,8 +64,8 @@ impl Components {
         let thinnest = (THINNEST * open.size().length()).max(ROUNDING * reach);
         let pieces =
             segments.filter_map(|(id, ends)| SegmentPiece::inside(id, ends, open, thinnest));
-        let mut building = Building::new(thinnest);
-        let region = Region::of_box(open);
+        let mut building = TreeBuilder::new(thinnest);
+        let region = ConvexRegion::of_box(open);
         building.part(region, pieces.collect());
         building.join(open, holes, gap)
     }
@@ -88,22 +89,22 @@ impl Components {
 }
 
 /// A tree that is being built.
-struct Building {
-    tree: Tree,
+struct TreeBuilder {
+    tree: CutTree,
     /// The parts at the leaves.
-    leaves: Vec<Region>,
-    /// Of each cut, what is known of its line.
-    sides: Vec<Sides>,
+    leaves: Vec<ConvexRegion>,
+    /// The sides of each cut.
+    sides: Vec<CutSides>,
     thinnest: f64,
 }
 
-impl Building {
+impl TreeBuilder {
     fn new(thinnest: f64) -> Self {
-        Self { tree: Tree::default(), leaves: Vec::new(), sides: Vec::new(), thinnest }
+        Self { tree: CutTree::default(), leaves: Vec::new(), sides: Vec::new(), thinnest }
     }
 
     /// Cuts a part of the box by the pieces in it; returns its node.
-    fn part(&mut self, region: Region, mut pieces: Vec<SegmentPiece>) -> usize {
+    fn part(&mut self, region: ConvexRegion, mut pieces: Vec<SegmentPiece>) -> usize {
         while let Some(chosen) = choose(&pieces, self.thinnest) {
             let line = pieces[chosen].line;
             if region.is_split_by(&line, self.thinnest) {
@@ -114,14 +115,14 @@ impl Building {
             region.cuts_along(&along, self.thinnest).for_each(|cut| self.sides[cut].cover(&along));
         }
         self.leaves.push(region);
-        self.tree.push(Node::Leaf(self.leaves.len() - 1))
+        self.tree.push(ComponentNode::Leaf(self.leaves.len() - 1))
     }
 
-    fn cut(&mut self, region: Region, pieces: Vec<SegmentPiece>, chosen: usize) -> usize {
+    fn cut(&mut self, region: ConvexRegion, pieces: Vec<SegmentPiece>, chosen: usize) -> usize {
         let SegmentPiece { id, line, ends } = pieces[chosen];
         let number = self.sides.len();
-        self.sides.push(Sides::new(line));
-        let node = self.tree.push(Node::Cut { segment: id, left: 0, right: 0 });
+        self.sides.push(CutSides::new(line));
+        let node = self.tree.push(ComponentNode::Cut { segment: id, left: 0, right: 0 });
         let (mut left, mut right) = (Vec::new(), Vec::new());
         self.sides[number].cover(&pieces[chosen]);
         for (_, piece) in pieces.iter().enumerate().filter(|(k, _)| *k != chosen) {
@@ -135,7 +136,7 @@ impl Building {
         let [on_left, on_right] = region.split(&line, ends, number, self.thinnest);
         let left = self.part(on_left, left);
         let right = self.part(on_right, right);
-        self.tree.set(node, Node::Cut { segment: id, left, right });
+        self.tree.set(node, ComponentNode::Cut { segment: id, left, right });
         node
     }
 
@@ -179,7 +180,7 @@ impl Building {
             areas[root(joined, leaf)] += region.area(&[]);
         }
         let is_crumb = |part: usize| areas[part] <= gap * gap;
-        for [a, b] in self.sides.iter().flat_map(Sides::beside) {
+        for [a, b] in self.sides.iter().flat_map(CutSides::beside) {
             let (a, b) = (root(joined, a), root(joined, b));
             if is_crumb(a) || is_crumb(b) {
                 let (crumb, other) = if is_crumb(a) { (a, b) } else { (b, a) };

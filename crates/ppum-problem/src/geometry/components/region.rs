@@ -29,7 +29,7 @@ impl SegmentPiece {
         (self.ends[1] - self.ends[0]).length()
     }
 
-    /// What lies on the left and on the right of a line; nothing of what lies on it.
+    /// Returns the parts on the left and on the right of a line; a region that lies on it has none.
     pub(super) fn split(&self, line: &Line, thinnest: f64) -> [Option<Self>; 2] {
         let [a, b] = self.ends;
         let (da, db) = (line.side(a), line.side(b));
@@ -48,14 +48,14 @@ impl SegmentPiece {
 }
 
 /// A corner of a region, and the cut that made the side from it to the next corner; none on the
-/// border of the box.
-type Corner = (Vec2, Option<usize>);
+/// boundary of the box.
+type RegionCorner = (Vec2, Option<usize>);
 
 /// A convex polygon, counter-clockwise.
 #[derive(Clone, Debug)]
-pub(super) struct Region(Vec<Corner>);
+pub(super) struct ConvexRegion(Vec<RegionCorner>);
 
-impl Region {
+impl ConvexRegion {
     pub(super) fn of_box(open: &Rect) -> Self {
         Self(open.corners().map(|p| (p, None)).to_vec())
     }
@@ -103,7 +103,7 @@ impl Region {
         self.0.iter().enumerate().map(move |(k, (p, side))| ([*p, next(k)], *side))
     }
 
-    /// The cuts along which a piece runs on the border of the region.
+    /// The cuts along which a piece runs on the boundary of the region.
     pub(super) fn cuts_along(
         &self,
         piece: &SegmentPiece,

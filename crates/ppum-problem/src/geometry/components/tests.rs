@@ -33,12 +33,12 @@ fn count(lines: &[&[[f64; 2]]]) -> usize {
 }
 
 /// The number of the component at a point: that of its indicator, or the number of indicators.
-struct Map<'c> {
+struct ComponentMap<'c> {
     cracks: &'c [Crack],
     table: FunctionTable,
 }
 
-impl<'c> Map<'c> {
+impl<'c> ComponentMap<'c> {
     fn new(cracks: &'c [Crack], components: &Components) -> Self {
         let function =
             |cuts| Function { name: "any".into(), kind: FunctionKind::Component { cuts } };
@@ -145,7 +145,7 @@ fn components_are_what_ways_lead_to() {
             (0..n).map(|k| (0..2 + k % 3).map(|_| point()).collect()).collect();
         let cracks = cracks(&lines.iter().map(Vec::as_slice).collect::<Vec<_>>());
         let components = components(&cracks, &[]);
-        let map = Map::new(&cracks, &components);
+        let map = ComponentMap::new(&cracks, &components);
         let place = |k: usize| {
             let at = |k: usize| (k as f64 + 0.4871) / N as f64;
             vec2(at(k % N), at(k / N))
@@ -208,7 +208,7 @@ fn at_the_faces_of_a_star() {
         let cracks = cracks(&arms.iter().map(|a| a.as_slice()).collect::<Vec<_>>());
         let components = components(&cracks, &[]);
         assert_eq!(components.count(), 3);
-        let map = Map::new(&cracks, &components);
+        let map = ComponentMap::new(&cracks, &components);
         for (crack, [a, b]) in (0..).zip(&arms) {
             let [a, b] = [*a, *b].map(Vec2::from);
             let outward =

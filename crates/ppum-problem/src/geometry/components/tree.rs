@@ -1,15 +1,15 @@
 //! The tree of cuts.
 
 use ppum::crack::SegmentId;
-use ppum::function::{Cut, Part};
+use ppum::function::{Cut, CutSide};
 
 /// Cuts and leaves; the first node is the root.
 #[derive(Debug, Default)]
-pub(super) struct Tree(Vec<Node>);
+pub(super) struct CutTree(Vec<ComponentNode>);
 
 /// A node of the tree.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Node {
+pub(super) enum ComponentNode {
     /// A cut by the line of a segment, and the nodes that follow on its left and right.
     Cut { segment: SegmentId, left: usize, right: usize },
     /// A convex part of the box, by its number.
@@ -17,18 +17,18 @@ pub(super) enum Node {
 }
 
 /// A tree in which equal neighbours are one.
-enum Pruned {
+enum PrunedTree {
     Leaf(bool),
-    Cut(SegmentId, Box<[Pruned; 2]>),
+    Cut(SegmentId, Box<[PrunedTree; 2]>),
 }
 
-impl Tree {
-    pub(super) fn push(&mut self, node: Node) -> usize {
+impl CutTree {
+    pub(super) fn push(&mut self, node: ComponentNode) -> usize {
         self.0.push(node);
         self.0.len() - 1
     }
 
-    pub(super) fn set(&mut self, at: usize, node: Node) {
+    pub(super) fn set(&mut self, at: usize, node: ComponentNode) {
         self.0[at] = node;
     }
 
@@ -39,36 +39,37 @@ impl Tree {
         cuts
     }
 
-    fn pruned(&self, node: usize, is_inside: &dyn Fn(usize) -> bool) -> Pruned {
+    fn pruned(&self, node: usize, is_inside: &dyn Fn(usize) -> bool) -> PrunedTree {
         match self.0[node] {
-            Node::Leaf(leaf) => Pruned::Leaf(is_inside(leaf)),
-            Node::Cut { segment, left, right } => {
+            ComponentNode::Leaf(leaf) => PrunedTree::Leaf(is_inside(leaf)),
+            ComponentNode::Cut { segment, left, right } => {
                 match [left, right].map(|next| self.pruned(next, is_inside)) {
-                    [Pruned::Leaf(a), Pruned::Leaf(b)] if a == b => Pruned::Leaf(a),
-                    both => Pruned::Cut(segment, Box::new(both)),
+                    [PrunedTree::Leaf(a), PrunedTree::Leaf(b)] if a == b => PrunedTree::Leaf(a),
+                    both => PrunedTree::Cut(segment, Box::new(both)),
                 }
             }
         }
     }
 }
 
-impl Pruned {
-    fn write(&self, cuts: &mut Vec<Cut>) -> Part {
+impl PrunedTree {
+    fn write(&self, cuts: &mut Vec<Cut>) -> CutSide {
         match self {
             Self::Leaf(is_inside) => {
                 if *is_inside {
-                    Part::Inside
+                    CutSide::Inside
                 } else {
-                    Part::Outside
+                    CutSide::Outside
                 }
             }
             Self::Cut(segment, both) => {
                 let at = cuts.len();
-                let new = Cut { segment: *segment, left: Part::Outside, right: Part::Outside };
+                let new =
+                    Cut { segment: *segment, left: CutSide::Outside, right: CutSide::Outside };
                 cuts.push(new);
                 cuts[at].left = both[0].write(cuts);
                 cuts[at].right = both[1].write(cuts);
-                Part::Cut(at as u32)
+                CutSide::Cut(at as u32)
             }
         }
     }

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
-use ppum_testkit::meshes::{Elements, Polynomial, field};
+use ppum_testkit::meshes::{BivariatePolynomial, MeshBuilder, field};
 use ppum_testkit::random::Random;
 
 use super::super::*;
@@ -18,16 +18,20 @@ fn exact(p: Vec2) -> f64 {
 }
 
 /// The same of two polynomials.
-fn composed(x: &Polynomial, y: &Polynomial) -> Polynomial {
-    let scaled = |p: &Polynomial, by: f64| p.times(&Polynomial::linear(by, 0.0, 0.0));
-    let linear = scaled(x, 1.0).plus(&scaled(y, -0.5)).plus(&Polynomial::linear(0.3, 0.0, 0.0));
+fn composed(x: &BivariatePolynomial, y: &BivariatePolynomial) -> BivariatePolynomial {
+    let scaled =
+        |p: &BivariatePolynomial, by: f64| p.times(&BivariatePolynomial::linear(by, 0.0, 0.0));
+    let linear =
+        scaled(x, 1.0).plus(&scaled(y, -0.5)).plus(&BivariatePolynomial::linear(0.3, 0.0, 0.0));
     linear.plus(&scaled(&x.times(y), 0.7)).plus(&scaled(&x.times(x), -0.4))
 }
 
 /// The image of the unit square in the plane, and of one of its points.
-fn bent() -> [Polynomial; 2] {
-    let (s, t) = (Polynomial::linear(0.0, 1.0, 0.0), Polynomial::linear(0.0, 0.0, 1.0));
-    let part = |p: Polynomial, by: f64| p.times(&Polynomial::linear(by, 0.0, 0.0));
+fn bent() -> [BivariatePolynomial; 2] {
+    let (s, t) =
+        (BivariatePolynomial::linear(0.0, 1.0, 0.0), BivariatePolynomial::linear(0.0, 0.0, 1.0));
+    let part =
+        |p: BivariatePolynomial, by: f64| p.times(&BivariatePolynomial::linear(by, 0.0, 0.0));
     [s.plus(&part(t.times(&t), 0.4)), t.plus(&part(s.times(&t), -0.3))]
 }
 
@@ -35,7 +39,7 @@ fn image(s: f64, t: f64) -> Vec2 {
     vec2(s + 0.4 * t * t, t - 0.3 * s * t)
 }
 
-fn resolved(elements: &Elements, accuracy: &Accuracy) -> Mesh {
+fn resolved(elements: &MeshBuilder, accuracy: &Accuracy) -> ExportMesh {
     let part = |k: usize| {
         let [x, y] = &elements.maps[k];
         (elements.mesh.map_space[k], 4, composed(x, y))
@@ -43,7 +47,7 @@ fn resolved(elements: &Elements, accuracy: &Accuracy) -> Mesh {
     let parts: Vec<_> = (0..elements.mesh.len()).map(part).collect();
     let dataset = elements.dataset(vec![field("v", &parts)]);
     let field = Field::new(&dataset, 0).unwrap();
-    let arrays = Array::defaults(&field).unwrap();
+    let arrays = PointArray::defaults(&field).unwrap();
     assert_eq!(arrays.len(), 2);
     let mesh = resolve(&field, &arrays, accuracy, unwatched()).unwrap();
     assert!(mesh.is_complete && mesh.complaint().is_none(), "{:?}", mesh.complaint());
@@ -51,7 +55,7 @@ fn resolved(elements: &Elements, accuracy: &Accuracy) -> Mesh {
 }
 
 /// Interpolation at random points of random triangles.
-fn check_values(mesh: &Mesh, seed: u64) {
+fn check_values(mesh: &ExportMesh, seed: u64) {
     let (mut random, cell) = (Random(seed), Lagrange::new(mesh.accuracy.order));
     let width = mesh.values.len() / mesh.points.len();
     let triangles: Vec<&[u32]> = mesh.triangles().collect();
@@ -68,7 +72,7 @@ fn check_values(mesh: &Mesh, seed: u64) {
 
 /// The length of all edges that one triangle has, by the coordinates of their ends or, of points
 /// that are shared, by their numbers.
-fn open_length(mesh: &Mesh, by_number: bool) -> f64 {
+fn open_length(mesh: &ExportMesh, by_number: bool) -> f64 {
     let mut edges: BTreeMap<[[u64; 2]; 2], (usize, f64)> = BTreeMap::new();
     for t in mesh.triangles() {
         for k in 0..3 {
@@ -106,7 +110,7 @@ fn perimeter() -> f64 {
 #[test]
 fn curved_elements_are_resolved() {
     for (order, tolerance) in [(1, 1e-2), (1, 1e-3), (2, 1e-4), (3, 1e-5)] {
-        let elements = Elements::grid([4, 3], 2, &bent());
+        let elements = MeshBuilder::grid([4, 3], 2, &bent());
         let accuracy = Accuracy { tolerance, order, ..Accuracy::default() };
         let mesh = resolved(&elements, &accuracy);
         check_values(&mesh, 7);
@@ -123,7 +127,7 @@ fn curved_elements_are_resolved() {
 #[test]
 fn hanging_nodes_are_resolved() {
     for seed in 0..4 {
-        let (elements, _) = Elements::quadtree(&mut Random(seed), 4, 2, &bent());
+        let (elements, _) = MeshBuilder::quadtree(&mut Random(seed), 4, 2, &bent());
         check_values(&resolved(&elements, &Accuracy::default()), seed);
     }
 }

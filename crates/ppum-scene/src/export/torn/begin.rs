@@ -5,16 +5,18 @@ use std::collections::HashMap;
 use ppum::crack::{SegmentId, Side};
 use ppum::domain::Domain;
 use ppum::field::Field;
-use ppum::sample::Place;
+use ppum::sample::SidedPoint;
 use ppum::vec2::Vec2;
 use ppum_solve::triangulation::{NotFinite, Triangulation, triangulate};
 
-use super::super::borders::{Border, BorderKind};
+use super::super::borders::{BorderKind, ExportSegment};
 use super::forest::Forest;
-use super::{Convergence, INSET, NONE, Seen, Torn, TornPoint, Triangle, centroid, on_crack};
+use super::{
+    INSET, MeshConvergence, NONE, Torn, TornPoint, TornTriangle, ValueSide, centroid, on_crack,
+};
 
 /// The kinds of edges, by their ends in ascending order.
-pub(super) type Kinds = HashMap<[u32; 2], BorderKind>;
+pub(super) type EdgeKinds = HashMap<[u32; 2], BorderKind>;
 
 impl<'d> Torn<'d> {
     /// Triangles between borders, with more points inside; what lies outside of the domain is
@@ -22,7 +24,7 @@ impl<'d> Torn<'d> {
     pub(in super::super) fn new(
         field: &Field<'d>,
         domain: &Domain,
-        borders: &[Border],
+        borders: &[ExportSegment],
         points: &[Vec2],
     ) -> Result<Self, NotFinite> {
         let segments: Vec<_> = borders.iter().map(|border| border.ends).collect();
@@ -82,11 +84,11 @@ impl<'d> Torn<'d> {
             _ => inside(),
         };
         let inside = if at.kink { inside() } else { place };
-        TornPoint { position: vertex, seen: Seen::Plane { place, inside } }
+        TornPoint { position: vertex, seen: ValueSide::Plane { place, inside } }
     }
 
     /// A point that one segment ends at or passes; a tip has one side.
-    fn on_one(&self, segment: SegmentId, vertex: Vec2, side: Side) -> Place {
+    fn on_one(&self, segment: SegmentId, vertex: Vec2, side: Side) -> SidedPoint {
         let place = self.seats.at(vertex, side);
         let crack = &self.cracks[segment.crack as usize];
         let is_tip = crack.tips().any(|end| crack.end_point(end) == vertex);
@@ -122,7 +124,7 @@ impl<'d> Torn<'d> {
     }
 }
 
-/// What meets in a vertex.
+/// The triangles that meet in a vertex.
 #[derive(Clone, Debug, Default)]
 struct Incident {
     /// Segments of cracks, those that end and those that pass.
@@ -141,7 +143,7 @@ impl Incident {
 
 /// Corners of triangles that no border parts at their vertex: joined at both ends of all edges that
 /// are not torn.
-pub(super) fn sectors(triangles: &[Triangle], is_torn: impl Fn(BorderKind) -> bool) -> Forest {
+pub(super) fn sectors(triangles: &[TornTriangle], is_torn: impl Fn(BorderKind) -> bool) -> Forest {
     let mut all = Forest::new(3 * triangles.len());
     for (t, triangle) in triangles.iter().enumerate() {
         for k in 0..3 {
@@ -160,8 +162,8 @@ pub(super) fn sectors(triangles: &[Triangle], is_torn: impl Fn(BorderKind) -> bo
     all
 }
 
-fn kinds(borders: &[Border], found: &Triangulation) -> Kinds {
-    let mut kinds = Kinds::new();
+fn kinds(borders: &[ExportSegment], found: &Triangulation) -> EdgeKinds {
+    let mut kinds = EdgeKinds::new();
     for (border, chain) in borders.iter().zip(&found.chains) {
         for edge in chain {
             let kind = kinds.entry(sorted(*edge)).or_default();
@@ -176,20 +178,20 @@ fn sorted([a, b]: [u32; 2]) -> [u32; 2] {
 }
 
 /// Triangles that know their neighbours; their corners are vertices still.
-pub(super) fn linked(triangles: &[[u32; 3]], kinds: &Kinds) -> Vec<Triangle> {
+pub(super) fn linked(triangles: &[[u32; 3]], kinds: &EdgeKinds) -> Vec<TornTriangle> {
     let mut owners: HashMap<[u32; 2], u32> = HashMap::new();
     let edge = |corners: &[u32; 3], k: usize| [corners[k], corners[(k + 1) % 3]];
     for (t, corners) in (0..).zip(triangles) {
         owners.extend((0..3).map(|k| (edge(corners, k), t)));
     }
-    let link = |corners: &[u32; 3]| Triangle {
+    let link = |corners: &[u32; 3]| TornTriangle {
         corners: *corners,
         neighbours: [0, 1, 2].map(|k| {
             let [a, b] = edge(corners, k);
             owners.get(&[b, a]).copied().unwrap_or(NONE)
         }),
         kinds: [0, 1, 2].map(|k| kinds.get(&sorted(edge(corners, k))).copied().unwrap_or_default()),
-        convergence: Convergence::NEW,
+        convergence: MeshConvergence::NEW,
     };
     triangles.iter().map(link).collect()
 }

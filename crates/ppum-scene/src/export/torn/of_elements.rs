@@ -12,10 +12,10 @@ use ppum::vec2::Vec2;
 use ppum_render::pieces::ElementCuts;
 
 use super::super::borders::{BorderKind, SAME, longest};
-use super::super::elements::{ElementPlace, Elements, weighted};
-use super::super::lagrange::{Lagrange, Weights};
-use super::begin::{Kinds, linked, sectors};
-use super::{NONE, Seen, Torn, TornPoint, Triangle, centroid};
+use super::super::elements::{ElementPlace, ParentElements, weighted};
+use super::super::lagrange::{BarycentricPoint, Lagrange};
+use super::begin::{EdgeKinds, linked, sectors};
+use super::{NONE, Torn, TornPoint, TornTriangle, ValueSide, centroid};
 
 /// Largest distance of a corner from the tip that it stands for, in ξ.
 const NEAR: f64 = 0.05;
@@ -37,7 +37,7 @@ struct ElementTriangle {
 /// Moves the corner inside of an element that is nearest to a tip onto it: pieces end at chords,
 /// which pass by it.
 fn meet_tips(
-    elements: &Elements<'_>,
+    elements: &ParentElements<'_>,
     field: &Field<'_>,
     element: &ElementField<'_, '_>,
     pieces: &mut [Vec<Vec2>],
@@ -67,7 +67,7 @@ fn meet_tips(
 /// Adds the triangles of a patch.
 fn add_triangles(
     field: &Field<'_>,
-    elements: &Elements<'_>,
+    elements: &ParentElements<'_>,
     patch: usize,
     all: &mut Vec<ElementTriangle>,
 ) {
@@ -103,9 +103,10 @@ fn add_triangles(
     }
 }
 
-/// What is on the edge of a triangle that another one shares; `None` if they only touch there.
+/// Returns the kind of the edge of a triangle that another one shares; `None` if they only touch
+/// there.
 fn kind(
-    elements: &Elements<'_>,
+    elements: &ParentElements<'_>,
     triangles: [&ElementTriangle; 2],
     edges: [usize; 2],
     near: f64,
@@ -134,14 +135,14 @@ fn kind(
 impl<'d> Torn<'d> {
     /// The triangles of all elements, as few as there may be.
     pub(in super::super) fn of_elements(field: &Field<'d>, mesh: &'d Mesh) -> Self {
-        let elements = Elements::new(field, mesh);
+        let elements = ParentElements::new(field, mesh);
         let mut all = Vec::new();
         (0..mesh.len()).for_each(|patch| add_triangles(field, &elements, patch, &mut all));
         let near = SAME * longest(&field.domain.bounds);
         let corners = all.iter().flat_map(|t| t.corners.map(|at| elements.image(t.patch, at)));
         let (vertices, numbers) = unified(corners, near);
         let corners: Vec<[u32; 3]> = numbers.as_chunks().0.to_vec();
-        let mut triangles = linked(&corners, &Kinds::new());
+        let mut triangles = linked(&corners, &EdgeKinds::new());
         let links: Vec<_> = (0..triangles.len())
             .map(|t| {
                 [0, 1, 2].map(|edge| link(&elements, (&triangles, &all), (t, edge), 10.0 * near))
@@ -169,7 +170,7 @@ impl<'d> Torn<'d> {
                     numbers[root] = self.points.len() as u32;
                     let position = vertices[self.triangles[t].corners[k] as usize];
                     let (patch, at) = (own.patch, own.corners[k]);
-                    let seen = Seen::Element(ElementPlace { patch, at, inner, target: None });
+                    let seen = ValueSide::Element(ElementPlace { patch, at, inner, target: None });
                     self.points.push(TornPoint { position, seen });
                 }
                 numbers[root]
@@ -181,7 +182,9 @@ impl<'d> Torn<'d> {
     pub(super) fn element_of(&self, triangle: u32) -> Option<(u32, [Vec2; 3])> {
         let places =
             self.triangles[triangle as usize].corners.map(|k| self.points[k as usize].seen);
-        let [Seen::Element(a), Seen::Element(b), Seen::Element(c)] = places else { return None };
+        let [ValueSide::Element(a), ValueSide::Element(b), ValueSide::Element(c)] = places else {
+            return None;
+        };
         Some((a.patch, [a.at, b.at, c.at]))
     }
 
@@ -193,7 +196,7 @@ impl<'d> Torn<'d> {
     }
 
     /// A point of an element by its barycentric coordinates in ξ.
-    pub(super) fn element_point(&self, triangle: u32, b: Weights) -> Option<TornPoint> {
+    pub(super) fn element_point(&self, triangle: u32, b: BarycentricPoint) -> Option<TornPoint> {
         let (elements, (patch, corners)) = (self.elements.as_ref()?, self.element_of(triangle)?);
         Some(point(elements, patch, weighted(corners, b), centroid(corners)))
     }
@@ -202,7 +205,7 @@ impl<'d> Torn<'d> {
     pub(in super::super) fn element_place(
         &self,
         triangle: u32,
-        b: Weights,
+        b: BarycentricPoint,
         position: Vec2,
     ) -> Option<ElementPlace> {
         let (patch, corners) = self.element_of(triangle)?;
@@ -259,15 +262,15 @@ impl Torn<'_> {
     }
 }
 
-fn point(elements: &Elements<'_>, patch: u32, at: Vec2, inner: Vec2) -> TornPoint {
-    let seen = Seen::Element(ElementPlace { patch, at, inner, target: None });
+fn point(elements: &ParentElements<'_>, patch: u32, at: Vec2, inner: Vec2) -> TornPoint {
+    let seen = ValueSide::Element(ElementPlace { patch, at, inner, target: None });
     TornPoint { position: elements.image(patch, at), seen }
 }
 
 /// The triangle across an edge and what is on it, none if it does not know of this one.
 fn link(
-    elements: &Elements<'_>,
-    (triangles, all): (&[Triangle], &[ElementTriangle]),
+    elements: &ParentElements<'_>,
+    (triangles, all): (&[TornTriangle], &[ElementTriangle]),
     (own, edge): (usize, usize),
     near: f64,
 ) -> (u32, BorderKind) {

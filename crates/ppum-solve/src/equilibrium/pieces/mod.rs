@@ -1,15 +1,16 @@
-//! The pieces of the plate: connected components of the domain without its cracks.
+//! The pieces of the body: connected components of the domain without its cracks.
 //!
-//! A crack from border to border, or between two holes, cuts the plate. What holds one part says
-//! nothing of the other, so restraints, loads and free rigid-body modes are counted piece by piece.
+//! A crack from boundary to boundary, or between two holes, cuts the body. A restraint of one part
+//! does not hold the other, so restraints, loads and free rigid-body modes are counted piece by
+//! piece.
 //!
-//! The border, the rims of holes and the cracks are edges of a constrained Delaunay triangulation;
-//! triangles that meet across an edge that is none of these belong to one piece. Predicates are
-//! exact, so a crack that ends on the border cuts it, however the cells lie. A point on a face of a
-//! crack belongs to the triangle on that side of the edge that it lies on.
+//! The boundary, the rims of holes and the cracks are edges of a constrained Delaunay
+//! triangulation; triangles that meet across an edge that is none of these belong to one piece.
+//! Predicates are exact, so a crack that ends on the boundary cuts it, however the cells lie. A
+//! point on a face of a crack belongs to the triangle on that side of the edge that it lies on.
 
 use super::rigid::RigidModes;
-use crate::quadrature::{EdgeRule, Face};
+use crate::quadrature::{CrackFace, EdgeRule};
 use ppum::crack::{Crack, CrackEnd, End, SegmentId, Side};
 use ppum::domain::{Domain, Hole};
 use ppum::segment;
@@ -22,18 +23,18 @@ use spade::{Triangulation as _, mitigate_underflow};
 /// Parts of the box of less than this area are rounding.
 const LEAST_AREA: f64 = 1e-12;
 
-/// Distance by which points of the border are moved to be inside, in sizes of the box.
+/// Distance by which points of the boundary are moved to be inside, in sizes of the box.
 const INWARD: f64 = 1e-9;
 
 /// Points in units of a size that is about 1.
 pub(crate) type SegmentMesh = ConstrainedDelaunayTriangulation<Point2<f64>>;
-type Triangle<'m> = FaceHandle<'m, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
+type PieceTriangle<'m> = FaceHandle<'m, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
 
 /// The connected components of the domain without its cracks.
 #[derive(Debug)]
 pub struct BodyPieces {
     bounds: Rect,
-    /// Of each piece, what is known of it.
+    /// The facts about each piece.
     all: Vec<BodyPiece>,
     map: Option<PieceMap>,
 }
@@ -42,15 +43,15 @@ pub struct BodyPieces {
 #[derive(Debug)]
 struct PieceMap {
     mesh: SegmentMesh,
-    /// Of each triangle, its piece; none in a hole.
+    /// The piece of each triangle; none in a hole.
     piece_of: Vec<Option<usize>>,
-    /// Of each segment of each crack, the ends of the edges along it, in the direction of
-    /// the crack.
-    along: Along,
+    /// For each segment of each crack, the ends of the edges along it, in the direction of the
+    /// crack.
+    along: EdgesAlong,
 }
 
-/// Of each segment of each crack, ends of edges.
-type Along = Vec<Vec<Vec<[FixedVertexHandle; 2]>>>;
+/// For each segment of each crack, ends of edges.
+type EdgesAlong = Vec<Vec<Vec<[FixedVertexHandle; 2]>>>;
 
 /// One connected component.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -74,7 +75,7 @@ impl BodyPieces {
         if domain.holes.is_empty() && cracks.len() < 2 && has_tip {
             return all_of_it();
         }
-        let stitches = stitches(cracks, &bounds);
+        let gap_edges = gap_edges(cracks, &bounds);
         let points = |crack: &Crack| match is_on_rim(crack, &domain.holes) {
             true => Vec::new(),
             false => into_holes(crack, &bounds),
@@ -82,14 +83,14 @@ impl BodyPieces {
         let cracks: Vec<_> = cracks.iter().map(points).collect();
         let domain = rims::with_polygons(domain, &cracks);
         // A triangulation fails on coordinates that are not finite only, which no problem has.
-        let Ok((mesh, along)) = triangulate(&domain, &cracks, &stitches) else {
+        let Ok((mesh, along)) = triangulate(&domain, &cracks, &gap_edges) else {
             return all_of_it();
         };
         let found = Self::of_mesh(&domain, mesh, along);
         if domain.holes.is_empty() && found.all.len() == 1 { all_of_it() } else { found }
     }
 
-    /// The rigid-body modes of the pieces. Those of a plate in one piece are about the centre of
+    /// The rigid-body modes of the pieces. Those of a body in one piece are about the centre of
     /// its box: they stay the same to the last bit where cracks grow.
     pub(crate) fn rigid_modes(&self, components: usize) -> Vec<RigidModes> {
         let modes =
@@ -100,9 +101,9 @@ impl BodyPieces {
         }
     }
 
-    fn of_mesh(domain: &Domain, mesh: SegmentMesh, along: Along) -> Self {
+    fn of_mesh(domain: &Domain, mesh: SegmentMesh, along: EdgesAlong) -> Self {
         let bounds = domain.bounds;
-        let inside = |face: Triangle<'_>| domain.contains(from_unit(&bounds, face.center()));
+        let inside = |face: PieceTriangle<'_>| domain.contains(from_unit(&bounds, face.center()));
         let material: Vec<bool> = mesh.inner_faces().map(inside).collect();
         let (mut piece_of, mut seen) = (vec![None; material.len()], vec![false; material.len()]);
         let mut all = Vec::new();
@@ -124,7 +125,7 @@ impl BodyPieces {
         &self.all
     }
 
-    /// The number of the piece that holds a point of the plate, which must not lie on a crack. A
+    /// The number of the piece that holds a point of the body, which must not lie on a crack. A
     /// point that rounding has put outside belongs to the piece next to it.
     pub(crate) fn of(&self, p: Vec2) -> usize {
         let Some(PieceMap { mesh, piece_of, .. }) = self.map() else { return 0 };
@@ -157,7 +158,7 @@ impl BodyPieces {
         }
     }
 
-    /// The piece that a point of the border belongs to, with the normal out of the material.
+    /// The piece that a point of the boundary belongs to, with the normal out of the material.
     fn behind(&self, p: Vec2, normal: Vec2) -> usize {
         self.of(p - normal * (INWARD * self.bounds.size().length()))
     }
@@ -168,7 +169,7 @@ impl BodyPieces {
     }
 
     /// The piece that a face of a crack belongs to at a point of it.
-    fn beside(&self, face: Face, p: Vec2) -> usize {
+    fn beside(&self, face: CrackFace, p: Vec2) -> usize {
         let Some(PieceMap { mesh, piece_of, along }) = self.map() else { return 0 };
         let SegmentId { crack, segment } = face.segment;
         let p = to_unit(&self.bounds, p);
@@ -212,7 +213,7 @@ impl BodyPiece {
         Self { area: bounds.size().x * bounds.size().y, centroid: center, inside: center }
     }
 
-    fn of_faces(bounds: &Rect, faces: &[Triangle<'_>]) -> Self {
+    fn of_faces(bounds: &Rect, faces: &[PieceTriangle<'_>]) -> Self {
         let (mut area, mut moment) = (0.0, Vec2::ZERO);
         let mut largest = (0.0, Vec2::ZERO);
         for face in faces {
@@ -242,9 +243,9 @@ fn into_holes(crack: &Crack, bounds: &Rect) -> Vec<Vec2> {
     points
 }
 
-/// What closes the gaps of rounding between ends of cracks and the cracks that they lie on: from
-/// each such end to the nearest place, and a little farther.
-fn stitches(cracks: &[Crack], bounds: &Rect) -> Vec<[Vec2; 2]> {
+/// Returns edges that close the gaps of rounding between ends of cracks and the cracks that they
+/// lie on: from each such end to the nearest place, and a little farther.
+fn gap_edges(cracks: &[Crack], bounds: &Rect) -> Vec<[Vec2; 2]> {
     let far = INWARD * bounds.size().length();
     let mut found = Vec::new();
     for (k, crack) in cracks.iter().enumerate() {
@@ -275,18 +276,18 @@ fn foot(segment: &[Vec2], p: Vec2) -> Vec2 {
     }
 }
 
-/// The triangulation of the box in units of its sides, so that its border stays straight. Holes are
-/// polygons. Where the cracks lie is asked last: nothing divides their edges any more.
+/// The triangulation of the box in units of its sides, so that its boundary stays straight. Holes
+/// are polygons. Where the cracks lie is asked last: nothing divides their edges any more.
 fn triangulate(
     domain: &Domain,
     cracks: &[Vec<Vec2>],
-    stitches: &[[Vec2; 2]],
-) -> Result<(SegmentMesh, Along), InsertionError> {
+    gap_edges: &[[Vec2; 2]],
+) -> Result<(SegmentMesh, EdgesAlong), InsertionError> {
     let (mut mesh, bounds) = (SegmentMesh::new(), &domain.bounds);
     let rims = domain.holes.iter().flat_map(Hole::sides);
     let of_cracks = cracks.iter().flat_map(|crack| crack.windows(2)).map(|s| [s[0], s[1]]);
     let all = bounds.sides().into_iter().chain(rims).chain(of_cracks);
-    for segment in all.chain(stitches.iter().copied()) {
+    for segment in all.chain(gap_edges.iter().copied()) {
         add_edges(&mut mesh, bounds, segment)?;
     }
     let mut along = Vec::new();
@@ -313,7 +314,11 @@ fn distance([a, b]: [Point2<f64>; 2], p: Point2<f64>) -> f64 {
 }
 
 /// The faces that are connected with one, ascending.
-fn flood<'m>(start: Triangle<'m>, material: &[bool], seen: &mut [bool]) -> Vec<Triangle<'m>> {
+fn flood<'m>(
+    start: PieceTriangle<'m>,
+    material: &[bool],
+    seen: &mut [bool],
+) -> Vec<PieceTriangle<'m>> {
     let (mut found, mut next) = (vec![start], 0);
     seen[index(&start)] = true;
     while let Some(&face) = found.get(next) {
@@ -332,7 +337,11 @@ fn flood<'m>(start: Triangle<'m>, material: &[bool], seen: &mut [bool]) -> Vec<T
 }
 
 /// The piece of a face, or of the one nearest to it across edges.
-fn nearest(mesh: &SegmentMesh, start: Triangle<'_>, piece_of: &[Option<usize>]) -> Option<usize> {
+fn nearest(
+    mesh: &SegmentMesh,
+    start: PieceTriangle<'_>,
+    piece_of: &[Option<usize>],
+) -> Option<usize> {
     let mut seen = vec![start.fix()];
     let mut next = 0;
     while let Some(&face) = seen.get(next) {
@@ -352,7 +361,7 @@ fn nearest(mesh: &SegmentMesh, start: Triangle<'_>, piece_of: &[Option<usize>]) 
 }
 
 /// Inner faces count from 0.
-fn index(face: &Triangle<'_>) -> usize {
+fn index(face: &PieceTriangle<'_>) -> usize {
     face.index() - 1
 }
 

@@ -1,4 +1,4 @@
-//! Rims of holes as polygons that cut the plate as the holes do.
+//! Rims of holes as polygons that cut the body as the holes do.
 
 use ppum::domain::{Domain, Hole};
 use ppum::line::Line;

@@ -184,8 +184,7 @@ fn cracks_that_meet() {
     }
 }
 
-/// What the components of patches are, and the pieces of a plate that is the patch: found in two
-/// ways, the same.
+/// The components of a patch agree with the pieces of a body that is the patch.
 #[test]
 fn pieces_of_a_box_are_its_components() {
     use ppum::function::{Function, FunctionTable, GROUP};

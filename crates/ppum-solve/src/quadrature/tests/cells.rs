@@ -19,7 +19,7 @@ fn moments_are_exact_on_graded_covers_with_cracks() {
             vec![crack(&points), crack(&[point(&mut random, 0.9), point(&mut random, 0.9)])];
         let tips = cracks.iter().flat_map(|c| [c.points[0], c.points[c.points.len() - 1]]);
         let singular = if trial % 2 == 0 { tips.collect() } else { Vec::new() };
-        let rules = Case::new(cover, cracks, singular).rules(Orders::for_degree(2));
+        let rules = GeometryCase::new(cover, cracks, singular).rules(Orders::for_degree(2));
         for (i, j) in [(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (2, 2), (4, 0), (0, 3)] {
             let sum = integrate(&rules, |a, x| (a.x + x.x).powi(i) * (a.y + x.y).powi(j));
             assert_near(sum, square_moment(i, j), 1e-13, &format!("trial {trial}, x^{i} y^{j}"));
@@ -31,7 +31,7 @@ fn moments_are_exact_on_graded_covers_with_cracks() {
 fn patches_are_those_whose_supports_hold_the_points() {
     let mut random = Random(3);
     for weight in WeightFunction::ALL {
-        let case = Case::new(graded(&mut random, weight), Vec::new(), Vec::new());
+        let case = GeometryCase::new(graded(&mut random, weight), Vec::new(), Vec::new());
         for rule in case.rules(Orders::uniform(3)) {
             for &offset in &rule.offsets {
                 let p = rule.anchor + offset;
@@ -49,9 +49,10 @@ fn patches_are_those_whose_supports_hold_the_points() {
 #[test]
 fn partition_functions_are_smooth_on_pieces() {
     for weight in WeightFunction::ALL {
-        let case = Case::new(graded(&mut Random(11), weight.clone()), Vec::new(), Vec::new());
+        let case =
+            GeometryCase::new(graded(&mut Random(11), weight.clone()), Vec::new(), Vec::new());
         let energy = |n: usize| -> f64 {
-            let of_rule = |r: &Rule| {
+            let of_rule = |r: &CellRule| {
                 let square =
                     |a: Vec2, x| partition_function(&case.partition, &r.patches, a + x).powi(2);
                 integrate(std::slice::from_ref(r), square)
@@ -66,11 +67,12 @@ fn partition_functions_are_smooth_on_pieces() {
 
 #[test]
 fn uniform_covers_have_nine_rectangles_in_a_cell_and_no_kinks() {
-    let case = Case::new(uniform(3), Vec::new(), Vec::new());
+    let case = GeometryCase::new(uniform(3), Vec::new(), Vec::new());
     let inner = case.partition.cell.iter().position(|c| c.min == vec2(-0.25, -0.25)).expect("cell");
     let cell = case.partition.cell[inner];
-    let rules =
-        case.quadrature(Orders::for_degree(2)).cell(&cell, &coverers(&case.partition, &cell));
+    let rules = case
+        .quadrature(Orders::for_degree(2))
+        .cell(&cell, &covering_patches(&case.partition, &cell));
     assert_eq!(rules.len(), 9);
     let mut counts: Vec<_> = rules.iter().map(|r| (r.patches.len(), r.offsets.len())).collect();
     counts.sort_unstable();
@@ -135,7 +137,7 @@ fn cracks_on_or_beside_the_lines_of_the_cover_keep_the_area() {
             continue;
         }
         let tips = vec![points[0], points[2]];
-        let case = Case::new(uniform(3), vec![crack(&points)], tips);
+        let case = GeometryCase::new(uniform(3), vec![crack(&points)], tips);
         let area = integrate(&case.rules(Orders::for_degree(1)), |_, _| 1.0);
         assert_near(area, 4.0, 4e-13, &format!("trial {trial}, crack {points:?}"));
     }
@@ -158,7 +160,8 @@ fn noise_of_vertices_is_cheap() {
         let points: Vec<Vec2> = (0..=n)
             .map(|k| from + (to - from) * (k as f64 / n as f64) + across * beside(k))
             .collect();
-        let rules = Case::new(uniform(3), vec![crack(&points)], vec![from, to]).rules(orders);
+        let rules =
+            GeometryCase::new(uniform(3), vec![crack(&points)], vec![from, to]).rules(orders);
         let area = integrate(&rules, |_, _| 1.0);
         assert_near(area, 4.0, 1e-12, &format!("{n} {noise}"));
         let near_tip = integrate(&rules, |a, x| 1.0 / ((a - to) + x).length());

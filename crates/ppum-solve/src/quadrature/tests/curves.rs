@@ -1,7 +1,7 @@
 //! Curved kinks.
 
-use super::adapt::{Demand, Subregion as _, refined};
-use super::chart::Chart;
+use super::adapt::{IntegrandDemand, Subregion as _, refined};
+use super::chart::CellChart;
 use super::curve::{ChartWindow, cut_all};
 use super::piece::SmoothPiece;
 use super::*;
@@ -9,25 +9,25 @@ use std::f64::consts::PI;
 use std::slice::from_ref;
 use std::sync::Arc;
 
-fn curve(level: impl Fn(Vec2) -> f64 + Send + Sync + 'static) -> Kink {
-    Kink::Curve(Arc::new(level))
+fn curve(level: impl Fn(Vec2) -> f64 + Send + Sync + 'static) -> KinkLine {
+    KinkLine::Curve(Arc::new(level))
 }
 
 /// A circle, by the square of the distance and by the distance, which has a point at the centre.
-fn circles(c: Vec2, r: f64) -> [Kink; 2] {
+fn circles(c: Vec2, r: f64) -> [KinkLine; 2] {
     [curve(move |p| (p - c).dot(p - c) - r * r), curve(move |p| r - (p - c).length())]
 }
 
 /// ∫ f over the part where `inside` holds, with the kinks active everywhere.
 fn integral(
-    case: &Case,
-    kinks: &[Kink],
+    case: &GeometryCase,
+    kinks: &[KinkLine],
     orders: Orders,
     inside: impl Fn(Vec2) -> bool,
     f: impl Fn(Vec2) -> f64,
 ) -> f64 {
     let common: Vec<u32> = (0..kinks.len() as u32).collect();
-    let geometry = Geometry { kinks, common_kinks: &common, ..case.geometry() };
+    let geometry = SmoothnessGeometry { kinks, common_kinks: &common, ..case.geometry() };
     let rules = rules(geometry, orders);
     let area = case.partition.cell.iter().map(|c| c.size().x * c.size().y).sum::<f64>();
     assert_near(integrate(&rules, |_, _| 1.0), area, 2e-9 * area, "area");
@@ -54,7 +54,7 @@ fn discs_in_one_cell() {
                 let area = integral(&case, kinks, orders, inside, |_| 1.0);
                 let exact = part * PI * r * r;
                 assert_near(area, exact, tolerance * exact, &format!("disc at {c:?}, p = {p}"));
-                let geometry = Geometry { kinks, common_kinks: &[0], ..case.geometry() };
+                let geometry = SmoothnessGeometry { kinks, common_kinks: &[0], ..case.geometry() };
                 let pieces = n_points(&rules(geometry, orders)) / orders.overlap.pow(2);
                 assert!(pieces <= 110, "{pieces} pieces");
             }
@@ -67,7 +67,7 @@ fn moments_of_discs_on_graded_covers() {
     let mut random = Random(41);
     for trial in 0..12 {
         let weight = WeightFunction::ALL[trial % 3].clone();
-        let case = Case::new(graded(&mut random, weight), Vec::new(), Vec::new());
+        let case = GeometryCase::new(graded(&mut random, weight), Vec::new(), Vec::new());
         let (c, r) = (point(&mut random, 0.5), random.between(0.1, 0.45));
         let inside = |x: Vec2| (x - c).length() < r;
         for kink in circles(c, r) {
@@ -89,7 +89,7 @@ fn moments_of_discs_on_graded_covers() {
 fn shapes_with_closed_forms() {
     let case = alone(UNIT, Vec::new(), Vec::new());
     let orders = Orders::for_degree(2);
-    let area = |kinks: &[Kink], inside: &dyn Fn(Vec2) -> bool| {
+    let area = |kinks: &[KinkLine], inside: &dyn Fn(Vec2) -> bool| {
         integral(&case, kinks, orders, inside, |_| 1.0)
     };
     let ellipse = |p: Vec2| {
@@ -117,13 +117,13 @@ fn shapes_with_closed_forms() {
 #[test]
 fn thin_bands_whose_middle_is_declared_before() {
     let case = alone(UNIT, Vec::new(), Vec::new());
-    let area = |kinks: &[Kink], inside: &dyn Fn(Vec2) -> bool| {
+    let area = |kinks: &[KinkLine], inside: &dyn Fn(Vec2) -> bool| {
         integral(&case, kinks, Orders::for_degree(2), inside, |_| 1.0)
     };
     let line = |p: Vec2| p.y - 0.2 * p.x - 0.437;
     let band = move |p: Vec2| line(p).abs() - 1e-3;
     assert_near(area(&[curve(line), curve(band)], &|p| band(p) < 0.0), 2e-3, 1e-10, "band");
-    let middle = Kink::Line([vec2(0.0, 0.437), vec2(1.0, 0.637)]);
+    let middle = KinkLine::Line([vec2(0.0, 0.437), vec2(1.0, 0.637)]);
     assert_near(area(&[middle, curve(band)], &|p| band(p) < 0.0), 2e-3, 1e-10, "straight band");
 
     let circle = |p: Vec2| (p - vec2(0.45, 0.55)).length() - 0.35;
@@ -153,13 +153,14 @@ fn curves_that_cross() {
 fn straight_curves_are_lines() {
     let mut random = Random(5);
     for _ in 0..10 {
-        let case = Case::new(graded(&mut random, WeightFunction::Linear), Vec::new(), Vec::new());
+        let case =
+            GeometryCase::new(graded(&mut random, WeightFunction::Linear), Vec::new(), Vec::new());
         let (a, b) = (point(&mut random, 1.0), point(&mut random, 1.0));
         let side = move |p: Vec2| (b - a).cross(p - a);
-        let area = |kinks: &[Kink]| {
+        let area = |kinks: &[KinkLine]| {
             integral(&case, kinks, Orders::for_degree(1), |p| side(p) > 0.0, |p| p.x + 2.0 * p.y)
         };
-        assert_near(area(&[curve(side)]), area(&[Kink::Line([a, b])]), 1e-12, "line");
+        assert_near(area(&[curve(side)]), area(&[KinkLine::Line([a, b])]), 1e-12, "line");
     }
 }
 
@@ -167,8 +168,8 @@ fn straight_curves_are_lines() {
 /// of each strip along the curve.
 fn error(n: usize, bisections: u32) -> f64 {
     let (c, r) = (vec2(-0.3, -0.4), 1.1);
-    let [Kink::Curve(level), _] = circles(c, r) else { unreachable!() };
-    let square = Chart::Quadrilateral(UNIT.corners());
+    let [KinkLine::Curve(level), _] = circles(c, r) else { unreachable!() };
+    let square = CellChart::Quadrilateral(UNIT.corners());
     let (mut windows, _) = cut_all(vec![ChartWindow::whole(square)], &[level.as_ref()], Vec2::ZERO);
     for _ in 0..bisections {
         windows = windows.iter().flat_map(|w| w.halves(1)).flat_map(|w| w.halves(0)).collect();
@@ -214,7 +215,7 @@ fn hostile_level_functions_end_and_keep_the_area() {
     ];
     for level in levels {
         let kinks = [curve(level)];
-        let geometry = Geometry { kinks: &kinks, common_kinks: &[0], ..case.geometry() };
+        let geometry = SmoothnessGeometry { kinks: &kinks, common_kinks: &[0], ..case.geometry() };
         let rules = rules(geometry, Orders::for_degree(2));
         assert_near(integrate(&rules, |_, _| 1.0), 1.0, 1e-12, "area");
         assert!(n_points(&rules) < 40 * 36);
@@ -223,10 +224,10 @@ fn hostile_level_functions_end_and_keep_the_area() {
 
 #[test]
 fn a_curve_on_borders_cuts_nothing() {
-    let case = Case::new(uniform(2), Vec::new(), Vec::new());
+    let case = GeometryCase::new(uniform(2), Vec::new(), Vec::new());
     let rounding = curve(|p| (p.x + p.y) - p.x - 0.5);
     let kinks = [rounding, curve(|p| 3.0 * (p.x + 0.5))];
-    let geometry = Geometry { kinks: &kinks, common_kinks: &[0, 1], ..case.geometry() };
+    let geometry = SmoothnessGeometry { kinks: &kinks, common_kinks: &[0, 1], ..case.geometry() };
     let orders = Orders::uniform(4);
     assert_eq!(n_points(&rules(geometry, orders)), n_points(&case.rules(orders)));
 }
@@ -240,15 +241,19 @@ fn curves_around_and_through_singular_points() {
         (0.1, 1.489_192_248_812_817, 0.951_350_769_866_873_2),
     ] {
         let beta = PI.sqrt() * above / below;
-        let growth =
-            if lambda == 0.5 { Growth::HalfPowers } else { Growth::Powers { least: lambda } };
+        let growth = if lambda == 0.5 {
+            SingularGrowth::HalfPowers
+        } else {
+            SingularGrowth::Powers { least: lambda }
+        };
         let tip = vec2(0.07, -0.03);
-        let mut case = Case::new(uniform(2), Vec::new(), vec![tip]);
+        let mut case = GeometryCase::new(uniform(2), Vec::new(), vec![tip]);
         case.singular[0].growth = growth;
         // relative to the tip, because a side has to be told closer to it than coordinates can
-        let relative = |kink: Kink, inside: &dyn Fn(Vec2) -> bool| {
+        let relative = |kink: KinkLine, inside: &dyn Fn(Vec2) -> bool| {
             let kinks = [kink];
-            let geometry = Geometry { kinks: &kinks, common_kinks: &[0], ..case.geometry() };
+            let geometry =
+                SmoothnessGeometry { kinks: &kinks, common_kinks: &[0], ..case.geometry() };
             integrate(&rules(geometry, Orders::for_degree(2)), |a, x| {
                 let p = x + (a - tip);
                 if inside(p) { p.length().powf(2.0 * lambda - 2.0) } else { 0.0 }
@@ -274,12 +279,12 @@ fn curves_around_and_through_singular_points() {
 fn strips_are_divided_where_a_curve_bends() {
     let bend = |p: Vec2| p.y - 0.5 - 0.3 * ((p.x - 0.5) * 60.0).tanh();
     let level = curve(bend);
-    let Kink::Curve(level) = &level else { unreachable!() };
-    let square = Chart::Quadrilateral(UNIT.corners());
+    let KinkLine::Curve(level) = &level else { unreachable!() };
+    let square = CellChart::Quadrilateral(UNIT.corners());
     let (windows, cut) = cut_all(vec![ChartWindow::whole(square)], &[level.as_ref()], Vec2::ZERO);
     assert!(cut);
     let left = std::cell::Cell::new(100);
-    let demand = Demand {
+    let demand = IntegrandDemand {
         probes: &(),
         active: &[],
         anchor: Vec2::ZERO,
@@ -313,7 +318,7 @@ fn curves_that_coincide_are_one() {
             (cos * d.x + sin * d.y).hypot(cos * d.y - sin * d.x) - radius
         };
         let (squares, turned): (&LevelFunction, &LevelFunction) = (&squares, &turned);
-        let whole = || vec![ChartWindow::whole(Chart::Quadrilateral(UNIT.corners()))];
+        let whole = || vec![ChartWindow::whole(CellChart::Quadrilateral(UNIT.corners()))];
         let (once, _) = cut_all(whole(), &[squares], Vec2::ZERO);
         let (twice, _) = cut_all(whole(), &[squares, turned], Vec2::ZERO);
         assert_eq!(once.len(), twice.len(), "{center:?} {radius}");

@@ -3,18 +3,19 @@
 use super::*;
 use ppum::crack::{SegmentId, Side};
 
-fn edges(case: &Case, orders: Orders, ends: [Vec2; 2], normal: Vec2) -> Vec<EdgeRule> {
+fn edges(case: &GeometryCase, orders: Orders, ends: [Vec2; 2], normal: Vec2) -> Vec<EdgeRule> {
     edges_of(case.geometry(), orders, ends, normal)
 }
 
 fn edges_of(
-    geometry: Geometry<'_>,
+    geometry: SmoothnessGeometry<'_>,
     orders: Orders,
     ends: [Vec2; 2],
     normal: Vec2,
 ) -> Vec<EdgeRule> {
     let quadrature = Quadrature::new(geometry, orders);
-    let cell = |c: &Rect| quadrature.edge(c, &coverers(geometry.partition, c), ends, normal);
+    let cell =
+        |c: &Rect| quadrature.edge(c, &covering_patches(geometry.partition, c), ends, normal);
     geometry.partition.cell.iter().flat_map(cell).collect()
 }
 
@@ -30,7 +31,7 @@ fn edges_have_exact_moments() {
     let mut random = Random(17);
     for weight in WeightFunction::ALL {
         let cracks = vec![crack(&[vec2(-1.0, 0.1), vec2(0.3, 0.4)])];
-        let case = Case::new(graded(&mut random, weight), cracks, Vec::new());
+        let case = GeometryCase::new(graded(&mut random, weight), cracks, Vec::new());
         let (lo, hi) = (-0.37, 0.82);
         for (ends, normal) in [
             ([vec2(1.0, lo), vec2(1.0, hi)], vec2(1.0, 0.0)),
@@ -59,7 +60,8 @@ fn edges_have_exact_moments() {
 fn edges_split_at_mouths_and_kinks() {
     let mouth = 0.137;
     let cracks = vec![crack(&[vec2(-1.0, mouth), vec2(0.3, 0.4)])];
-    let case = Case::new(graded(&mut Random(2), WeightFunction::Linear), cracks, Vec::new());
+    let case =
+        GeometryCase::new(graded(&mut Random(2), WeightFunction::Linear), cracks, Vec::new());
     let ends = [vec2(-1.0, -1.0), vec2(-1.0, 1.0)];
     let rules = edges(&case, Orders::for_degree(2), ends, vec2(-1.0, 0.0));
     let above = integrate_edges(&rules, |a, x| f64::from(u8::from(a.y + x.y > mouth)));
@@ -81,7 +83,7 @@ fn edges_split_at_mouths_and_kinks() {
 fn edges_are_graded_toward_tips() {
     for gap in [0.3, 1e-2, 1e-5, 1e-10] {
         let tip = vec2(0.23, 1.0 - gap);
-        let case = Case::new(uniform(1), Vec::new(), vec![tip]);
+        let case = GeometryCase::new(uniform(1), Vec::new(), vec![tip]);
         let ends = [vec2(-1.0, 1.0), vec2(1.0, 1.0)];
         let rules = edges(&case, Orders::uniform(10), ends, vec2(0.0, 1.0));
         let sum = integrate_edges(&rules, |a, x| 1.0 / (x + (a - tip)).length());
@@ -96,7 +98,7 @@ fn faces_of_a_crack_are_graded_toward_its_tip() {
     let (start, tip) = (vec2(-0.9, -0.31), vec2(0.23, 0.36));
     let length = (tip - start).length();
     let normal = -((tip - start).unit()).left();
-    let case = Case::new(uniform(3), vec![crack(&[start, tip])], vec![tip]);
+    let case = GeometryCase::new(uniform(3), vec![crack(&[start, tip])], vec![tip]);
     for normal in [normal, -normal] {
         let rules = edges(&case, Orders::uniform(10), [start, tip], normal);
         let sum = integrate_edges(&rules, |a, x| 1.0 / (x + (a - tip)).length().sqrt());
@@ -106,7 +108,7 @@ fn faces_of_a_crack_are_graded_toward_its_tip() {
 
 #[test]
 fn a_segment_along_cell_borders_is_counted_once() {
-    let case = Case::new(uniform(2), Vec::new(), Vec::new());
+    let case = GeometryCase::new(uniform(2), Vec::new(), Vec::new());
     for normal in [vec2(0.0, 1.0), vec2(0.0, -1.0)] {
         let ends = [vec2(-0.7, 0.5), vec2(0.4, 0.5)];
         let rules = edges(&case, Orders::uniform(3), ends, normal);
@@ -120,15 +122,17 @@ const UP: Vec2 = vec2(0.0, 1.0);
 
 #[test]
 fn kinks_and_curves_cut_edges() {
-    let case = Case::new(graded(&mut Random(2), WeightFunction::Linear), Vec::new(), Vec::new());
+    let case =
+        GeometryCase::new(graded(&mut Random(2), WeightFunction::Linear), Vec::new(), Vec::new());
     let (c, r) = (vec2(0.1, 0.8), 0.52);
     let kinks = [
-        Kink::Line([vec2(-0.321, 0.0), vec2(-0.421, 1.0)]),
-        Kink::Segment([vec2(0.777, 0.9), vec2(0.777, 1.1)]),
-        Kink::Segment([vec2(-0.9, -0.3), vec2(-0.9, 0.3)]),
-        Kink::Curve(std::sync::Arc::new(move |p: Vec2| (p - c).length() - r)),
+        KinkLine::Line([vec2(-0.321, 0.0), vec2(-0.421, 1.0)]),
+        KinkLine::Segment([vec2(0.777, 0.9), vec2(0.777, 1.1)]),
+        KinkLine::Segment([vec2(-0.9, -0.3), vec2(-0.9, 0.3)]),
+        KinkLine::Curve(std::sync::Arc::new(move |p: Vec2| (p - c).length() - r)),
     ];
-    let geometry = Geometry { kinks: &kinks, common_kinks: &[0, 1, 2, 3], ..case.geometry() };
+    let geometry =
+        SmoothnessGeometry { kinks: &kinks, common_kinks: &[0, 1, 2, 3], ..case.geometry() };
     let rules = edges_of(geometry, Orders::for_degree(1), TOP, UP);
     let half = (r * r - 0.04_f64).sqrt();
     for at in [-0.421, 0.777, 0.1 - half, 0.1 + half] {
@@ -152,9 +156,10 @@ fn edges_through_singular_points_of_any_exponent() {
     for (lambda, tolerance) in
         [(0.1, 1e-8), (0.25, 1e-10), (0.5444837, 1e-10), (2.0 / 3.0, 1e-10), (1.7, 1e-10)]
     {
-        let mut case = Case::new(uniform(2), Vec::new(), vec![tip, tip + vec2(1e-12, 0.0), tip]);
+        let mut case =
+            GeometryCase::new(uniform(2), Vec::new(), vec![tip, tip + vec2(1e-12, 0.0), tip]);
         for (singular, above) in case.singular.iter_mut().zip([0.0, 1e-10, 2e-10]) {
-            singular.growth = Growth::Powers { least: lambda + above };
+            singular.growth = SingularGrowth::Powers { least: lambda + above };
         }
         for p in [1, 3] {
             let rules = edges(&case, Orders::for_degree(p), [start, tip], normal);
@@ -178,8 +183,9 @@ fn edges_resolve_layers() {
             let f = (-(a.x + x.x + 1.0) / eps).exp();
             [f, -f / eps, 0.0]
         }];
-        let case = Case::new(uniform(2), Vec::new(), Vec::new());
-        let geometry = Geometry { probes: &probes, common_probes: &[0], ..case.geometry() };
+        let case = GeometryCase::new(uniform(2), Vec::new(), Vec::new());
+        let geometry =
+            SmoothnessGeometry { probes: &probes, common_probes: &[0], ..case.geometry() };
         let rules = edges_of(geometry, Orders::for_degree(1), TOP, UP);
         let value = integrate_edges(&rules, |a, x| (-2.0 * (a.x + x.x + 1.0) / eps).exp());
         let exact = -0.5 * eps * (-4.0 / eps).exp_m1();
@@ -192,7 +198,7 @@ fn edges_resolve_layers() {
 
 #[test]
 fn overlaps_along_edges_are_divided() {
-    let case = Case::new(uniform(3), Vec::new(), Vec::new());
+    let case = GeometryCase::new(uniform(3), Vec::new(), Vec::new());
     let count = |parts: usize| {
         let orders = Orders { parts, ..Orders::for_degree(1) };
         let rules = edges(&case, orders, TOP, UP);
@@ -226,11 +232,11 @@ fn faces_keep_their_resultants() {
         }
         let partition =
             if round % 2 == 0 { uniform(3) } else { graded(&mut random, WeightFunction::Linear) };
-        let case = Case::new(partition, vec![crack(&ends)], vec![ends[0]]);
+        let case = GeometryCase::new(partition, vec![crack(&ends)], vec![ends[0]]);
         let (geometry, quadrature) = (case.geometry(), case.quadrature(Orders::for_degree(2)));
         for side in [Side::Above, Side::Below] {
-            let face = Face { segment: SegmentId { crack: 0, segment: 0 }, side };
-            let of = |c: &Rect| quadrature.face(c, &coverers(geometry.partition, c), face);
+            let face = CrackFace { segment: SegmentId { crack: 0, segment: 0 }, side };
+            let of = |c: &Rect| quadrature.face(c, &covering_patches(geometry.partition, c), face);
             let rules: Vec<_> = geometry.partition.cell.iter().flat_map(of).collect();
             let (mut sum, mut moment) = (0.0, Vec2::ZERO);
             for rule in &rules {
@@ -255,7 +261,8 @@ fn faces_keep_their_resultants() {
 fn shortest_parts_have_the_patches_of_their_cells() {
     let mut random = Random(31);
     for _ in 0..300 {
-        let case = Case::new(graded(&mut random, WeightFunction::Linear), Vec::new(), Vec::new());
+        let case =
+            GeometryCase::new(graded(&mut random, WeightFunction::Linear), Vec::new(), Vec::new());
         let BoxPartition { cell: cells, .. } = &case.partition;
         let mut beside = || {
             let off = random.between(-1.0, 1.0) * 10f64.powf(-random.between(8.0, 15.0));
@@ -267,8 +274,8 @@ fn shortest_parts_have_the_patches_of_their_cells() {
         let quadrature = case.quadrature(Orders::for_degree(1));
         let normal = (ends[1] - ends[0]).unit().left();
         for (k, cell) in (0..).zip(cells) {
-            let coverers = coverers(&case.partition, cell);
-            for rule in quadrature.edge(cell, &coverers, ends, normal) {
+            let covering_patches = covering_patches(&case.partition, cell);
+            for rule in quadrature.edge(cell, &covering_patches, ends, normal) {
                 assert!(rule.patches.contains(&k), "{ends:?} in {cell:?}: {:?}", rule.patches);
             }
         }

@@ -14,10 +14,11 @@ fn polygon(points: &[[f64; 2]]) -> Hole {
 }
 
 /// The rules of all cells, and those of the rims.
-fn with_holes(case: &Case, holes: &[Hole]) -> (Vec<Rule>, Vec<EdgeRule>) {
-    let geometry = Geometry { holes, ..case.geometry() };
+fn with_holes(case: &GeometryCase, holes: &[Hole]) -> (Vec<CellRule>, Vec<EdgeRule>) {
+    let geometry = SmoothnessGeometry { holes, ..case.geometry() };
     let quadrature = Quadrature::new(geometry, Orders::for_degree(2));
-    let cells = || geometry.partition.cell.iter().map(|c| (c, coverers(geometry.partition, c)));
+    let cells =
+        || geometry.partition.cell.iter().map(|c| (c, covering_patches(geometry.partition, c)));
     let areas = cells().flat_map(|(c, patches)| quadrature.cell(c, &patches)).collect();
     let rim = |(c, patches): (&Rect, Vec<u32>)| {
         holes
@@ -28,7 +29,7 @@ fn with_holes(case: &Case, holes: &[Hole]) -> (Vec<Rule>, Vec<EdgeRule>) {
     (areas, cells().flat_map(rim).collect())
 }
 
-fn area(rules: &[Rule]) -> f64 {
+fn area(rules: &[CellRule]) -> f64 {
     integrate(rules, |_, _| 1.0)
 }
 
@@ -41,7 +42,7 @@ fn length(rules: &[EdgeRule]) -> f64 {
 fn round_holes_inside() {
     let mut random = Random(5);
     for k in 0..12 {
-        let case = Case::new(graded(&mut random, WeightFunction::Linear), vec![], vec![]);
+        let case = GeometryCase::new(graded(&mut random, WeightFunction::Linear), vec![], vec![]);
         let (x, y) = (random.between(-0.3, 0.3), random.between(-0.3, 0.3));
         let r = [0.04, 0.11, 0.3, 0.65][k % 4];
         let (cells, rim) = with_holes(&case, &[circle(x, y, r)]);
@@ -57,7 +58,7 @@ fn round_holes_inside() {
 #[test]
 fn rims_close_the_area() {
     let mut random = Random(6);
-    let case = Case::new(graded(&mut random, WeightFunction::Quadratic), vec![], vec![]);
+    let case = GeometryCase::new(graded(&mut random, WeightFunction::Quadratic), vec![], vec![]);
     let star = polygon(&[[-0.8, -0.7], [-0.3, -0.55], [0.1, -0.8], [-0.2, -0.4], [-0.35, 0.1]]);
     for holes in
         [vec![circle(0.41, 0.33, 0.35)], vec![star.clone()], vec![circle(0.5, 0.5, 0.2), star]]
@@ -75,7 +76,7 @@ fn rims_close_the_area() {
 /// Polygons in both orientations: an area by the shoelace formula.
 #[test]
 fn polygons_inside() {
-    let case = Case::new(uniform(3), vec![], vec![]);
+    let case = GeometryCase::new(uniform(3), vec![], vec![]);
     let mut points = [[-0.8, -0.7], [0.3, -0.55], [0.71, 0.8], [0.2, 0.4], [-0.35, 0.6]];
     let shoelace: f64 = (0..5)
         .map(|k| {
@@ -98,7 +99,7 @@ fn polygons_inside() {
 /// Two circles of radius r at the distance d < 2r, over a corner and over each other.
 #[test]
 fn holes_over_the_border_and_each_other() {
-    let case = Case::new(uniform(2), vec![], vec![]);
+    let case = GeometryCase::new(uniform(2), vec![], vec![]);
     let (cells, rim) = with_holes(&case, &[circle(-1.0, -1.0, 0.7)]);
     assert_near(area(&cells), 4.0 - PI * 0.49 / 4.0, 1e-11, "quarter");
     assert_near(length(&rim), PI * 0.35, 1e-12, "quarter of a rim");
@@ -117,7 +118,7 @@ fn holes_over_the_border_and_each_other() {
 /// Rims beside lines of cells by 1e-2 … 1e-6: what the cells beyond keep or lose is a sliver.
 #[test]
 fn rims_beside_lines_of_cells() {
-    let case = Case::new(uniform(2), vec![], vec![]);
+    let case = GeometryCase::new(uniform(2), vec![], vec![]);
     for shift in [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 0.0] {
         for r in [0.5 * (1.0 + shift), 0.5 * (1.0 - shift)] {
             let (cells, rim) = with_holes(&case, &[circle(0.0, 0.0, r)]);
@@ -132,18 +133,18 @@ fn rims_beside_lines_of_cells() {
 fn cracks_from_holes() {
     let (mouth, tip) = (vec2(0.1, 0.05), vec2(0.77, 0.05));
     let cracks = vec![crack(&[mouth, tip])];
-    let case = Case::new(uniform(2), cracks, vec![tip]);
+    let case = GeometryCase::new(uniform(2), cracks, vec![tip]);
     let holes = [circle(-0.1, 0.05, 0.4)];
-    let geometry = Geometry { holes: &holes, ..case.geometry() };
+    let geometry = SmoothnessGeometry { holes: &holes, ..case.geometry() };
     let quadrature = Quadrature::new(geometry, Orders::for_degree(2));
     for side in [Side::Above, Side::Below] {
         let segment = SegmentId { crack: 0, segment: 0 };
-        let face = Face { segment, side };
+        let face = CrackFace { segment, side };
         let faces: Vec<_> = geometry
             .partition
             .cell
             .iter()
-            .flat_map(|c| quadrature.face(c, &coverers(geometry.partition, c), face))
+            .flat_map(|c| quadrature.face(c, &covering_patches(geometry.partition, c), face))
             .collect();
         assert_near(length(&faces), 0.77 - 0.3, 1e-13, "the face outside of the hole");
         let sum: f64 = faces
@@ -163,7 +164,7 @@ fn no_rule_is_empty() {
     for hole in
         [circle(-1.0, -1.0, 0.9), polygon(&[[-2.0, -2.0], [0.4, -2.0], [0.4, 0.4], [-2.0, 0.4]])]
     {
-        let case = Case::new(uniform(2), vec![], vec![vec2(0.4, 0.4)]);
+        let case = GeometryCase::new(uniform(2), vec![], vec![vec2(0.4, 0.4)]);
         let (cells, rim) = with_holes(&case, &[hole]);
         assert!(cells.iter().all(|rule| !rule.offsets.is_empty()));
         assert!(rim.iter().all(|rule| !rule.offsets.is_empty()));

@@ -4,18 +4,18 @@ use super::*;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-type Sample = [f64; 3];
+type LayerSample = [f64; 3];
 
 /// exp(−e·x / ε) with its gradient.
-fn layer(e: Vec2, eps: f64) -> impl Fn(Vec2, Vec2) -> Sample + Sync {
+fn layer(e: Vec2, eps: f64) -> impl Fn(Vec2, Vec2) -> LayerSample + Sync {
     move |a, x| {
         let f = (-(a + x).dot(e) / eps).exp();
         [f, -f * e.x / eps, -f * e.y / eps]
     }
 }
 
-fn resolved(case: &Case, probes: &dyn Probes, orders: Orders) -> Vec<Rule> {
-    rules(Geometry { probes, common_probes: &[0], ..case.geometry() }, orders)
+fn resolved(case: &GeometryCase, probes: &dyn Probes, orders: Orders) -> Vec<CellRule> {
+    rules(SmoothnessGeometry { probes, common_probes: &[0], ..case.geometry() }, orders)
 }
 
 /// ∫ exp(−s x) over the unit interval.
@@ -74,7 +74,8 @@ fn two_layers_in_a_corner() {
     let (ex, ey, eps) = (vec2(1.0, 0.0), vec2(0.0, 1.0), 1e-3);
     let probes = vec![layer(ex, eps), layer(ey, eps)];
     let orders = Orders::for_degree(1);
-    let geometry = Geometry { probes: &probes, common_probes: &[0, 1], ..case.geometry() };
+    let geometry =
+        SmoothnessGeometry { probes: &probes, common_probes: &[0, 1], ..case.geometry() };
     let rules = rules(geometry, orders);
     assert!(n_points(&rules) / orders.singular.pow(2) <= 144, "a grid of layers");
     for e in [ex, ey] {
@@ -96,9 +97,9 @@ fn two_layers_in_a_corner() {
 #[test]
 fn layers_on_both_sides_of_a_circle() {
     let (c, r) = (vec2(0.1, -0.05), 0.4);
-    let kinks = [Kink::Curve(Arc::new(move |p: Vec2| (p - c).length() - r))];
+    let kinks = [KinkLine::Curve(Arc::new(move |p: Vec2| (p - c).length() - r))];
     for eps in [1e-2, 1e-3, 1e-4] {
-        let case = Case::new(uniform(1), Vec::new(), Vec::new());
+        let case = GeometryCase::new(uniform(1), Vec::new(), Vec::new());
         let probes = vec![move |a: Vec2, x: Vec2| {
             let way = a + x - c;
             let d = way.length() - r;
@@ -106,7 +107,7 @@ fn layers_on_both_sides_of_a_circle() {
             let g = way.unit() * (-d.signum() * f / eps);
             [f, g.x, g.y]
         }];
-        let geometry = Geometry {
+        let geometry = SmoothnessGeometry {
             kinks: &kinks,
             common_kinks: &[0],
             probes: &probes,
@@ -146,9 +147,9 @@ fn waves_and_undeclared_kinks() {
     }];
     let rules = resolved(&case, &kink, orders);
     let value = integrate(&rules, |a, x| (normal.dot(a + x) - at).abs());
-    let line = Kink::Line([normal * at, normal * at + normal.left()]);
+    let line = KinkLine::Line([normal * at, normal * at + normal.left()]);
     let kinks = [line];
-    let cut = Geometry { kinks: &kinks, common_kinks: &[0], ..case.geometry() };
+    let cut = SmoothnessGeometry { kinks: &kinks, common_kinks: &[0], ..case.geometry() };
     let exact = integrate(&super::rules(cut, orders), |a, x| (normal.dot(a + x) - at).abs());
     assert_near(value, exact, 1e-9, "kink nobody declared");
     assert!(n_points(&rules) / orders.singular.pow(2) < 80);
@@ -156,7 +157,7 @@ fn waves_and_undeclared_kinks() {
 
 #[test]
 fn smooth_probes_cost_no_pieces() {
-    let case = Case::new(uniform(2), Vec::new(), Vec::new());
+    let case = GeometryCase::new(uniform(2), Vec::new(), Vec::new());
     let probes = vec![|a: Vec2, x: Vec2| {
         let p = a + x;
         [p.x * p.y + p.x * p.x, p.y + 2.0 * p.x, p.x]
@@ -168,14 +169,14 @@ fn smooth_probes_cost_no_pieces() {
 
 #[test]
 fn probes_count_where_their_patch_is_active() {
-    let case = Case::new(uniform(2), Vec::new(), Vec::new());
+    let case = GeometryCase::new(uniform(2), Vec::new(), Vec::new());
     let probes = vec![layer(vec2(1.0, 0.0), 1e-3)];
     let patch = 5;
     let mut lists = vec![Vec::new(); case.partition.len()];
     lists[patch] = vec![0];
     let orders = Orders::for_degree(1);
-    let geometry = Geometry { probes: &probes, patch_probes: &lists, ..case.geometry() };
-    let active = |r: &Rule| r.patches.contains(&(patch as u32));
+    let geometry = SmoothnessGeometry { probes: &probes, patch_probes: &lists, ..case.geometry() };
+    let active = |r: &CellRule| r.patches.contains(&(patch as u32));
     let (with, without) = (rules(geometry, orders), case.rules(orders));
     let (a, b): (Vec<_>, Vec<_>) = with.into_iter().partition(active);
     let (c, d): (Vec<_>, Vec<_>) = without.into_iter().partition(active);
@@ -188,7 +189,7 @@ fn hostile_probes_end_within_the_budget() {
     let case = alone(UNIT, Vec::new(), Vec::new());
     let orders = Orders::for_degree(2);
     let noise = |p: Vec2| ((p.x * 12.9898 + p.y * 78.233).sin() * 43758.5453).fract();
-    let hostile: Vec<Box<dyn Fn(Vec2, Vec2) -> Sample + Sync>> = vec![
+    let hostile: Vec<Box<dyn Fn(Vec2, Vec2) -> LayerSample + Sync>> = vec![
         Box::new(|_, _| [f64::NAN; 3]),
         Box::new(|_, _| [f64::INFINITY; 3]),
         Box::new(move |a, x| [noise(a + x); 3]),
@@ -200,7 +201,8 @@ fn hostile_probes_end_within_the_budget() {
         Box::new(|a, x| [1.0 / (a + x).x, 0.0, 0.0]),
     ];
     for k in 0..hostile.len() as u32 {
-        let geometry = Geometry { probes: &hostile, common_probes: &[k], ..case.geometry() };
+        let geometry =
+            SmoothnessGeometry { probes: &hostile, common_probes: &[k], ..case.geometry() };
         let rules = rules(geometry, orders);
         assert_near(integrate(&rules, |_, _| 1.0), 1.0, 1e-12, "area");
         assert!(n_points(&rules) <= 500 * 64, "probe {k}: {}", n_points(&rules));
@@ -239,7 +241,7 @@ fn layers_at_a_corner_with_a_power() {
         [f, f * slope * p.x / r, f * slope * p.y / r]
     };
     let mut case = alone(UNIT, Vec::new(), vec![Vec2::ZERO]);
-    case.singular[0].growth = Growth::Powers { least: lambda };
+    case.singular[0].growth = SingularGrowth::Powers { least: lambda };
     let rules = resolved(&case, &vec![f], Orders::for_degree(2));
     let value = integrate(&rules, |a, x| {
         let r = (a + x).length();

@@ -43,14 +43,14 @@ fn lines_cut_exactly_on_graded_covers() {
     let mut random = Random(31);
     for trial in 0..30 {
         let weight = WeightFunction::ALL[trial % 3].clone();
-        let case = Case::new(graded(&mut random, weight), Vec::new(), Vec::new());
+        let case = GeometryCase::new(graded(&mut random, weight), Vec::new(), Vec::new());
         let line = match trial % 3 {
             0 => [point(&mut random, 1.0), point(&mut random, 1.0)],
             1 => [vec2(-1.0, 0.325), vec2(1.0, 0.325)],
             _ => [vec2(-1.0, -1.0), vec2(1.0, 1.0)],
         };
         let normal = (line[1] - line[0]).unit().left();
-        let integral = |rules: &[Rule]| {
+        let integral = |rules: &[CellRule]| {
             integrate(rules, |a, x| {
                 let d = normal.dot(a + x - line[0]);
                 d * d.abs()
@@ -58,9 +58,10 @@ fn lines_cut_exactly_on_graded_covers() {
         };
         let exact = signed_square(line);
         let ends = [normal.left() * 9.0, normal.left() * -9.0].map(|far| line[0] + far);
-        for kink in [Kink::Line(line), Kink::Segment(ends)] {
+        for kink in [KinkLine::Line(line), KinkLine::Segment(ends)] {
             let kinks = [kink];
-            let geometry = Geometry { kinks: &kinks, common_kinks: &[0], ..case.geometry() };
+            let geometry =
+                SmoothnessGeometry { kinks: &kinks, common_kinks: &[0], ..case.geometry() };
             let rules = rules(geometry, Orders::for_degree(1));
             assert_near(integral(&rules), exact, 1e-13, &format!("trial {trial}, {kinks:?}"));
             assert_near(integrate(&rules, |_, _| 1.0), 4.0, 1e-13, "area");
@@ -74,28 +75,29 @@ fn lines_cut_exactly_on_graded_covers() {
 
 #[test]
 fn segments_cut_only_where_they_are() {
-    let case = Case::new(uniform(2), Vec::new(), Vec::new());
-    let kinks = [Kink::Segment([vec2(-0.8, -0.8), vec2(-0.6, -0.7)])];
-    let geometry = Geometry { kinks: &kinks, common_kinks: &[0], ..case.geometry() };
+    let case = GeometryCase::new(uniform(2), Vec::new(), Vec::new());
+    let kinks = [KinkLine::Segment([vec2(-0.8, -0.8), vec2(-0.6, -0.7)])];
+    let geometry = SmoothnessGeometry { kinks: &kinks, common_kinks: &[0], ..case.geometry() };
     let orders = Orders::for_degree(1);
     let with = Quadrature::new(geometry, orders);
     let without = case.quadrature(orders);
     for cell in &case.partition.cell {
-        let coverers = coverers(&case.partition, cell);
-        let same = with.cell(cell, &coverers) == without.cell(cell, &coverers);
+        let covering_patches = covering_patches(&case.partition, cell);
+        let same = with.cell(cell, &covering_patches) == without.cell(cell, &covering_patches);
         assert_eq!(same, cell.max.x > -0.5 || cell.max.y > -0.5);
     }
 }
 
 #[test]
 fn kinks_of_a_patch_cut_where_it_is_active() {
-    let case = Case::new(uniform(2), Vec::new(), Vec::new());
-    let kinks = [Kink::Line([vec2(-2.0, 0.1), vec2(2.0, 0.2)])];
+    let case = GeometryCase::new(uniform(2), Vec::new(), Vec::new());
+    let kinks = [KinkLine::Line([vec2(-2.0, 0.1), vec2(2.0, 0.2)])];
     let mut patch_kinks = vec![Vec::new(); case.partition.len()];
     let patch = case.partition.cell.iter().position(|c| c.contains(vec2(0.2, 0.2))).expect("cell");
     patch_kinks[patch] = vec![0];
-    let geometry = Geometry { kinks: &kinks, patch_kinks: &patch_kinks, ..case.geometry() };
-    let below = |r: &Rule, x: Vec2| {
+    let geometry =
+        SmoothnessGeometry { kinks: &kinks, patch_kinks: &patch_kinks, ..case.geometry() };
+    let below = |r: &CellRule, x: Vec2| {
         let p = r.anchor + x;
         p.y < 0.15 + 0.025 * p.x
     };
@@ -104,7 +106,7 @@ fn kinks_of_a_patch_cut_where_it_is_active() {
     for rule in rules(geometry, orders) {
         let active = rule.patches.contains(&(patch as u32));
         if active {
-            let of = |r: &Rule| -> f64 {
+            let of = |r: &CellRule| -> f64 {
                 let points = r.offsets.iter().zip(&r.weights);
                 points.filter(|(x, _)| below(r, **x)).map(|(_, w)| w).sum()
             };
@@ -117,8 +119,8 @@ fn kinks_of_a_patch_cut_where_it_is_active() {
     let line = [vec2(2.0, 0.2), vec2(-2.0, 0.1)];
     let exact = square_integral(&left_of(line, &support.corners()), 1.0, Vec2::ZERO);
     assert_near(cut, exact, 1e-14, "area of the patch below its kink");
-    let plain: Vec<Rule> = case.rules(orders);
-    let inactive = |rules: Vec<Rule>| -> Vec<Rule> {
+    let plain: Vec<CellRule> = case.rules(orders);
+    let inactive = |rules: Vec<CellRule>| -> Vec<CellRule> {
         rules.into_iter().filter(|r| !r.patches.contains(&(patch as u32))).collect()
     };
     assert_eq!(inactive(rules(geometry, orders)), inactive(plain));
@@ -128,22 +130,22 @@ fn kinks_of_a_patch_cut_where_it_is_active() {
 fn nothing_active_changes_nothing() {
     let mut random = Random(77);
     let tip = vec2(0.21, 0.13);
-    let case = Case::new(
+    let case = GeometryCase::new(
         graded(&mut random, WeightFunction::Quadratic),
         vec![crack(&[vec2(-1.0, 0.1), tip])],
         vec![tip],
     );
     let kinks = [
-        Kink::Line([vec2(0.0, 0.0), vec2(1.0, 1.0)]),
-        Kink::Segment([vec2(0.0, 0.0), vec2(1.0, 1.0)]),
-        Kink::Curve(std::sync::Arc::new(|p: Vec2| p.dot(p) - 0.5)),
-        Kink::Line([vec2(0.0, 1.5), vec2(1.0, 1.5)]),
-        Kink::Segment([vec2(1.1, 0.0), vec2(2.0, 1.0)]),
-        Kink::Curve(std::sync::Arc::new(|p: Vec2| p.dot(p) - 9.0)),
+        KinkLine::Line([vec2(0.0, 0.0), vec2(1.0, 1.0)]),
+        KinkLine::Segment([vec2(0.0, 0.0), vec2(1.0, 1.0)]),
+        KinkLine::Curve(std::sync::Arc::new(|p: Vec2| p.dot(p) - 0.5)),
+        KinkLine::Line([vec2(0.0, 1.5), vec2(1.0, 1.5)]),
+        KinkLine::Segment([vec2(1.1, 0.0), vec2(2.0, 1.0)]),
+        KinkLine::Curve(std::sync::Arc::new(|p: Vec2| p.dot(p) - 9.0)),
     ];
     let probes = vec![|_: Vec2, _: Vec2| -> [f64; 3] { unreachable!("no patch has the probe") }];
     let none = vec![Vec::new(); case.partition.len()];
-    let geometry = Geometry {
+    let geometry = SmoothnessGeometry {
         kinks: &kinks,
         patch_kinks: &none,
         common_kinks: &[3, 4, 5],

@@ -71,7 +71,7 @@ fn graded(random: &mut Random, weight: WeightFunction) -> BoxPartition {
 }
 
 /// Patches whose open supports meet the open cell.
-fn coverers(partition: &BoxPartition, cell: &Rect) -> Vec<u32> {
+fn covering_patches(partition: &BoxPartition, cell: &Rect) -> Vec<u32> {
     let meets = |&i: &u32| partition.support(i as usize).overlaps(cell);
     (0..partition.len() as u32).filter(meets).collect()
 }
@@ -81,26 +81,26 @@ fn crack(points: &[Vec2]) -> Crack {
 }
 
 /// A step's geometry with one list of singular points for all patches.
-struct Case {
+struct GeometryCase {
     partition: BoxPartition,
     cracks: Vec<Crack>,
-    singular: Vec<Singular>,
+    singular: Vec<Singularity>,
     patch_singular: Vec<Vec<u32>>,
 }
 
-impl Case {
+impl GeometryCase {
     fn new(partition: BoxPartition, cracks: Vec<Crack>, singular: Vec<Vec2>) -> Self {
         let all: Vec<u32> = (0..singular.len() as u32).collect();
         let patch_singular = vec![all; partition.len()];
-        let singular = singular.into_iter().map(Singular::tip).collect();
+        let singular = singular.into_iter().map(Singularity::tip).collect();
         Self { partition, cracks, singular, patch_singular }
     }
 
-    fn geometry(&self) -> Geometry<'_> {
-        Geometry {
+    fn geometry(&self) -> SmoothnessGeometry<'_> {
+        SmoothnessGeometry {
             singular: &self.singular,
             patch_singular: &self.patch_singular,
-            ..Geometry::new(&self.partition, &self.cracks)
+            ..SmoothnessGeometry::new(&self.partition, &self.cracks)
         }
     }
 
@@ -108,32 +108,32 @@ impl Case {
         Quadrature::new(self.geometry(), orders)
     }
 
-    fn rules(&self, orders: Orders) -> Vec<Rule> {
+    fn rules(&self, orders: Orders) -> Vec<CellRule> {
         rules(self.geometry(), orders)
     }
 }
 
 /// The rules of all cells.
-fn rules(geometry: Geometry<'_>, orders: Orders) -> Vec<Rule> {
+fn rules(geometry: SmoothnessGeometry<'_>, orders: Orders) -> Vec<CellRule> {
     let quadrature = Quadrature::new(geometry, orders);
-    let cell = |c: &Rect| quadrature.cell(c, &coverers(geometry.partition, c));
+    let cell = |c: &Rect| quadrature.cell(c, &covering_patches(geometry.partition, c));
     geometry.partition.cell.iter().flat_map(cell).collect()
 }
 
-fn n_points(rules: &[Rule]) -> usize {
+fn n_points(rules: &[CellRule]) -> usize {
     rules.iter().map(|r| r.offsets.len()).sum()
 }
 
 const UNIT: Rect = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
 
 /// One patch that covers a single cell alone.
-fn alone(cell: Rect, cracks: Vec<Crack>, singular: Vec<Vec2>) -> Case {
-    Case::new(partition(vec![cell], WeightFunction::Linear), cracks, singular)
+fn alone(cell: Rect, cracks: Vec<Crack>, singular: Vec<Vec2>) -> GeometryCase {
+    GeometryCase::new(partition(vec![cell], WeightFunction::Linear), cracks, singular)
 }
 
 /// Σ w f(anchor, offset).
-fn integrate(rules: &[Rule], f: impl Fn(Vec2, Vec2) -> f64) -> f64 {
-    let of_rule = |r: &Rule| -> f64 {
+fn integrate(rules: &[CellRule], f: impl Fn(Vec2, Vec2) -> f64) -> f64 {
+    let of_rule = |r: &CellRule| -> f64 {
         r.offsets.iter().zip(&r.weights).map(|(&x, w)| w * f(r.anchor, x)).sum()
     };
     rules.iter().map(of_rule).sum()

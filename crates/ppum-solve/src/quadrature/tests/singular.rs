@@ -195,7 +195,7 @@ fn stress_like_products_match_closed_forms() {
 #[test]
 fn far_rectangles_need_no_singular_order() {
     let tip = vec2(0.0131, -0.0217);
-    let case = Case::new(uniform(5), Vec::new(), vec![tip]);
+    let case = GeometryCase::new(uniform(5), Vec::new(), vec![tip]);
     for (p, tolerance) in [(1, 1e-11), (2, 1e-12)] {
         let orders = Orders { singular: 12, ..Orders::for_degree(p) };
         let sum = integrate(&case.rules(orders), |a, x| 1.0 / (a + x - tip).length());
@@ -243,7 +243,7 @@ fn strain_energy_of_both_modes() {
     let ahead = |x: f64| crack(&[vec2(-1.0, 0.0), vec2(x, 0.0)]);
     let random = graded(&mut Random(21), WeightFunction::Linear);
     for cover in [uniform(0), uniform(2), uniform(4), random] {
-        let case = Case::new(cover, vec![ahead(0.0)], vec![Vec2::ZERO]);
+        let case = GeometryCase::new(cover, vec![ahead(0.0)], vec![Vec2::ZERO]);
         let rules = case.rules(Orders::for_degree(2));
         for (mode, exact) in [(1, 0.474_129_375_227), (2, 1.203_559_183_268)] {
             let energy = integrate(&rules, |a, x| density(mode, a + x));
@@ -256,15 +256,15 @@ fn strain_energy_of_both_modes() {
 fn energy_in_a_disc_with_a_smooth_cut_off() {
     let tip = vec2(0.1, -0.05);
     let radius = 0.7;
-    let mut case = Case::new(uniform(3), vec![crack(&[vec2(-1.0, -0.05), tip])], vec![tip]);
+    let mut case = GeometryCase::new(uniform(3), vec![crack(&[vec2(-1.0, -0.05), tip])], vec![tip]);
     case.patch_singular = vec![Vec::new(); case.partition.len()];
     let quadrature = case.quadrature(Orders::for_degree(1));
-    let rules: Vec<Rule> = case
+    let rules: Vec<CellRule> = case
         .partition
         .cell
         .iter()
         .flat_map(|c| {
-            quadrature.disc(c, &coverers(&case.partition, c), Disc::even(tip, radius, 14))
+            quadrature.disc(c, &covering_patches(&case.partition, c), Disc::even(tip, radius, 14))
         })
         .collect();
     assert!(rules.iter().all(|r| r.anchor == tip));

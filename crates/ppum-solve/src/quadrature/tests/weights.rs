@@ -70,9 +70,9 @@ fn linear_weights_need_no_more_than_the_default() {
 }
 
 /// ∫ |∇φ_i|² of the first patch of each rule, by differences of the product rule.
-fn energy(case: &Case, orders: Orders) -> f64 {
+fn energy(case: &GeometryCase, orders: Orders) -> f64 {
     let step = 1e-6;
-    let of_rule = |r: &Rule| {
+    let of_rule = |r: &CellRule| {
         let square = |a: Vec2, x: Vec2| {
             let at = |d: Vec2| partition_function(&case.partition, &r.patches, a + x + d);
             let gx = at(vec2(step, 0.0)) - at(vec2(-step, 0.0));
@@ -86,7 +86,8 @@ fn energy(case: &Case, orders: Orders) -> f64 {
 
 #[test]
 fn the_orders_hold_in_the_plane() {
-    let case = Case::new(graded(&mut Random(4), WeightFunction::Cubic), Vec::new(), Vec::new());
+    let case =
+        GeometryCase::new(graded(&mut Random(4), WeightFunction::Cubic), Vec::new(), Vec::new());
     let fine = energy(&case, Orders { parts: 4, ..Orders::uniform(16) });
     let weight = WeightFunction::Cubic;
     for (accuracy, tolerance) in [(1e-3, 1e-3), (1e-6, 1e-6)] {
@@ -100,11 +101,11 @@ fn the_orders_hold_in_the_plane() {
 
 #[test]
 fn only_overlaps_are_divided_and_only_where_functions_vary() {
-    let case = Case::new(uniform(3), Vec::new(), Vec::new());
+    let case = GeometryCase::new(uniform(3), Vec::new(), Vec::new());
     let inner = case.partition.cell.iter().position(|c| c.min == vec2(-0.25, -0.25)).expect("cell");
     let cell = case.partition.cell[inner];
     let orders = Orders { parts: 3, ..Orders::for_degree(2) };
-    let rules = case.quadrature(orders).cell(&cell, &coverers(&case.partition, &cell));
+    let rules = case.quadrature(orders).cell(&cell, &covering_patches(&case.partition, &cell));
     let mut counts: Vec<_> = rules.iter().map(|r| (r.patches.len(), r.offsets.len())).collect();
     counts.sort_unstable();
     assert_eq!(counts[0], (1, 9));
@@ -114,14 +115,14 @@ fn only_overlaps_are_divided_and_only_where_functions_vary() {
 
 #[test]
 fn discs_have_the_points_that_the_weight_needs() {
-    let case = Case::new(uniform(2), Vec::new(), Vec::new());
+    let case = GeometryCase::new(uniform(2), Vec::new(), Vec::new());
     let points = |orders: Orders| {
         let quadrature = case.quadrature(orders);
         let (center, radius) = (vec2(0.1, 0.2), 0.5);
         let rules = |c: &Rect| {
-            quadrature.disc(c, &coverers(&case.partition, c), Disc::even(center, radius, 8))
+            quadrature.disc(c, &covering_patches(&case.partition, c), Disc::even(center, radius, 8))
         };
-        let rules: Vec<Rule> = case.partition.cell.iter().flat_map(rules).collect();
+        let rules: Vec<CellRule> = case.partition.cell.iter().flat_map(rules).collect();
         let (overlaps, rest): (Vec<_>, Vec<_>) =
             rules.into_iter().partition(|r| r.patches.len() > 1);
         (n_points(&overlaps), n_points(&rest))
@@ -140,7 +141,8 @@ fn all_weights_of_the_library_are_integrated() {
     let accuracy = 1e-5;
     for entry in &WEIGHTS {
         let weight = WeightFunction::from_library(entry.name).expect("of the library");
-        let case = Case::new(graded(&mut Random(4), weight.clone()), Vec::new(), Vec::new());
+        let case =
+            GeometryCase::new(graded(&mut Random(4), weight.clone()), Vec::new(), Vec::new());
         let fine = energy(&case, Orders { parts: 3, ..Orders::uniform(12) });
         let error = |orders: Orders| (energy(&case, orders) / fine - 1.0).abs();
         let (orders, _) =

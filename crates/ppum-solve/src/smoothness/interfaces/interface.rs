@@ -35,7 +35,7 @@ pub struct Interface {
     pub(super) level: Arc<LevelFunction>,
     /// The derivatives of ψ.
     slopes: [Formula; 2],
-    /// The text of ψ in the plate's coordinates.
+    /// The text of ψ in the body's coordinates.
     name: String,
     /// A frame and the text of |ψ| in it.
     pub(crate) frame: Frame,

@@ -18,7 +18,7 @@ mod trouble;
 pub use interface::Interfaces;
 pub(crate) use interface::{Interface, proportional};
 pub(crate) use place::{BESIDE, InterfacePoint};
-pub use trouble::{Cause, Trouble};
+pub use trouble::{Cause, UnresolvedKink};
 
 #[cfg(test)]
 mod tests;

@@ -6,8 +6,8 @@ use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::inside;
 
-/// Steps of the grid on which an interface is looked for. What is missed between them is a corner
-/// of a patch in which its weight vanishes.
+/// Steps of the grid on which an interface is looked for. An interface that lies between them cuts
+/// at most a corner of a patch, in which its weight vanishes.
 const STEPS: usize = 16;
 
 /// Bisections of a step, to rounding.

@@ -31,15 +31,15 @@ pub enum Cause {
     Turn,
     /// Two interfaces that meet.
     Corner,
-    /// The border, or a rim.
+    /// The boundary, or a rim.
     Border,
     /// A crack that crosses or touches, or a tip nearby.
     Crack,
 }
 
-/// A place that a kink does not resolve.
+/// A location at which kinks do not resolve the interfaces.
 #[derive(Clone, Copy, Debug)]
-pub struct Trouble {
+pub struct UnresolvedKink {
     /// The reason.
     pub cause: Cause,
     /// The place.
@@ -67,9 +67,9 @@ impl Cause {
 type InterfaceRun = (usize, Vec<InterfacePoint>);
 
 impl Interfaces<'_> {
-    /// The trouble with the interfaces in an open box inside the domain, if kinks do not
-    /// resolve them.
-    pub fn trouble(&self, rect: &Rect) -> Option<Trouble> {
+    /// The reason why kinks do not resolve the interfaces in an open box inside the domain, if they
+    /// do not.
+    pub fn trouble(&self, rect: &Rect) -> Option<UnresolvedKink> {
         let runs: Vec<InterfaceRun> = (0..self.all.len())
             .map(|index| (index, self.places(&self.all[index], rect)))
             .filter(|(_, places)| !places.is_empty())
@@ -88,7 +88,7 @@ impl Interfaces<'_> {
             .or_else(|| self.corner(&runs, touch).map(|at| (Cause::Corner, at)))
             .or_else(|| at_crack().map(|at| (Cause::Crack, at)))
             .or_else(|| at_border().map(|at| (Cause::Border, at)))?;
-        Some(Trouble { cause, at, contrast })
+        Some(UnresolvedKink { cause, at, contrast })
     }
 
     /// The place at which two interfaces meet.
@@ -107,7 +107,7 @@ impl Interfaces<'_> {
         })
     }
 
-    /// True if the interface runs into the border or a rim at a place.
+    /// True if the interface runs into the boundary or a rim at a place.
     fn at_border(&self, point: &InterfacePoint, touch: f64) -> bool {
         let (near, far) = (point.at - self.domain.bounds.min, self.domain.bounds.max - point.at);
         let aslant = |normal: Vec2| normal.cross(point.normal).abs() > ASLANT;

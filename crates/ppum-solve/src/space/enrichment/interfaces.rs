@@ -1,13 +1,13 @@
 //! Kinks at the interfaces of materials: what no function of the problem's own has is added.
 
-use super::{Degree, Enrichments, Instance, Patch, Patches};
+use super::{Degree, EnrichmentPatch, Enrichments, Instance, Patches};
 use crate::smoothness::{BESIDE, Interface, InterfacePoint, Interfaces, Probe};
 use crate::space::SpaceError;
 use crate::space::inspect::InspectError;
-use crate::watched::Stage;
+use crate::watched::WorkPhase;
 use ppum::crack::{Crack, LocalCrack, Side};
 use ppum::dataset::BoxPartition;
-use ppum::function::{Declared, Frame, Function, FunctionError, FunctionKind, Role};
+use ppum::function::{Frame, Function, FunctionError, FunctionKind, NonsmoothPoints, Role};
 use ppum::progress::Cancelled;
 use ppum::vec2::Vec2;
 use ppum_problem::Enrichment;
@@ -21,7 +21,7 @@ const BENT: f64 = 1e-3;
 const ON: f64 = 1e-9;
 
 /// An interface and, if it is to be independent on both sides of a crack, the crack.
-type Cut = (usize, Option<usize>);
+type InterfaceCut = (usize, Option<usize>);
 
 impl Enrichments<'_> {
     /// Adds |ψ| on the patches that an interface ψ = 0 cuts, as far as the material jumps there and
@@ -33,7 +33,7 @@ impl Enrichments<'_> {
     pub(crate) fn add_interfaces(
         &mut self,
         partition: &BoxPartition,
-        stage: &Stage<'_>,
+        stage: &WorkPhase<'_>,
     ) -> Result<(), SpaceError> {
         let set = &self.problem.discretization;
         if !set.interfaces || set.enrichment == Enrichment::None {
@@ -46,10 +46,10 @@ impl Enrichments<'_> {
         }
         let probes = self.own_probes().map_err(InspectError::from)?;
         let cuts = |patch: usize| {
-            let patch = Patch::new(partition, patch, self.problem);
+            let patch = EnrichmentPatch::new(partition, patch, self.problem);
             stage.advance(0).map(|()| self.cuts(&patch, &interfaces, &probes))
         };
-        let cuts: Vec<Vec<Cut>> =
+        let cuts: Vec<Vec<InterfaceCut>> =
             (0..partition.len()).into_par_iter().map(cuts).collect::<Result<_, Cancelled>>()?;
         for (index, interface) in interfaces.all.iter().enumerate() {
             let cracks = (0..self.problem.cracks().len()).map(Some);
@@ -70,7 +70,12 @@ impl Enrichments<'_> {
     }
 
     /// The interfaces that are to be resolved on a patch.
-    fn cuts(&self, patch: &Patch<'_>, interfaces: &Interfaces<'_>, probes: &[Probe]) -> Vec<Cut> {
+    fn cuts(
+        &self,
+        patch: &EnrichmentPatch<'_>,
+        interfaces: &Interfaces<'_>,
+        probes: &[Probe],
+    ) -> Vec<InterfaceCut> {
         let own = &self.instances[self.own.clone()];
         let own: Vec<_> = own.iter().filter(|new| patch.is_of(&new.patches)).collect();
         let size = patch.support.size();
@@ -153,7 +158,7 @@ fn kink(interface: &Interface, crack: Option<usize>) -> Function {
         None => (text.clone(), format!("kink at {name}")),
         Some(k) => (format!("side({k})*{text}"), format!("kink at {name}, side of crack {k}")),
     };
-    let (frame, parameters, declared) = (interface.frame, Vec::new(), Declared::default());
+    let (frame, parameters, declared) = (interface.frame, Vec::new(), NonsmoothPoints::default());
     let role = Role::Interface;
     Function { name, kind: FunctionKind::Formula { text, frame, parameters, declared, role } }
 }

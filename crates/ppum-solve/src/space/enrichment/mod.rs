@@ -25,28 +25,28 @@ use ppum::expression::Expression;
 use ppum::function::{Cut, Frame, Function, FunctionKind, Role, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::{
-    Jumps, Placed, around, distance, exceeds, inside, length_inside, segment_inside, wider,
+    BoxList, Jumps, around, distance, exceeds, inside, length_inside, segment_inside, wider,
 };
-use ppum_problem::{Enrichment, LocalEnrichment, Problem, Region, Site};
+use ppum_problem::{Enrichment, EnrichmentRegion, LocalEnrichment, Problem, Site};
 
 /// Shortest part of a crack or segment inside a patch, in half-sizes of the patch, that counts as a
 /// cut.
 const LEAST_CUT: f64 = 1e-9;
 
 /// A block to be: function index and polynomial degree.
-pub(crate) type Block = (u32, u8);
+pub(crate) type BlockSpec = (u32, u8);
 
 /// The function table of a problem, and which patches have which functions.
 pub(crate) struct Enrichments<'p> {
     pub(crate) table: Vec<Function>,
     problem: &'p Problem,
-    /// What jumps, if anything does.
+    /// The cracks across which patches have jumps; none where the mode has no jumps.
     jumps: Option<Jumps<'p>>,
     /// The numbers of components by a single crack, by their cuts.
     one_sided: BTreeMap<Vec<(SegmentId, i64, i64)>, u32>,
     instances: Vec<Instance>,
     /// The numbers of the instances, by the places of their patches, once all are there.
-    placed: OnceLock<Placed<usize>>,
+    placed: OnceLock<BoxList<usize>>,
     /// Those of the problem's own among the instances.
     own: Range<usize>,
 }
@@ -65,8 +65,8 @@ enum Patches {
     All,
     /// Those that hold the shape or are cut by it, and those nearer to it than a length.
     Near(ZoneCore, f64),
-    /// Of those that the tip's crack meets and that are not within the length of the tip, the ones
-    /// that have no other tip of the crack nearer.
+    /// The patches on the tip's crack, farther from the tip than its length, that have no other tip
+    /// of the crack nearer.
     Behind(TipId, f64),
     /// Those where the expression is positive.
     Where(Expression),
@@ -140,7 +140,7 @@ impl<'p> Enrichments<'p> {
         all
     }
 
-    /// The sides of all cracks, first of the table but for the function 1.
+    /// The sides of all cracks, the first functions of the table after the function 1.
     fn add_jumps(&mut self) {
         let (cracks, domain) = (self.problem.cracks(), self.problem.domain());
         let side = |crack: u32| Function {
@@ -154,8 +154,8 @@ impl<'p> Enrichments<'p> {
     fn add(&mut self, new: &LocalEnrichment, role: Role) {
         for zone in zones(self.problem, new.site) {
             let patches = match (&new.region, zone.shape) {
-                (Region::Where(condition), _) => Patches::Where(condition.clone()),
-                (Region::Near(radius), Some(shape)) => Patches::Near(shape, *radius),
+                (EnrichmentRegion::Where(condition), _) => Patches::Where(condition.clone()),
+                (EnrichmentRegion::Near(radius), Some(shape)) => Patches::Near(shape, *radius),
                 (_, Some(shape)) => Patches::Near(shape, zone.radius),
                 (_, None) => Patches::All,
             };
@@ -229,8 +229,8 @@ impl<'p> Enrichments<'p> {
         partition: &BoxPartition,
         patch: usize,
         degree: u8,
-    ) -> Vec<Block> {
-        let seen = Patch::new(partition, patch, self.problem);
+    ) -> Vec<BlockSpec> {
+        let seen = EnrichmentPatch::new(partition, patch, self.problem);
         let mut blocks = vec![(0, degree)];
         blocks.extend(self.jumps(&seen).into_iter().map(|function| (function, degree)));
         let near = self.placed().near(&seen.support).map(|&k| &self.instances[k]);
@@ -249,14 +249,14 @@ impl<'p> Enrichments<'p> {
     }
 
     /// The functions that jump in a patch; those of its own come to the table.
-    fn jumps(&mut self, patch: &Patch<'_>) -> Vec<u32> {
+    fn jumps(&mut self, patch: &EnrichmentPatch<'_>) -> Vec<u32> {
         let all = self.jumps.as_ref().map_or_else(Vec::new, |jumps| jumps.of(&patch.open));
         all.into_iter().enumerate().map(|(k, kind)| self.jump(k, kind, patch)).collect()
     }
 
     /// The number of a patch's k-th jump in the table. Patches that one crack cuts in the same way
     /// share it.
-    fn jump(&mut self, k: usize, kind: FunctionKind, patch: &Patch<'_>) -> u32 {
+    fn jump(&mut self, k: usize, kind: FunctionKind, patch: &EnrichmentPatch<'_>) -> u32 {
         let new = self.table.len() as u32;
         let cuts = match &kind {
             FunctionKind::Side { crack } => return crack + 1,
@@ -291,7 +291,7 @@ const ENOUGH_TERMS: usize = 6;
 
 impl Degree {
     /// The degree on a patch whose smooth polynomials have the degree `degree`.
-    fn on(self, patch: &Patch<'_>, degree: u8) -> u8 {
+    fn on(self, patch: &EnrichmentPatch<'_>, degree: u8) -> u8 {
         match self {
             Self::OfPatch => degree,
             Self::BelowPatch => degree.saturating_sub(1),
@@ -304,10 +304,10 @@ impl Degree {
 }
 
 impl Enrichments<'_> {
-    fn placed(&self) -> &Placed<usize> {
+    fn placed(&self) -> &BoxList<usize> {
         let instances = self.instances.iter().enumerate();
         let zone = |(k, new): (usize, &Instance)| (new.patches.zone(self.problem), k);
-        self.placed.get_or_init(|| Placed::new(instances.map(zone)))
+        self.placed.get_or_init(|| BoxList::new(instances.map(zone)))
     }
 }
 
@@ -332,7 +332,9 @@ fn westergaard(mode: Enrichment) -> Option<LocalEnrichment> {
     };
     match mode {
         Enrichment::None | Enrichment::Jumps => None,
-        Enrichment::TipPatch => Some(LocalEnrichment { region: Region::Near(0.0), ..new }),
+        Enrichment::TipPatch => {
+            Some(LocalEnrichment { region: EnrichmentRegion::Near(0.0), ..new })
+        }
         Enrichment::Zone | Enrichment::Williams => Some(new),
         Enrichment::AdditiveOnly => Some(LocalEnrichment { degree: Some(0), ..new }),
     }
@@ -393,7 +395,7 @@ fn functions(new: &LocalEnrichment, zone: &EnrichmentZone, role: Role) -> Vec<Fu
 }
 
 /// A patch as the rules see it.
-struct Patch<'p> {
+struct EnrichmentPatch<'p> {
     index: u32,
     cracks: &'p [Crack],
     holes: &'p [Hole],
@@ -404,7 +406,7 @@ struct Patch<'p> {
     shortest: f64,
 }
 
-impl<'p> Patch<'p> {
+impl<'p> EnrichmentPatch<'p> {
     fn new(partition: &BoxPartition, patch: usize, problem: &'p Problem) -> Self {
         let (support, half) = (partition.support(patch), partition.half[patch]);
         Self {
@@ -438,7 +440,7 @@ impl<'p> Patch<'p> {
         }
     }
 
-    /// True if the point, also one on the border of the domain, lies in the open support.
+    /// True if the point, also one on the boundary of the domain, lies in the open support.
     fn holds(&self, p: Vec2) -> bool {
         inside(&self.support, p)
     }

@@ -2,7 +2,7 @@ use super::*;
 use ppum::cover::Cover;
 use ppum::weight::WeightFunction;
 
-use ppum_problem::{Cells, Discretization, ProblemData};
+use ppum_problem::{BaseCells, Discretization, ProblemData};
 
 #[test]
 fn clipped_lengths_and_distances() {
@@ -25,7 +25,7 @@ fn clipped_lengths_and_distances() {
 /// [0, 8]² with unit cells and patches 1.5 wide.
 fn problem() -> ProblemData {
     let domain = Rect::new(vec2(0.0, 0.0), vec2(8.0, 8.0));
-    let mut set = Discretization::new(Cells::Grid([8, 8]));
+    let mut set = Discretization::new(BaseCells::Grid([8, 8]));
     set.enrichment = Enrichment::None;
     ProblemData::poisson(domain, 1.0, set)
 }
@@ -63,7 +63,8 @@ fn world() {
     // The supports of the cells from 5 on reach beyond x = 5.1, that of cell 4 to 5.25, of 3
     // to 4.25.
     let right = "if(x > 5.1, 1, 0)".parse().expect("an expression");
-    let found = having(&with(LocalEnrichment { region: Region::Where(right), ..new }), "x^9");
+    let found =
+        having(&with(LocalEnrichment { region: EnrichmentRegion::Where(right), ..new }), "x^9");
     assert!(found.len() == 32 && found.iter().all(|f| f.0[0] >= 4), "{found:?}");
 }
 
@@ -73,7 +74,7 @@ fn at_a_point() {
     let new = LocalEnrichment { name: "root".into(), ..LocalEnrichment::new(&["sqrt(r)"], site) };
     let name = "root at [3.1, 4.5]";
     assert_eq!(having(&with(new.clone()), name), [([2, 4], 0), ([3, 4], 0)]);
-    let wide = LocalEnrichment { region: Region::Near(0.3), ..new };
+    let wide = LocalEnrichment { region: EnrichmentRegion::Near(0.3), ..new };
     let found: Vec<_> = having(&with(wide), name).into_iter().map(|f| f.0).collect();
     // 0.25 from (3.1, 4.5) to the row below and above, 0.15 on the left is held
     assert_eq!(found, [[2, 3], [2, 4], [2, 5], [3, 3], [3, 4], [3, 5]]);
@@ -86,7 +87,7 @@ fn along_a_segment() {
     let new = LocalEnrichment::new(&["abs(y)"], site);
     let found: Vec<_> = having(&with(new.clone()), name).into_iter().map(|f| f.0).collect();
     assert_eq!(found, [[0, 2], [1, 2], [2, 2]]);
-    let wide = LocalEnrichment { region: Region::Near(0.251), ..new };
+    let wide = LocalEnrichment { region: EnrichmentRegion::Near(0.251), ..new };
     let found: Vec<_> = having(&with(wide), name).into_iter().map(|f| f.0).collect();
     // rows 1 and 3 begin 0.25 off the line, column 3 begins 0.25 behind its end
     let expected: Vec<_> = (0..4).flat_map(|x| (1..4).map(move |y| [x, y])).collect();
@@ -113,7 +114,7 @@ fn at_tips_as_built_in() {
     let mut tip_patch = built_in;
     tip_patch.discretization.enrichment = Enrichment::TipPatch;
     assert_eq!(having(&tip_patch, name), [([2, 4], 1), ([3, 4], 1)]);
-    own.enrichments[0].region = Region::Near(0.0);
+    own.enrichments[0].region = EnrichmentRegion::Near(0.0);
     let found = having(&own, &format!("{} of crack 0 end", WESTERGAARD[1]));
     assert_eq!(found, having(&tip_patch, name));
 }

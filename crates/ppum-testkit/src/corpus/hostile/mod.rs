@@ -8,12 +8,12 @@ mod mutate;
 #[cfg(feature = "wgsl")]
 mod survive;
 
-use super::cases::{Case, cases, folder, unescaped};
-use super::record::{Record, records};
+use super::cases::{FormulaCase, cases, folder, unescaped};
+use super::record::{CorpusRecord, records};
 
 pub use mutate::{Seed, mutant};
 #[cfg(feature = "wgsl")]
-pub use survive::{Arena, Fate, survive};
+pub use survive::{Arena, ParseOutcome, survive};
 
 /// Stack of the thread that `survive` is run on, in bytes: what wasm32 gives to a program, the
 /// least of all platforms. The parser needs most, at its deepest nesting with all precedences in
@@ -43,7 +43,7 @@ pub fn seeds() -> Vec<Seed> {
 /// As [`cases`].
 #[must_use]
 pub fn valid_seeds() -> Vec<Seed> {
-    let seed = |case: Case| Seed { name: case.place, text: case.formula };
+    let seed = |case: FormulaCase| Seed { name: case.place, text: case.formula };
     let mut seeds: Vec<Seed> = cases().into_iter().map(seed).collect();
     seeds.dedup_by(|a, b| a.text == b.text);
     seeds
@@ -51,7 +51,7 @@ pub fn valid_seeds() -> Vec<Seed> {
 
 /// A recipe's text: its parts, each repeated, `{n}` and `{m}` being the number of the repetition
 /// counted from 0 and from 1.
-fn expanded(record: &Record) -> Seed {
+fn expanded(record: &CorpusRecord) -> Seed {
     let part = |count: &str, quoted: &str| -> String {
         let count: usize = count.parse().unwrap_or_else(|_| record.fail("expected a count"));
         let part = quoted.strip_prefix('"').and_then(|text| text.strip_suffix('"'));

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use ppum::formula::{
-    Formula, FormulaError, FormulaJets, Kink, MAX_LENGTH, MAX_NODES, Scope, Scratch, wgsl_prelude,
+    BlockScratch, Formula, FormulaError, FormulaJets, Kink, MAX_LENGTH, MAX_NODES, Scope,
+    wgsl_prelude,
 };
-use ppum::real::Scalar as Number;
+use ppum::real::LaneNumber as Number;
 
 use crate::corpus::tables;
 use crate::random::Random;
@@ -19,7 +20,7 @@ pub struct Arena {
 
 /// The fate of a text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fate {
+pub enum ParseOutcome {
     /// An error with a place.
     Refused,
     /// A formula whose derivatives have too many operations.
@@ -109,14 +110,14 @@ impl Default for Arena {
 /// # Errors
 /// When a promise is broken: the message says which. Panics and overflows of the stack are for the
 /// caller to see.
-pub fn survive(text: &str, arena: &Arena, random: &mut Random) -> Result<Fate, String> {
+pub fn survive(text: &str, arena: &Arena, random: &mut Random) -> Result<ParseOutcome, String> {
     for scope in &arena.scopes {
         match Formula::parse(text, scope) {
             Err(error) => check_place(text, &error)?,
             Ok(formula) => return evaluate(&formula, random),
         }
     }
-    Ok(Fate::Refused)
+    Ok(ParseOutcome::Refused)
 }
 
 /// An error lies in the text and its message is short.
@@ -131,12 +132,12 @@ fn check_place(text: &str, error: &FormulaError) -> Result<(), String> {
     Ok(())
 }
 
-fn evaluate(formula: &Formula, random: &mut Random) -> Result<Fate, String> {
+fn evaluate(formula: &Formula, random: &mut Random) -> Result<ParseOutcome, String> {
     let points: Vec<Vec<f64>> = (0..POINTS).map(|_| point(formula.scope(), random)).collect();
     let values: Vec<f64> = points.iter().map(|inputs| formula.evaluate(inputs)).collect();
     analyse(formula);
     let Ok(jets) = FormulaJets::new(&[formula], 2) else {
-        return Ok(Fate::TooLarge);
+        return Ok(ParseOutcome::TooLarge);
     };
     if jets.n_operations() > MAX_NODES + MAX_NODES / 4 {
         return Err(format!("{} operations", jets.n_operations()));
@@ -153,7 +154,7 @@ fn evaluate(formula: &Formula, random: &mut Random) -> Result<Fate, String> {
     if jets.n_operations() <= PRINTED {
         check_print(formula)?;
     }
-    Ok(Fate::Evaluated)
+    Ok(ParseOutcome::Evaluated)
 }
 
 /// Blocks of both precisions run; in double precision their results are those of single points.
@@ -172,7 +173,7 @@ fn on_lanes(jets: &FormulaJets, points: &[Vec<f64>], scratch: &mut Vec<f64>) -> 
 
 /// All results at some points of a block.
 fn lanes<T: Number>(jets: &FormulaJets, points: &[Vec<f64>]) -> Vec<Vec<T>> {
-    let mut scratch = Scratch::default();
+    let mut scratch = BlockScratch::default();
     let mut block = jets.block::<T>(&mut scratch);
     for index in 0..points[0].len() {
         let input = block.input(index);
@@ -243,7 +244,7 @@ fn point(scope: &Scope, random: &mut Random) -> Vec<f64> {
     inputs
 }
 
-/// The same number, or both NaN.
+/// Checks that two numbers agree, or are both NaN.
 pub(super) fn same(a: f64, b: f64, what: &str) -> Result<(), String> {
     if a.to_bits() == b.to_bits() || a.is_nan() && b.is_nan() || a == b {
         return Ok(());

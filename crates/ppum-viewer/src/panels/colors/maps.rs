@@ -6,10 +6,11 @@ use egui::{Color32, FontId, Mesh, Painter, Rect, Response, Sense, Ui, pos2, vec2
 use ppum_render::colormap::{Colormap, NAMES};
 
 use crate::shapes::color;
-use crate::widgets::chooser::Choice;
+use crate::widgets::chooser::ChooserItem;
 
 /// The built-in maps as choices.
-pub(super) static CHOICES: LazyLock<Vec<Choice>> = LazyLock::new(|| NAMES.map(choice).to_vec());
+pub(super) static CHOICES: LazyLock<Vec<ChooserItem>> =
+    LazyLock::new(|| NAMES.map(choice).to_vec());
 
 static STRIPS: LazyLock<Vec<(&str, Vec<Color32>)>> = LazyLock::new(|| {
     let strip = |name| Colormap::named(name).map(|map| colors(&map)).unwrap_or_default();
@@ -19,14 +20,14 @@ static STRIPS: LazyLock<Vec<(&str, Vec<Color32>)>> = LazyLock::new(|| {
 /// Colours of a preview.
 const COUNT: usize = 256;
 
-fn choice(name: &str) -> Choice {
+fn choice(name: &str) -> ChooserItem {
     let group = match name {
         "coolwarm" | "vik" | "roma" => "On both sides of zero",
         "twilight" => "For angles",
         "turbo" | "batlow" => "Many colours",
         _ => "From dark to light",
     };
-    Choice { value: name.into(), about: String::new(), group }
+    ChooserItem { value: name.into(), about: String::new(), group }
 }
 
 fn colors(map: &Colormap) -> Vec<Color32> {
@@ -34,7 +35,7 @@ fn colors(map: &Colormap) -> Vec<Color32> {
 }
 
 /// A row of the list: colours and name.
-pub(super) fn row(ui: &mut Ui, choice: &Choice, is_at: bool) -> Response {
+pub(super) fn row(ui: &mut Ui, choice: &ChooserItem, is_at: bool) -> Response {
     let size = vec2(ui.available_width(), 20.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let visuals = ui.style().interact_selectable(&response, is_at);

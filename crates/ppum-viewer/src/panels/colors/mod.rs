@@ -8,23 +8,23 @@ use std::sync::{Arc, Weak};
 use egui::{DragValue, Ui};
 use ppum_render::colormap::{Colormap, Rgb};
 use ppum_render::scale::Scale;
-use ppum_scene::colors::{Colors, MOST_BANDS};
+use ppum_scene::colors::{ColorOptions, MOST_BANDS};
 use ppum_scene::help::tooltip;
-use ppum_scene::range::Telling;
+use ppum_scene::range::RangeLocations;
 
 use super::failure;
 use crate::controls::Controls;
 use crate::controls::facts::Facts;
-use crate::desk::Desk;
-use crate::frames::{Fault, Frame};
-use crate::stage::Stage;
+use crate::frames::{FaultOrigin, RenderedFrame};
+use crate::panel_context::PanelContext;
+use crate::stage::ViewPane;
 use crate::widgets::note_of;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     let default = stage.frames.newest().map(|frame| frame.default_map());
-    let default = default.unwrap_or(Colors::default_map(None));
+    let default = default.unwrap_or(ColorOptions::default_map(None));
     let colors = &mut pane.scene.colors;
     map(ui, colors, &mut stage.controls, default);
     scale(ui, colors);
@@ -32,11 +32,11 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     beyond(ui, &mut pane.scene.colors);
     without_value(ui, &mut pane.scene.colors);
     colors_note(ui, stage);
-    failure(ui, stage, Fault::Colors);
+    failure(ui, stage, FaultOrigin::Colors);
 }
 
 /// The map: which, reversed, in steps.
-fn map(ui: &mut Ui, colors: &mut Colors, controls: &mut Controls, default: &str) {
+fn map(ui: &mut Ui, colors: &mut ColorOptions, controls: &mut Controls, default: &str) {
     let name = colors.colormap.clone().unwrap_or_else(|| default.to_owned());
     let base = name.strip_suffix("_r").unwrap_or(&name).to_owned();
     let mut is_reversed = base != name;
@@ -61,7 +61,7 @@ fn map(ui: &mut Ui, colors: &mut Colors, controls: &mut Controls, default: &str)
     }
 }
 
-fn bands(ui: &mut Ui, colors: &mut Colors) {
+fn bands(ui: &mut Ui, colors: &mut ColorOptions) {
     let mut has_bands = colors.bands.is_some();
     if ui.checkbox(&mut has_bands, "in steps").on_hover_text(tooltip("bands")).changed() {
         colors.bands = has_bands.then_some(8);
@@ -72,7 +72,7 @@ fn bands(ui: &mut Ui, colors: &mut Colors) {
     }
 }
 
-fn scale(ui: &mut Ui, colors: &mut Colors) {
+fn scale(ui: &mut Ui, colors: &mut ColorOptions) {
     ui.horizontal(|ui| {
         for (scale, name, meaning) in [
             (Scale::Linear, "linear", "Equal steps"),
@@ -85,13 +85,13 @@ fn scale(ui: &mut Ui, colors: &mut Colors) {
 }
 
 /// The colours of values below and above the range.
-fn beyond(ui: &mut Ui, colors: &mut Colors) {
+fn beyond(ui: &mut Ui, colors: &mut ColorOptions) {
     let contrast = ui.checkbox(&mut colors.contrast, "contrast beyond the range");
     contrast.on_hover_text(tooltip("extremes"));
 }
 
 /// The colour of points without a value.
-fn without_value(ui: &mut Ui, colors: &mut Colors) {
+fn without_value(ui: &mut Ui, colors: &mut ColorOptions) {
     ui.horizontal(|ui| {
         let mut has_color = colors.nan_color.is_some();
         let checkbox = ui.checkbox(&mut has_color, "colour for no value");
@@ -104,11 +104,11 @@ fn without_value(ui: &mut Ui, colors: &mut Colors) {
     });
 }
 
-/// What the colours mean, and between which values all others lie.
-fn colors_note(ui: &mut Ui, stage: &mut Stage) {
+/// Shows the meaning of the colours, and the bounds of all other values.
+fn colors_note(ui: &mut Ui, stage: &mut ViewPane) {
     let Some(frame) = stage.frames.newest() else { return };
     let Controls { colors_told, facts, .. } = &mut stage.controls;
-    let is_told = |(of, _): &(Weak<Frame>, _)| of.as_ptr() == Arc::as_ptr(frame);
+    let is_told = |(of, _): &(Weak<RenderedFrame>, _)| of.as_ptr() == Arc::as_ptr(frame);
     if !colors_told.as_ref().is_some_and(is_told) {
         *colors_told = Some((Arc::downgrade(frame), words(frame, facts)));
     }
@@ -121,11 +121,11 @@ fn colors_note(ui: &mut Ui, stage: &mut Stage) {
 const LINES: usize = 4;
 
 /// Pixels are counted for it.
-fn words(frame: &Frame, facts: &Facts) -> String {
+fn words(frame: &RenderedFrame, facts: &Facts) -> String {
     let (dataset, field) = (frame.field.dataset(), frame.field.field());
     let telling = match facts.places {
-        Some(places) => Telling::with(places, field),
-        None => Telling::new(dataset, field),
+        Some(places) => RangeLocations::with(places, field),
+        None => RangeLocations::new(dataset, field),
     };
     let text = telling.colors(&frame.picture);
     match frame.drawn.undefined() {

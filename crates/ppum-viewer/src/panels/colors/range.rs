@@ -1,24 +1,24 @@
-//! The range of the colours: found, of the whole plate, fixed.
+//! The range of the colours: found, of the whole body, fixed.
 
 use std::ops::Range as Steps;
 
 use egui::{Button, DragValue, Response, RichText, TextStyle, Ui};
 use ppum::text::trimmed_to;
-use ppum_render::range::Range;
-use ppum_scene::colors::Colors;
+use ppum_render::range::RangeChoice;
+use ppum_scene::colors::ColorOptions;
 use ppum_scene::help::tooltip;
 
 use crate::controls::range::{digits, parse, set};
 use crate::controls::whole::Whole;
 use crate::panels::{note, wrong};
 use crate::session::Pane;
-use crate::stage::Stage;
+use crate::stage::ViewPane;
 
 /// Digits of a bound that is shown, at least: all that a range has that was found are not read.
 const DIGITS: usize = 5;
 
 /// Shows it.
-pub(super) fn show(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
+pub(super) fn show(ui: &mut Ui, pane: &mut Pane, stage: &mut ViewPane) {
     let colors = &mut pane.scene.colors;
     let bounds = stage.frames.newest().map(|frame| {
         let norm = &frame.picture.normalization;
@@ -26,7 +26,7 @@ pub(super) fn show(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
     });
     let bounds = bounds.unwrap_or([0.0, 1.0]);
     kinds(ui, colors, bounds);
-    if let Range::Percentiles(p, q) = colors.range {
+    if let RangeChoice::Percentiles(p, q) = colors.range {
         percentiles(ui, colors, [p, q]);
     } else {
         fixed(ui, colors, stage, bounds);
@@ -42,23 +42,23 @@ pub(super) fn show(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
 }
 
 /// The rules.
-fn kinds(ui: &mut Ui, colors: &mut Colors, bounds: [f64; 2]) {
+fn kinds(ui: &mut Ui, colors: &mut ColorOptions, bounds: [f64; 2]) {
     ui.horizontal_wrapped(|ui| {
         let percentiles = match colors.range {
-            found @ Range::Percentiles(..) => found,
-            _ => Range::Percentiles(2.0, 98.0),
+            found @ RangeChoice::Percentiles(..) => found,
+            _ => RangeChoice::Percentiles(2.0, 98.0),
         };
         let frozen = match colors.range {
-            given @ Range::Fixed(..) => given,
-            _ => Range::Fixed(bounds[0], bounds[1]),
+            given @ RangeChoice::Fixed(..) => given,
+            _ => RangeChoice::Fixed(bounds[0], bounds[1]),
         };
         for (range, name, meaning) in [
             (
-                Range::Auto,
+                RangeChoice::Auto,
                 "auto",
                 "All values of the view, but robust against peaks that are infinite",
             ),
-            (Range::Full, "full", "All finite values of the view"),
+            (RangeChoice::Full, "full", "All finite values of the view"),
             (percentiles, "percentiles", "Between two percentiles of the view"),
             (frozen, "fixed", "The range stays as it is now, wherever one goes"),
         ] {
@@ -67,21 +67,21 @@ fn kinds(ui: &mut Ui, colors: &mut Colors, bounds: [f64; 2]) {
     });
 }
 
-fn percentiles(ui: &mut Ui, colors: &mut Colors, [mut p, mut q]: [f64; 2]) {
+fn percentiles(ui: &mut Ui, colors: &mut ColorOptions, [mut p, mut q]: [f64; 2]) {
     ui.horizontal(|ui| {
         let low = DragValue::new(&mut p).range(0.0..=q - 0.1).speed(0.1).suffix(" %");
         let low = ui.add(low).accessible_name("Lower percentile");
         let high = DragValue::new(&mut q).range(p + 0.1..=100.0).speed(0.1).suffix(" %");
         if low.union(ui.add(high).accessible_name("Upper percentile")).changed() {
-            colors.range = Range::Percentiles(p, q);
+            colors.range = RangeChoice::Percentiles(p, q);
         }
     });
 }
 
 /// The two ends as numbers, those that were found too: whoever changes one fixes both.
-fn fixed(ui: &mut Ui, colors: &mut Colors, stage: &mut Stage, bounds: [f64; 2]) {
+fn fixed(ui: &mut Ui, colors: &mut ColorOptions, stage: &mut ViewPane, bounds: [f64; 2]) {
     let mut ends = match colors.range {
-        Range::Fixed(min, max) => [min, max],
+        RangeChoice::Fixed(min, max) => [min, max],
         _ => bounds,
     };
     let speed = ((ends[1] - ends[0]).abs() / 300.0).max(f64::MIN_POSITIVE);
@@ -105,15 +105,15 @@ fn fixed(ui: &mut Ui, colors: &mut Colors, stage: &mut Stage, bounds: [f64; 2]) 
 }
 
 /// Makes a fixed range one around zero.
-fn mirror(colors: &mut Colors) {
-    if let Range::Fixed(min, max) = colors.range {
+fn mirror(colors: &mut ColorOptions) {
+    if let RangeChoice::Fixed(min, max) = colors.range {
         let size = min.abs().max(max.abs());
-        colors.range = Range::Fixed(-size, size);
+        colors.range = RangeChoice::Fixed(-size, size);
     }
 }
 
-/// The range of the whole plate, found in the background.
-fn whole(ui: &mut Ui, pane: &Pane, stage: &mut Stage) {
+/// The range of the whole body, found in the background.
+fn whole(ui: &mut Ui, pane: &Pane, stage: &mut ViewPane) {
     let Some(opened) = &stage.opened else { return };
     let controls = &mut stage.controls;
     let count = opened.dataset.steps.len();

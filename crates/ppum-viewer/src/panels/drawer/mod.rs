@@ -1,4 +1,4 @@
-//! The drawer below the plate: one page at a time.
+//! The drawer below the view: one page at a time.
 
 pub mod plot;
 pub mod problem;
@@ -9,12 +9,12 @@ pub mod tips;
 use egui::{Panel, Ui};
 
 use crate::actions::Action;
-use crate::desk::Desk;
+use crate::panel_context::PanelContext;
 use crate::session::DrawerPage;
 use crate::widgets::button;
 
 /// Shows the names of all pages, and the open one below them.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let Some(page) = desk.session.drawer else {
         Panel::bottom("pages").resizable(false).show(ui, |ui| ui.horizontal(|ui| tabs(ui, desk)));
         return;
@@ -46,7 +46,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
 }
 
 /// The names of the pages; a click opens one, or closes it.
-fn tabs(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn tabs(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     for page in DrawerPage::ALL {
         let is_open = desk.session.drawer == Some(page);
         if ui.selectable_label(is_open, name(page)).clicked() {

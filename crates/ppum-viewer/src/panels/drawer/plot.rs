@@ -1,26 +1,26 @@
-//! Values along a curve: which one, of what, and the plot, whose points are found on the plate.
+//! Values along a curve: which one, of what, and the plot, whose points are found on the body.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use egui::{Align2, Color32, ComboBox, DragValue, FontId, Rect, Sense, Stroke, Ui, vec2};
 use ppum::crack::{Crack, tips};
-use ppum_figure::plot::{Area, LEAST, Plot, plot};
-use ppum_scene::profile::Along;
+use ppum_figure::plot::{LEAST, Plot, PlotArea, plot};
+use ppum_scene::profile::ProfileCurve;
 
-use crate::desk::Desk;
-use crate::reading::plotted::{Asked, CurveValues};
+use crate::panel_context::PanelContext;
+use crate::reading::plot_request::{CurveValues, PlotRequest};
 use crate::reading::tool::Tool;
 use crate::session::Pane;
-use crate::shapes::{self, Placed};
-use crate::stage::Stage;
+use crate::shapes::{self, ImagePlacement};
+use crate::stage::ViewPane;
 use crate::widgets::chart::darkened;
 use crate::widgets::entry::entry;
 use crate::widgets::wrong;
 use crate::widgets::{button, note_folder};
 
 /// Shows the page.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     ui.horizontal_wrapped(|ui| chooser(ui, pane, stage));
     stage.reading.marked = None;
@@ -28,7 +28,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
     if frame.subtracted.is_some() {
         ui.weak("Of the view on the right alone: a curve is of one field.");
     }
-    let Some(asked) = Asked::of(pane, &frame.field) else {
+    let Some(asked) = PlotRequest::of(pane, &frame.field) else {
         ui.weak("Draw a line or a circle over the plate, or choose a crack or a tip.");
         return;
     };
@@ -64,7 +64,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
 }
 
 /// Buttons for the files of a plot.
-fn save(ui: &mut Ui, stage: &mut Stage, values: &CurveValues, drawn: &Plot) {
+fn save(ui: &mut Ui, stage: &mut ViewPane, values: &CurveValues, drawn: &Plot) {
     let page = || plot(drawn, PAGE);
     let files: [(&str, &dyn Fn() -> Vec<u8>); 4] = [
         ("csv", &|| values.table.csv().into_bytes()),
@@ -79,7 +79,7 @@ fn save(ui: &mut Ui, stage: &mut Stage, values: &CurveValues, drawn: &Plot) {
 const PAGE: [u32; 2] = [900, 600];
 
 /// Which curve.
-fn chooser(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
+fn chooser(ui: &mut Ui, pane: &mut Pane, stage: &mut ViewPane) {
     let cracks = stage.cracks(pane);
     let cracks = cracks.as_deref().unwrap_or_default();
     let chosen = pane.curve.as_ref().map_or("no curve".into(), name);
@@ -91,7 +91,7 @@ fn chooser(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
         }
         if pane.curve != before {
             stage.reading.refused = None;
-            let is_ray = matches!(pane.curve, Some(Along::Ray { .. }));
+            let is_ray = matches!(pane.curve, Some(ProfileCurve::Ray { .. }));
             pane.plot.log = [is_ray; 2];
         }
     });
@@ -116,46 +116,48 @@ fn chooser(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
 }
 
 /// The curves of a step that need no drawing.
-fn choices(cracks: &[Crack], stage: &Stage) -> Vec<(Option<Along>, String)> {
+fn choices(cracks: &[Crack], stage: &ViewPane) -> Vec<(Option<ProfileCurve>, String)> {
     const MOST: usize = 100;
     let mut all = vec![None];
     all.push(stage.middle());
-    all.extend((0..cracks.len().min(MOST)).map(|index| Some(Along::Crack { index })));
+    all.extend((0..cracks.len().min(MOST)).map(|index| Some(ProfileCurve::Crack { index })));
     for tip in 0..tips(cracks).count().min(MOST) {
-        all.push(Some(Along::Around { tip, radius: None }));
-        all.push(Some(Along::Ray { tip, angle: 0.0, far: None }));
+        all.push(Some(ProfileCurve::Around { tip, radius: None }));
+        all.push(Some(ProfileCurve::Ray { tip, angle: 0.0, far: None }));
     }
-    let named = |along: Option<Along>| {
+    let named = |along: Option<ProfileCurve>| {
         let name = along.as_ref().map_or("no curve".into(), name);
         (along, name)
     };
     all.into_iter().map(named).collect()
 }
 
-fn name(along: &Along) -> String {
+fn name(along: &ProfileCurve) -> String {
     match along {
-        Along::Line { .. } => "line".into(),
-        Along::Circle { .. } => "circle".into(),
-        Along::Crack { index } => format!("crack {index}"),
-        Along::Around { tip, .. } => format!("around tip {tip}"),
-        Along::Ray { tip, .. } => format!("ray from tip {tip}"),
+        ProfileCurve::Line { .. } => "line".into(),
+        ProfileCurve::Circle { .. } => "circle".into(),
+        ProfileCurve::Crack { index } => format!("crack {index}"),
+        ProfileCurve::Around { tip, .. } => format!("around tip {tip}"),
+        ProfileCurve::Ray { tip, .. } => format!("ray from tip {tip}"),
     }
 }
 
 /// The numbers of the curve, to be edited.
-fn numbers(ui: &mut Ui, pane: &mut Pane, stage: &mut Stage) {
+fn numbers(ui: &mut Ui, pane: &mut Pane, stage: &mut ViewPane) {
     let Some(along) = pane.curve else { return };
     let (hint, values): (&str, Vec<f64>) = match along {
-        Along::Line { from, to, .. } => ("x, y to x, y", [from, to].concat()),
-        Along::Circle { center, radius } => ("centre, radius", vec![center[0], center[1], radius]),
-        Along::Around { radius, .. } => ("radius", radius.into_iter().collect()),
-        Along::Ray { angle, far, .. } => {
+        ProfileCurve::Line { from, to, .. } => ("x, y to x, y", [from, to].concat()),
+        ProfileCurve::Circle { center, radius } => {
+            ("centre, radius", vec![center[0], center[1], radius])
+        }
+        ProfileCurve::Around { radius, .. } => ("radius", radius.into_iter().collect()),
+        ProfileCurve::Ray { angle, far, .. } => {
             ("angle, length", [angle].into_iter().chain(far).collect())
         }
-        Along::Crack { .. } => return,
+        ProfileCurve::Crack { .. } => return,
     };
     let texts: Vec<String> = values.iter().map(|v| number_text(*v)).collect();
-    if let Along::Line { anchor, .. } = along
+    if let ProfileCurve::Line { anchor, .. } = along
         && anchor != [0.0; 2]
     {
         ui.label(format!("({}, {}) +", ppum::text::exact(anchor[0]), ppum::text::exact(anchor[1])));
@@ -182,7 +184,7 @@ fn number_text(value: f64) -> String {
 
 /// A curve with the numbers of a text, of which those that stand as they did are what they were;
 /// none if these are not the ones that it needs.
-fn with_numbers(along: Along, text: &str, before: &[f64]) -> Option<Along> {
+fn with_numbers(along: ProfileCurve, text: &str, before: &[f64]) -> Option<ProfileCurve> {
     let read = |(k, part): (usize, &str)| {
         let part = part.trim().replace('−', "-");
         let same = before.get(k).filter(|value| number_text(**value) == part);
@@ -191,13 +193,21 @@ fn with_numbers(along: Along, text: &str, before: &[f64]) -> Option<Along> {
     let parsed: Result<Vec<f64>, _> = text.split(',').enumerate().map(read).collect();
     let numbers = parsed.ok().filter(|all| all.iter().all(|v: &f64| v.is_finite()))?;
     match (along, &numbers[..]) {
-        (Along::Line { anchor, .. }, &[x0, y0, x1, y1]) => {
-            Some(Along::Line { anchor, from: [x0, y0], to: [x1, y1] })
+        (ProfileCurve::Line { anchor, .. }, &[x0, y0, x1, y1]) => {
+            Some(ProfileCurve::Line { anchor, from: [x0, y0], to: [x1, y1] })
         }
-        (Along::Circle { .. }, &[x, y, radius]) => Some(Along::Circle { center: [x, y], radius }),
-        (Along::Around { tip, .. }, &[radius]) => Some(Along::Around { tip, radius: Some(radius) }),
-        (Along::Ray { tip, far, .. }, &[angle]) => Some(Along::Ray { tip, angle, far }),
-        (Along::Ray { tip, .. }, &[angle, far]) => Some(Along::Ray { tip, angle, far: Some(far) }),
+        (ProfileCurve::Circle { .. }, &[x, y, radius]) => {
+            Some(ProfileCurve::Circle { center: [x, y], radius })
+        }
+        (ProfileCurve::Around { tip, .. }, &[radius]) => {
+            Some(ProfileCurve::Around { tip, radius: Some(radius) })
+        }
+        (ProfileCurve::Ray { tip, far, .. }, &[angle]) => {
+            Some(ProfileCurve::Ray { tip, angle, far })
+        }
+        (ProfileCurve::Ray { tip, .. }, &[angle, far]) => {
+            Some(ProfileCurve::Ray { tip, angle, far: Some(far) })
+        }
         _ => None,
     }
 }
@@ -218,14 +228,14 @@ fn settings(ui: &mut Ui, pane: &mut Pane) {
 }
 
 /// Ends of names of files, and what is written into them.
-type Files<'a> = [(&'a str, &'a dyn Fn() -> Vec<u8>)];
+type PlotFiles<'a> = [(&'a str, &'a dyn Fn() -> Vec<u8>)];
 
 /// Buttons that copy and write files, with what became of the last one; they go beside the dataset
 /// and are named after it and what they hold unless another name is given.
 pub(crate) fn outputs(
     ui: &mut Ui,
-    stage: &mut Stage,
-    (what, files): (&str, &Files<'_>),
+    stage: &mut ViewPane,
+    (what, files): (&str, &PlotFiles<'_>),
     text: &dyn Fn() -> String,
 ) {
     if ui.button("Copy CSV").clicked() {
@@ -235,7 +245,7 @@ pub(crate) fn outputs(
     write(ui, stage, what, files);
 }
 
-fn write(ui: &mut Ui, stage: &mut Stage, what: &str, files: &Files<'_>) {
+fn write(ui: &mut Ui, stage: &mut ViewPane, what: &str, files: &PlotFiles<'_>) {
     let input = stage.opened.as_ref().and_then(|opened| opened.path.clone());
     let inputs: Vec<&Path> = input.as_deref().into_iter().collect();
     let dataset = input.clone().unwrap_or_else(|| PathBuf::from("solution"));
@@ -263,13 +273,13 @@ fn write(ui: &mut Ui, stage: &mut Stage, what: &str, files: &Files<'_>) {
     }
 }
 
-/// The plot; the pointer in it marks the point on the plate and reads the values there.
-fn graph(ui: &mut Ui, pane: &Pane, stage: &mut Stage, values: &CurveValues, drawn: &Plot) {
+/// The plot; the pointer in it marks the point on the body and reads the values there.
+fn graph(ui: &mut Ui, pane: &Pane, stage: &mut ViewPane, values: &CurveValues, drawn: &Plot) {
     let room = ui.available_size().max(vec2(LEAST[0] as f32, LEAST[1] as f32) * SMALLER);
     let (rect, response) = ui.allocate_exact_size(room, Sense::hover());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Plotted curves"));
     let size = [rect.width(), rect.height()].map(|points| ((points / SMALLER) as u32).max(1));
-    let placed = Placed::new(rect.min, SMALLER);
+    let placed = ImagePlacement::new(rect.min, SMALLER);
     let painter = ui.painter_at(rect);
     let mut page = plot(drawn, size);
     if ui.visuals().dark_mode {
@@ -277,7 +287,7 @@ fn graph(ui: &mut Ui, pane: &Pane, stage: &mut Stage, values: &CurveValues, draw
     }
     painter.rect_filled(rect, 0.0, shapes::color(page.paper));
     shapes::draw(&painter, placed, &page.items);
-    let area = Area::new(drawn, size);
+    let area = PlotArea::new(drawn, size);
     let Some(at) = response.hover_pos() else { return };
     let column = f64::from((at.x - rect.min.x) / SMALLER);
     let Some((row, spot)) = values.nearest(area.across(column), pane.plot.log[0]) else { return };

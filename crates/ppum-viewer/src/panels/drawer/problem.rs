@@ -1,4 +1,4 @@
-//! The problem: its text with the mistakes in it, and its solution.
+//! The problem: its text with the errors in it, and its solution.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -12,20 +12,22 @@ use ppum::text::trimmed;
 use ppum_problem::keys::completions;
 
 use crate::actions::Action;
-use crate::desk::Desk;
+use crate::panel_context::PanelContext;
 use crate::session::ProblemDraft;
 use crate::shapes;
 use crate::solving::marks::HighlightStyle;
 use crate::solving::preview::Preview;
-use crate::solving::{Mark, PHASES, Running, SolutionOutcome, Solving, editor_id, phase_number};
-use crate::stage::Stage;
+use crate::solving::{
+    Mark, PHASES, RunningSolution, SolutionOutcome, SolverPane, editor_id, phase_number,
+};
+use crate::stage::ViewPane;
 use crate::widgets::{button, elided};
 
-/// Longest text that is written in a window: every picture lays all of it out.
+/// Longest text that is written in a window: every image lays all of it out.
 pub const MAX_LENGTH: usize = 200_000;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let Some(mut draft) = desk.session.draft.take() else {
         let has_dataset = desk.active().1.opened.is_some();
         let empty =
@@ -60,7 +62,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
 }
 
 /// The text with the numbers of its lines.
-fn editor(ui: &mut Ui, draft: &mut ProblemDraft, solving: &mut Solving) {
+fn editor(ui: &mut Ui, draft: &mut ProblemDraft, solving: &mut SolverPane) {
     if draft.text.len() > MAX_LENGTH {
         ui.label("This text is too long to be written here. Its file is watched: save it elsewhere, and it is read again.");
         return;
@@ -154,7 +156,7 @@ fn still_there(before: &str, now: &str, marks: &[Mark]) -> Vec<Mark> {
 }
 
 /// Buttons for the text, and the state of its solution.
-fn solution_panel(ui: &mut Ui, draft: &ProblemDraft, desk: &mut Desk<'_>) {
+fn solution_panel(ui: &mut Ui, draft: &ProblemDraft, desk: &mut PanelContext<'_>) {
     buttons(ui, draft, desk);
     texts_aside(ui, desk);
     if let Some(running) = desk.solving.running() {
@@ -182,7 +184,7 @@ fn solution_panel(ui: &mut Ui, draft: &ProblemDraft, desk: &mut Desk<'_>) {
 }
 
 /// Changed texts that have made place for others.
-fn texts_aside(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn texts_aside(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     for (number, text) in desk.files.texts().iter().enumerate() {
         ui.horizontal(|ui| {
             let name = format!("Back to {} *", elided(&text.name(), LONGEST_NAME));
@@ -202,7 +204,7 @@ fn texts_aside(ui: &mut Ui, desk: &mut Desk<'_>) {
 const LONGEST_NAME: usize = 28;
 
 /// Why the last solution has left nothing.
-fn failure(ui: &mut Ui, desk: &Desk<'_>) {
+fn failure(ui: &mut Ui, desk: &PanelContext<'_>) {
     let Some(outcome) = &desk.solving.outcome else { return };
     let mut shown = desk.stages.iter().filter_map(|stage| stage.opened.as_ref()?.solution.as_ref());
     if shown.any(|solution| solution.outcome == *outcome) {
@@ -220,13 +222,13 @@ fn failure(ui: &mut Ui, desk: &Desk<'_>) {
     }
 }
 
-/// What is shown, if it was solved here or no file has it: each solution has its own button, which
-/// goes once it is saved.
-fn solutions(ui: &mut Ui, desk: &mut Desk<'_>) {
+/// Shows the solution, if it was solved here or no file has it: each solution has its own button,
+/// which goes once it is saved.
+fn solutions(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let are_two = desk.stages.len() > 1;
     for (pane, stage) in desk.stages.iter().enumerate() {
         let Some(opened) = &stage.opened else { continue };
-        let is_same = |other: &Stage| {
+        let is_same = |other: &ViewPane| {
             other.opened.as_ref().is_some_and(|o| Arc::ptr_eq(&o.dataset, &opened.dataset))
         };
         let outcome = opened.solution.as_ref().map(|solution| &solution.outcome);
@@ -282,7 +284,7 @@ fn sentence(place: &str, outcome: Option<&SolutionOutcome>, is_unsaved: bool) ->
     }
 }
 
-/// What the text describes: plate, holes, cracks, supports and loads.
+/// Draws the geometry of the text: body, holes, cracks, supports and loads.
 fn show_preview(ui: &mut Ui, preview: &Preview) {
     let width = ui.available_width();
     let size = vec2(width, (0.8 * width).min(ui.available_height().max(160.0)));
@@ -291,10 +293,10 @@ fn show_preview(ui: &mut Ui, preview: &Preview) {
     let text = format!("The problem as it is written: cracks {cracks}, holes {holes}");
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &text));
     let items = preview.items([size.x as u32, size.y as u32], 1.0);
-    shapes::draw(&ui.painter_at(rect), shapes::Placed::new(rect.min, 1.0), &items);
+    shapes::draw(&ui.painter_at(rect), shapes::ImagePlacement::new(rect.min, 1.0), &items);
 }
 
-fn buttons(ui: &mut Ui, draft: &ProblemDraft, desk: &mut Desk<'_>) {
+fn buttons(ui: &mut Ui, draft: &ProblemDraft, desk: &mut PanelContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         let is_running = desk.solving.running().is_some();
         let solve = ui.add_enabled(!is_running, egui::Button::new("Solve"));
@@ -326,7 +328,7 @@ fn buttons(ui: &mut Ui, draft: &ProblemDraft, desk: &mut Desk<'_>) {
 }
 
 /// How far the solution has come.
-fn progress(ui: &mut Ui, running: &Running) {
+fn progress(ui: &mut Ui, running: &RunningSolution) {
     let told = running.progress_report();
     if let Some(estimate) = &told.estimate {
         ui.weak(estimate);
@@ -345,10 +347,10 @@ fn progress(ui: &mut Ui, running: &Running) {
     ui.ctx().request_repaint_after(std::time::Duration::from_millis(500));
 }
 
-/// Mistakes that are listed: nobody reads more of them at a time.
+/// Errors that are listed: nobody reads more of them at a time.
 const SHOWN: Range<usize> = 0..50;
 
-fn mistakes(ui: &mut Ui, marks: &[Mark], solving: &mut Solving) {
+fn mistakes(ui: &mut Ui, marks: &[Mark], solving: &mut SolverPane) {
     for mark in &marks[SHOWN.start..SHOWN.end.min(marks.len())] {
         let text = match mark.at {
             Some([line, column]) => format!("{line}:{column}  {}", mark.message),

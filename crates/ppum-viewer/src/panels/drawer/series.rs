@@ -7,14 +7,14 @@ use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, TipIntensity};
 use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve};
 
-use crate::desk::Desk;
+use crate::panel_context::PanelContext;
 use crate::widgets::chart::chart;
 
 /// Values of each step, as a curve.
-type Values = Vec<(String, Vec<[f64; 2]>)>;
+type StepValues = Vec<(String, Vec<[f64; 2]>)>;
 
 /// Shows it; a click goes to the step.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     let Some(opened) = &stage.opened else { return };
     let dataset = &opened.dataset;
@@ -78,7 +78,7 @@ pub fn plots(dataset: &Dataset) -> Vec<(&'static str, Plot)> {
     some.map(|(name, label, values)| (name, plot(label, values))).collect()
 }
 
-fn plot(label: &str, values: Values) -> Plot {
+fn plot(label: &str, values: StepValues) -> Plot {
     let is_one = values.len() == 1;
     let curve = |(name, points): (String, Vec<[f64; 2]>)| {
         let name = if is_one { String::new() } else { name };
@@ -95,7 +95,7 @@ fn course(dataset: &Dataset, value: impl Fn(&Step) -> f64) -> Vec<[f64; 2]> {
 }
 
 /// A value of each tip in the steps that have it; broken where it is missing.
-fn by_tip(dataset: &Dataset, value: impl Fn(&Step, usize) -> Option<f64>) -> Values {
+fn by_tip(dataset: &Dataset, value: impl Fn(&Step, usize) -> Option<f64>) -> StepValues {
     let count = dataset.steps.iter().map(|step| tips(&step.cracks).count()).max().unwrap_or(0);
     let count = count.min(MOST);
     let curve = |number: usize| {
@@ -107,7 +107,7 @@ fn by_tip(dataset: &Dataset, value: impl Fn(&Step, usize) -> Option<f64>) -> Val
 }
 
 /// The length of each crack in the steps that have it.
-fn by_crack(dataset: &Dataset) -> Values {
+fn by_crack(dataset: &Dataset) -> StepValues {
     let count = dataset.steps.iter().map(|step| step.cracks.len()).max().unwrap_or(0);
     let count = count.min(MOST);
     let curve = |number: usize| {

@@ -1,5 +1,5 @@
-//! What the solver has told of a step: its numbers, the seconds of its phases, its warnings; and
-//! values of patches as colours.
+//! The solver's report of a step: its numbers, the seconds of its phases, its warnings; and values
+//! of patches as colours.
 
 use egui::{Grid, ScrollArea, Ui, vec2};
 use ppum::dataset::{Dataset, Record, Step, Warning};
@@ -11,13 +11,13 @@ use ppum_scene::plots::adaptation;
 use ppum_scene::scene::OF_PATCHES;
 use ppum_solve::report;
 
-use crate::desk::Desk;
+use crate::panel_context::PanelContext;
 use crate::session::VisibleRegion;
 use crate::widgets::chart::chart;
 use crate::widgets::{elided, note};
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     let Some(dataset) = stage.opened.as_ref().map(|o| std::sync::Arc::clone(&o.dataset)) else {
         return;
@@ -52,7 +52,7 @@ const MOST: usize = 30;
 const LETTERS: usize = 30;
 
 /// Buttons that colour the patches by one of their values.
-fn patches(ui: &mut Ui, desk: &mut Desk<'_>) {
+fn patches(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     let Some(frame) = stage.frames.newest() else { return };
     let field = frame.field.field();
@@ -108,7 +108,7 @@ fn numbers(ui: &mut Ui, step: &Step, height: f32) {
 /// Width of a column of words, which are wrapped in it \[points\].
 const WIDEST: f32 = 240.0;
 
-/// What one looks for first.
+/// The records that are needed first.
 const FIRST: [&str; 4] = ["unknowns", "estimated error", "estimated error of factors", STOP];
 
 /// A number of the solver as one reads it: bytes in MiB, codes as words.
@@ -162,8 +162,8 @@ fn course(dataset: &Dataset, name: &str) -> Vec<[f64; 2]> {
     steps.filter_map(|(k, step)| Some([k as f64, value(step)?])).collect()
 }
 
-/// What the diagnostics warn of; a click flies there.
-fn warnings(ui: &mut Ui, desk: &mut Desk<'_>, dataset: &Dataset, step: &Step, height: f32) {
+/// Shows the warnings of the diagnostics; a click flies there.
+fn warnings(ui: &mut Ui, desk: &mut PanelContext<'_>, dataset: &Dataset, step: &Step, height: f32) {
     ScrollArea::vertical().id_salt("warnings").max_height(height).show(ui, |ui| {
         ui.vertical(|ui| {
             ui.set_width(if step.warnings.is_empty() { 90.0 } else { 320.0 });
@@ -181,7 +181,7 @@ fn warnings(ui: &mut Ui, desk: &mut Desk<'_>, dataset: &Dataset, step: &Step, he
     });
 }
 
-fn fly(desk: &mut Desk<'_>, dataset: &Dataset, warning: &Warning) {
+fn fly(desk: &mut PanelContext<'_>, dataset: &Dataset, warning: &Warning) {
     let Some(at) = warning.at else { return };
     let size = dataset.domain.bounds.size();
     let (pane, stage) = desk.active();

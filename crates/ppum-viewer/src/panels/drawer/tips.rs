@@ -1,19 +1,19 @@
 //! The table of the crack tips of the step: one line per tip, as `ppum sif` prints it.
 
 use egui::{Grid, RichText, ScrollArea, Ui};
-use ppum::text::Places;
+use ppum::text::LocationText;
 use ppum_scene::facts::{HEADS, MEANING, Tip};
 use ppum_scene::range::places;
-use ppum_scene::table::{Column, Table};
+use ppum_scene::table::{Column, NumberTable};
 
 use super::plot::outputs;
 use crate::actions::Action;
-use crate::desk::Desk;
+use crate::panel_context::PanelContext;
 use crate::reading::words::number;
 use crate::widgets::button;
 
 /// Shows the table; a click on a line flies to its tip.
-pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
+pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let (pane, stage) = desk.active();
     let Some(opened) = stage.opened.clone() else { return };
     stage.controls.facts.look_up(&opened.dataset, pane.scene.subject.step_of(&opened.dataset));
@@ -24,7 +24,7 @@ pub fn show(ui: &mut Ui, desk: &mut Desk<'_>) {
 }
 
 /// The rows that are seen: there may be thousands.
-fn rows(ui: &mut Ui, desk: &mut Desk<'_>, places: &Places, tips: &[Tip]) {
+fn rows(ui: &mut Ui, desk: &mut PanelContext<'_>, places: &LocationText, tips: &[Tip]) {
     if tips.is_empty() {
         ui.label("This step has no crack tips.");
         return;
@@ -59,7 +59,7 @@ fn rows(ui: &mut Ui, desk: &mut Desk<'_>, places: &Places, tips: &[Tip]) {
     });
 }
 
-/// What has a column: all but the checks, which tooltips tell.
+/// Returns the columns with values: all but the checks, which tooltips tell.
 fn shown<T>(columns: [T; 8]) -> impl Iterator<Item = T> {
     columns.into_iter().take(6)
 }
@@ -78,7 +78,7 @@ fn row(ui: &mut Ui, tip: &Tip, at: &str) {
 
 /// The tips with all digits.
 #[must_use]
-pub fn table(tips: &[Tip]) -> Table {
+pub fn table(tips: &[Tip]) -> NumberTable {
     let names = [
         "tip",
         "crack",
@@ -103,5 +103,5 @@ pub fn table(tips: &[Tip]) -> Table {
         let place = [number as f64, f64::from(crack), x, y, angle];
         place.into_iter().chain(factors.map(|n| n.0)).chain([error, tip.spread.0])
     };
-    Table::new(columns, tips.iter().enumerate().flat_map(row).collect())
+    NumberTable::new(columns, tips.iter().enumerate().flat_map(row).collect())
 }

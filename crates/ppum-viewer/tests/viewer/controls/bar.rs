@@ -2,7 +2,7 @@
 
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, vec2};
 use egui_kittest::kittest::Queryable;
-use ppum_render::range::Range;
+use ppum_render::range::RangeChoice;
 
 use super::{Window, bounds, plate_window, scene, write};
 use crate::kit::{plate, settle, window};
@@ -40,12 +40,12 @@ fn the_upper_end_is_dragged_to_half_and_taken_back() {
     assert_eq!(low, min);
     // half a point of the bar
     assert!((high - 0.5 * (min + max)).abs() < 2e-3 * (max - min), "{high}");
-    assert_eq!(scene(&window).colors.range, Range::Fixed(low, high));
+    assert_eq!(scene(&window).colors.range, RangeChoice::Fixed(low, high));
     // the values are what they were, so their extrema are still known
     assert!(window.query_by_label("Largest value").is_some());
     window.key_press_modifiers(Modifiers::COMMAND, Key::Z);
     settle(&mut window);
-    assert_eq!(scene(&window).colors.range, Range::Auto);
+    assert_eq!(scene(&window).colors.range, RangeChoice::Auto);
     assert_eq!(bounds(&window), [min, max]);
 }
 
@@ -63,7 +63,7 @@ fn the_middle_shifts_and_a_double_click_finds() {
     // the plate below has not moved
     assert_eq!(window.state().session.pane().place, place);
     double_click(&mut window, body.center());
-    assert_eq!(scene(&window).colors.range, Range::Auto);
+    assert_eq!(scene(&window).colors.range, RangeChoice::Auto);
 }
 
 #[test]
@@ -80,7 +80,7 @@ fn a_click_on_an_end_edits_its_number() {
     write(&mut window, "Upper end of the colours as a number", "1.25e0");
     window.key_press(Key::Enter);
     settle(&mut window);
-    assert_eq!(scene(&window).colors.range, Range::Fixed(min, 1.25));
+    assert_eq!(scene(&window).colors.range, RangeChoice::Fixed(min, 1.25));
     assert!(window.query_by_label("Upper end of the colours as a number").is_none());
     // a click elsewhere takes what is written, unless it is no end
     for (text, max) in [("1.5", 1.5), ("-9", 1.5), ("much", 1.5), ("2", 2.0)] {
@@ -89,7 +89,7 @@ fn a_click_on_an_end_edits_its_number() {
         let elsewhere = window.get_by_label("Plate").rect().left_center() + vec2(80.0, 0.0);
         press(&mut window, elsewhere);
         settle(&mut window);
-        assert_eq!(scene(&window).colors.range, Range::Fixed(min, max), "{text}");
+        assert_eq!(scene(&window).colors.range, RangeChoice::Fixed(min, max), "{text}");
         assert!(window.query_by_label("Upper end of the colours as a number").is_none());
     }
 }
@@ -137,7 +137,7 @@ fn extrema_are_marked_and_classes_are_blocks_that_nothing_drags() {
     assert!(window.query_by_label("Largest value").is_none());
     let body = window.get_by_label("Range of the colours").rect();
     drag(&mut window, body.center(), body.center() + vec2(0.0, 40.0));
-    assert_eq!(scene(&window).colors.range, Range::Auto);
+    assert_eq!(scene(&window).colors.range, RangeChoice::Auto);
 }
 
 #[test]

@@ -3,7 +3,7 @@
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use ppum_render::colormap::Colormap;
-use ppum_render::range::Range;
+use ppum_render::range::RangeChoice;
 use ppum_render::scale::Scale;
 
 use super::{bounds, click, frame, plate_window, scene, write};
@@ -66,7 +66,7 @@ fn an_end_that_is_written_fixes_the_range_and_an_impossible_one_is_refused() {
     window.get_by_label("Upper end").type_text("2.5");
     window.key_press(Key::Enter);
     settle(&mut window);
-    assert_eq!(scene(&window).colors.range, Range::Fixed(min, 2.5));
+    assert_eq!(scene(&window).colors.range, RangeChoice::Fixed(min, 2.5));
     assert_eq!(bounds(&window), [min, 2.5]);
     click(&mut window, "Lower end");
     window.key_press_modifiers(Modifiers::COMMAND, Key::A);
@@ -74,14 +74,14 @@ fn an_end_that_is_written_fixes_the_range_and_an_impossible_one_is_refused() {
     window.key_press(Key::Enter);
     settle(&mut window);
     assert!(window.query_by_label_contains("the range from 7 to 2.5 is empty").is_some());
-    assert_eq!(scene(&window).colors.range, Range::Fixed(min, 2.5));
+    assert_eq!(scene(&window).colors.range, RangeChoice::Fixed(min, 2.5));
 }
 
 #[test]
 fn percentiles_and_full_ranges_are_those_of_the_view() {
     let mut window = plate_window();
     click(&mut window, "percentiles");
-    assert_eq!(scene(&window).colors.range, Range::Percentiles(2.0, 98.0));
+    assert_eq!(scene(&window).colors.range, RangeChoice::Percentiles(2.0, 98.0));
     let [min, max] = bounds(&window);
     let ppum_scene::drawing::RasterValues::Double(raster) = frame(&window).drawn.values.clone()
     else {
@@ -130,10 +130,10 @@ fn the_range_of_the_plate_holds_deep_inside() {
     assert!(deep[1] - deep[0] < 0.9 * (whole[1] - whole[0]), "{deep:?} {whole:?}");
     click(&mut window, "whole plate");
     show_until(&mut window, "the range of the plate is found", |window| {
-        matches!(scene(window).colors.range, Range::Fixed(..))
+        matches!(scene(window).colors.range, RangeChoice::Fixed(..))
     });
     settle(&mut window);
-    let Range::Fixed(min, max) = scene(&window).colors.range else { panic!("it is fixed") };
+    let RangeChoice::Fixed(min, max) = scene(&window).colors.range else { panic!("it is fixed") };
     // the extrema of a smooth quantity, found from other pixels: to 1e-6 of their size
     let size = whole[1].abs().max(whole[0].abs());
     assert!((min - whole[0]).abs() < 1e-5 * size && (max - whole[1]).abs() < 1e-5 * size);
@@ -153,6 +153,6 @@ fn a_frozen_range_stays_where_it_is() {
     assert_eq!(bounds(&window), before);
     window.key_press(Key::R);
     settle(&mut window);
-    assert_eq!(scene(&window).colors.range, Range::Auto);
+    assert_eq!(scene(&window).colors.range, RangeChoice::Auto);
     assert_ne!(bounds(&window), before);
 }

@@ -3,7 +3,7 @@
 use egui::{Key, vec2};
 use egui_kittest::kittest::Queryable;
 use ppum_render::resample::norms::norms;
-use ppum_render::resample::{Grid, Interpolation};
+use ppum_render::resample::{Interpolation, SampleGrid};
 use ppum_scene::compare::Compare;
 use ppum_scene::drawing::RasterValues;
 
@@ -29,7 +29,7 @@ fn c_compares_and_the_panel_says_how_far_it_is() {
     assert_eq!(other.compare, compare);
     // the norms of samples that are taken anew
     let field = frame.field.field();
-    let grid = Grid::over_domain(field, [32, 32]).expect("a grid");
+    let grid = SampleGrid::over_domain(field, [32, 32]).expect("a grid");
     let quantity = frame.shown.quantity().expect("a quantity");
     let samples = grid.sample(field, quantity, ppum::progress::unwatched()).expect("samples");
     let RasterValues::Double(direct) = &frame.drawn.values else { panic!("of double precision") };

@@ -2,7 +2,7 @@
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
-use ppum_scene::deformed::Factor;
+use ppum_scene::deformed::Magnification;
 
 use super::{click, frame, open, plate_window, scene};
 use crate::kit::{plate, settle, show_until, window};
@@ -14,7 +14,7 @@ fn a_factor_is_chosen() {
     click(&mut window, "automatic");
     let automatic = frame(&window).factor.expect("the plate is deformed");
     click(&mut window, "factor");
-    assert_eq!(scene(&window).deformed, Some(Factor::Given(automatic)));
+    assert_eq!(scene(&window).deformed, Some(Magnification::Given(automatic)));
     window.get_by_label("Factor of the deformation").set_value_accesskit(-3.0 * automatic);
     settle(&mut window);
     let factor = frame(&window).factor.expect("the plate is deformed");
@@ -33,14 +33,14 @@ fn the_deformation_plays_without_changing_the_session() {
     let mut window = window(plate(), [700.0, 500.0]);
     window.key_press_modifiers(Modifiers::SHIFT, Key::D);
     window.step();
-    assert_eq!(scene(&window).deformed, Some(Factor::Auto));
+    assert_eq!(scene(&window).deformed, Some(Magnification::Auto));
     let mut factors = Vec::new();
     show_until(&mut window, "the factor moves", |window| {
         factors.extend(frame(window).factor);
         factors.dedup();
         factors.len() > 10
     });
-    assert_eq!(scene(&window).deformed, Some(Factor::Auto));
+    assert_eq!(scene(&window).deformed, Some(Magnification::Auto));
     window.key_press_modifiers(Modifiers::SHIFT, Key::D);
     settle(&mut window);
     let whole = frame(&window).factor.expect("the plate is deformed");

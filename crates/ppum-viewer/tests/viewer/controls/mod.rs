@@ -12,9 +12,9 @@ mod random;
 
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable;
-use ppum_scene::scene::Scene;
+use ppum_scene::scene::SceneRequest;
 use ppum_viewer::Viewer;
-use ppum_viewer::frames::Frame;
+use ppum_viewer::frames::RenderedFrame;
 use std::sync::Arc;
 
 use crate::kit::{plate, settle, window};
@@ -26,11 +26,11 @@ pub(crate) fn plate_window() -> Window {
     window(plate(), [1100.0, 1400.0])
 }
 
-pub(crate) fn scene(window: &Window) -> Scene {
+pub(crate) fn scene(window: &Window) -> SceneRequest {
     window.state().session.pane().scene.clone()
 }
 
-pub(crate) fn frame(window: &Window) -> Arc<Frame> {
+pub(crate) fn frame(window: &Window) -> Arc<RenderedFrame> {
     let newest = window.state().stages[0].frames.newest();
     Arc::clone(newest.expect("there is a picture"))
 }

@@ -2,8 +2,8 @@
 
 use egui::Key;
 use egui_kittest::kittest::{NodeT, Queryable};
-use ppum_figure::canvas::Item;
-use ppum_scene::overlays::{Levels, Overlay, SPACING};
+use ppum_figure::canvas::CanvasItem;
+use ppum_scene::overlays::{IsolineLevels, Overlay, SPACING};
 
 use super::{Window, click, frame, plate_window, scene, write};
 use crate::kit::settle;
@@ -44,17 +44,17 @@ fn every_overlay_is_a_switch() {
 fn isolines_have_levels_that_are_written() {
     let mut window = plate_window();
     click(&mut window, "isolines");
-    assert_eq!(scene(&window).overlays.isolines, Some(Levels::Auto));
+    assert_eq!(scene(&window).overlays.isolines, Some(IsolineLevels::Auto));
     let lines = |window: &super::Window| {
         let frame = frame(window);
-        frame.layers.items.iter().filter(|item| matches!(item, Item::Line { .. })).count()
+        frame.layers.items.iter().filter(|item| matches!(item, CanvasItem::Line { .. })).count()
     };
     assert!(lines(&window) > 0);
     write(&mut window, "Levels of isolines", "0.5, 1,");
-    assert_eq!(scene(&window).overlays.isolines, Some(Levels::At(vec![0.5, 1.0])));
+    assert_eq!(scene(&window).overlays.isolines, Some(IsolineLevels::At(vec![0.5, 1.0])));
     write(&mut window, "Levels of isolines", "0.5, x");
     assert!(window.query_by_label_contains("write finite values with commas between").is_some());
-    assert_eq!(scene(&window).overlays.isolines, Some(Levels::At(vec![0.5, 1.0])));
+    assert_eq!(scene(&window).overlays.isolines, Some(IsolineLevels::At(vec![0.5, 1.0])));
     write(&mut window, "Levels of isolines", "1e9,");
     assert!(window.query_by_label_contains("no isoline lies in the picture").is_some());
     write(&mut window, "Levels of isolines", "auto");

@@ -2,18 +2,18 @@
 //! taken back.
 
 use egui::{Key, Modifiers};
-use ppum_render::range::Range;
+use ppum_render::range::RangeChoice;
 use ppum_render::scale::Scale;
-use ppum_scene::deformed::Factor;
-use ppum_scene::overlays::{Levels, Overlay};
-use ppum_scene::scene::Scene;
+use ppum_scene::deformed::Magnification;
+use ppum_scene::overlays::{IsolineLevels, Overlay};
+use ppum_scene::scene::SceneRequest;
 use ppum_testkit::random::Random;
 
 use super::scene;
 use crate::kit::{plate, settle, window};
 
 /// One change of something.
-fn change(scene: &mut Scene, random: &mut Random) {
+fn change(scene: &mut SceneRequest, random: &mut Random) {
     match random.below(12) {
         0 => {
             let all =
@@ -22,8 +22,9 @@ fn change(scene: &mut Scene, random: &mut Random) {
         }
         1 => scene.colors.scale = random.pick(&[Scale::Linear, Scale::Log, Scale::SymLog]),
         2 => {
-            let fixed = Range::Fixed(random.between(-1.0, 1.0), random.between(1.5, 9.0));
-            let all = [Range::Auto, Range::Full, fixed, Range::Percentiles(3.0, 90.0)];
+            let fixed = RangeChoice::Fixed(random.between(-1.0, 1.0), random.between(1.5, 9.0));
+            let all =
+                [RangeChoice::Auto, RangeChoice::Full, fixed, RangeChoice::Percentiles(3.0, 90.0)];
             scene.colors.range = random.pick(&all);
         }
         3 => {
@@ -38,14 +39,18 @@ fn change(scene: &mut Scene, random: &mut Random) {
             scene.overlays.shown.push(overlay);
         }
         8 => {
-            let levels = random.pick(&["auto", "7", "0.3,1e300"]).parse::<Levels>().ok();
+            let levels = random.pick(&["auto", "7", "0.3,1e300"]).parse::<IsolineLevels>().ok();
             scene.overlays.isolines = levels.filter(|_| random.below(3) > 0);
             scene.overlays.arrows = random.pick(&[None, Some(30.0)]);
             scene.overlays.crosses = random.pick(&[None, Some(60.0)]);
         }
         9 => {
-            let all =
-                [None, Some(Factor::Auto), Some(Factor::Given(0.0)), Some(Factor::Given(1e9))];
+            let all = [
+                None,
+                Some(Magnification::Auto),
+                Some(Magnification::Given(0.0)),
+                Some(Magnification::Given(1e9)),
+            ];
             scene.deformed = random.pick(&all);
         }
         10 => {

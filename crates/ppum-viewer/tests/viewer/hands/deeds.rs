@@ -8,7 +8,7 @@ use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, vec2};
 use egui_kittest::kittest::NodeT as _;
 use ppum_viewer::actions::{ALL as ACTIONS, Action};
-use ppum_viewer::window::Start;
+use ppum_viewer::window::WindowStart;
 
 use super::Hands;
 
@@ -336,7 +336,7 @@ impl Hands {
         if self.random.below(4) > 0 {
             return;
         }
-        self.lab.begin_again(Start::default());
+        self.lab.begin_again(WindowStart::default());
         self.eyes.forget();
     }
 }

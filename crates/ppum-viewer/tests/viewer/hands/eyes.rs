@@ -7,7 +7,7 @@ use egui::Shape;
 use ppum::dataset::Dataset;
 use ppum_testkit::processor::thread_time;
 use ppum_viewer::Viewer;
-use ppum_viewer::frames::Fault;
+use ppum_viewer::frames::FaultOrigin;
 use ppum_viewer::session::ProblemDraft;
 
 use crate::lab::Lab;
@@ -75,7 +75,7 @@ impl Eyes {
         assert!(viewer.session.active < viewer.stages.len(), "{doing}");
         for stage in &viewer.stages {
             let failure = stage.frames.failure();
-            let is_ours = failure.is_some_and(|failure| failure.fault == Fault::Program);
+            let is_ours = failure.is_some_and(|failure| failure.fault == FaultOrigin::Program);
             assert!(!is_ours, "{doing}: {:?}", viewer.session);
         }
         self.look_for_lost_texts(viewer, doing);

@@ -5,8 +5,8 @@ use std::time::Duration;
 
 use egui::{Event, Key, Modifiers, pos2, vec2};
 use ppum::dataset::Dataset;
-use ppum_scene::deformed::Factor;
-use ppum_scene::overlays::{Levels, Overlay};
+use ppum_scene::deformed::Magnification;
+use ppum_scene::overlays::{IsolineLevels, Overlay};
 use ppum_testkit::costly;
 use ppum_testkit::synthetic::Recipe;
 use ppum_viewer::actions::Action;
@@ -100,13 +100,13 @@ fn tour(looked: &mut Looked) {
     }
     looked.doing = "isolines, arrows, crosses".into();
     let overlays = &mut looked.lab.state().session.panes[0].scene.overlays;
-    overlays.isolines = Some(Levels::Auto);
+    overlays.isolines = Some(IsolineLevels::Auto);
     (overlays.arrows, overlays.crosses) = (Some(8.0), Some(8.0));
     looked.settle();
     looked.send("hover", (0..4).map(|k| Event::PointerMoved(pos2(60.0 + 200.0 * k as f32, 300.0))));
     looked.act(Action::Deform);
     looked.doing = "factor".into();
-    looked.lab.state().session.panes[0].scene.deformed = Some(Factor::Given(0.1));
+    looked.lab.state().session.panes[0].scene.deformed = Some(Magnification::Given(0.1));
     looked.settle();
     looked.send(
         "hover the deformed plate",

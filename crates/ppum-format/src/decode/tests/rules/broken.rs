@@ -2,12 +2,12 @@
 
 use super::edit::{edit, put, remove, rename, set, text, texts};
 use super::{FULL, PLAIN};
-use crate::content::{Array, ArrayValues, Content, Element};
+use crate::content::{Array, ArrayValues, ElementType, ObjectTree};
 
 /// A rule in words, the file that is damaged, the damage, and parts of what the reader says.
-pub(super) type Rule = (&'static str, u64, fn(&mut Content), &'static [&'static str]);
+pub(super) type BrokenRule = (&'static str, u64, fn(&mut ObjectTree), &'static [&'static str]);
 
-pub(super) const RULES: &[Rule] = &[
+pub(super) const RULES: &[BrokenRule] = &[
     // conventions
     (
         "texts of the root are scalars",
@@ -515,7 +515,7 @@ pub(super) const RULES: &[Rule] = &[
 ];
 
 /// The number of the first function of a kind, in a frame if it is a formula.
-fn function(content: &Content, kind: &str, frame: &str) -> usize {
+fn function(content: &ObjectTree, kind: &str, frame: &str) -> usize {
     let column = |name: &str| match &content[&format!("steps/0000/functions/{name}")].values {
         ArrayValues::Text(texts) => texts.clone(),
         other => panic!("{other:?}"),
@@ -524,12 +524,18 @@ fn function(content: &Content, kind: &str, frame: &str) -> usize {
     (0..kinds.len()).find(|&k| kinds[k] == kind && frames[k] == frame).expect("there is one")
 }
 
-fn set_function<T: Element>(c: &mut Content, kind: &str, frame: &str, column: &str, value: T) {
+fn set_function<T: ElementType>(
+    c: &mut ObjectTree,
+    kind: &str,
+    frame: &str,
+    column: &str,
+    value: T,
+) {
     let k = function(c, kind, frame);
     set(c, &format!("steps/0000/functions/{column}"), k, value);
 }
 
 /// Makes the first entry of a list that offsets divide one of the first function, which is `one`.
-fn give_to_the_first(content: &mut Content, offsets: &str) {
+fn give_to_the_first(content: &mut ObjectTree, offsets: &str) {
     edit(content, offsets, |v: &mut Vec<u64>| v[1..].iter_mut().for_each(|o| *o = (*o).max(1)));
 }

@@ -1,10 +1,10 @@
 //! Edits of contents.
 
-use crate::content::{Array, Content, Element};
+use crate::content::{Array, ElementType, ObjectTree};
 
 /// Changes the values of an array; a vector becomes as long as they are then.
-pub(super) fn edit<T: Element>(
-    content: &mut Content,
+pub(super) fn edit<T: ElementType>(
+    content: &mut ObjectTree,
     name: &str,
     change: impl FnOnce(&mut Vec<T>),
 ) {
@@ -18,11 +18,11 @@ pub(super) fn edit<T: Element>(
     array.values = T::wrap(values);
 }
 
-pub(super) fn set<T: Element>(content: &mut Content, name: &str, at: usize, value: T) {
+pub(super) fn set<T: ElementType>(content: &mut ObjectTree, name: &str, at: usize, value: T) {
     edit(content, name, |values: &mut Vec<T>| values[at] = value);
 }
 
-pub(super) fn put(content: &mut Content, name: &str, array: Array) {
+pub(super) fn put(content: &mut ObjectTree, name: &str, array: Array) {
     content.insert(name.into(), array);
 }
 
@@ -35,11 +35,11 @@ pub(super) fn texts(texts: &[&str]) -> Array {
 }
 
 /// Removes an object with all that is in it.
-pub(super) fn remove(content: &mut Content, path: &str) {
+pub(super) fn remove(content: &mut ObjectTree, path: &str) {
     let is_inside = |name: &str| {
         name.strip_prefix(path).is_some_and(|rest| rest.is_empty() || rest.starts_with(['/', '@']))
     };
-    let mut kept = Content::new();
+    let mut kept = ObjectTree::new();
     content.groups().filter(|group| !is_inside(group)).for_each(|group| kept.insert_group(group));
     for (name, array) in content.iter().filter(|(name, _)| !is_inside(name)) {
         kept.insert(name.clone(), array.clone());
@@ -48,7 +48,7 @@ pub(super) fn remove(content: &mut Content, path: &str) {
 }
 
 /// Gives a group another path.
-pub(super) fn rename(content: &mut Content, from: &str, to: &str) {
+pub(super) fn rename(content: &mut ObjectTree, from: &str, to: &str) {
     let moved: Vec<_> = content
         .iter()
         .filter_map(|(name, array)| {
