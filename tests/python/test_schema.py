@@ -45,6 +45,14 @@ def test_good_files():
         assert not errors, f"{file.name}: {errors}"
 
 
+def test_heat_without_a_body():
+    missing = [f"'{key}' is a required property" for key in ("domain", "discretization")]
+    for kind, expected in (("poisson", []), ("elasticity", missing)):
+        document = {"equation": {"kind": kind}, "boundary": [{"on": "top"}]}
+        messages = [error.message for error in schema().iter_errors(document) if not error.path]
+        assert messages == expected, f"{kind}: {messages}"
+
+
 def test_bad_files():
     validator, refused, missed = schema(), 0, []
     for file in sorted(BAD.glob("*.toml")):
@@ -64,4 +72,5 @@ def test_bad_files():
 
 if __name__ == "__main__":
     test_good_files()
+    test_heat_without_a_body()
     test_bad_files()

@@ -63,7 +63,8 @@ impl<'f> CardPrograms<'f> {
         let can_splat = renderer.gpu().info().blends_floats && may_splat;
         let Style { colormap, scale, range, undefined, .. } = look.clone();
         let nothing = Raster::<f32>::new([0, 0], Vec::new());
-        let normalization = range.normalization(scale, colormap.diverging, &nothing)?;
+        let normalization =
+            range.span(scale, colormap.diverging, &nothing, None).normalization(scale)?;
         let shading = TransferFunction { normalization, colormap, undefined };
         let output = Colors { quantity: quantity.clone(), shading };
         let mut compile = |method| renderer.compile(&scene, output.clone(), method);

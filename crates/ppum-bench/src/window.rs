@@ -227,7 +227,7 @@ impl MeasuredWindow {
     fn first(&mut self) -> anyhow::Result<f64> {
         let start = Instant::now();
         self.show(Vec::new());
-        self.wait(|viewer| viewer.stages[0].frames.newest().is_some())?;
+        self.wait(|viewer| viewer.viewports[0].frames.newest().is_some())?;
         let output = self.show(Vec::new());
         self.draw(output)?;
         Ok(start.elapsed().as_secs_f64())
@@ -235,7 +235,7 @@ impl MeasuredWindow {
 
     /// Shows the window until nothing better will come.
     fn rest(&mut self) -> anyhow::Result<()> {
-        self.wait(|viewer| !viewer.stages[0].frames.is_working())?;
+        self.wait(|viewer| !viewer.viewports[0].frames.is_working())?;
         let output = self.show(Vec::new());
         self.draw(output).map(|_| ())
     }
@@ -277,10 +277,10 @@ impl MeasuredWindow {
         let start = Instant::now();
         self.mouse += vec2(by[0], by[1]);
         self.show(vec![Event::PointerMoved(self.mouse)]);
-        let (asked, view) = (Instant::now(), self.viewer.stages[0].view);
+        let (asked, view) = (Instant::now(), self.viewer.viewports[0].camera.view);
         self.wait(|viewer| {
-            let newest = viewer.stages[0].frames.newest();
-            newest.is_some_and(|frame| Some(frame.wanted.view) == view)
+            let newest = viewer.viewports[0].frames.newest();
+            newest.is_some_and(|frame| Some(frame.request.view) == view)
         })?;
         let there = Instant::now();
         let output = self.show(Vec::new());
@@ -315,7 +315,7 @@ impl MeasuredWindow {
     fn wait(&mut self, is_there: impl Fn(&Viewer) -> bool) -> anyhow::Result<()> {
         let start = Instant::now();
         loop {
-            self.viewer.stages[0].frames.poll();
+            self.viewer.viewports[0].frames.poll();
             if is_there(&self.viewer) {
                 return Ok(());
             }

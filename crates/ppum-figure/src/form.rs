@@ -18,19 +18,18 @@ pub enum PageFormat {
     Pdf,
 }
 
-/// Pixels per inch of screens, as the design of figures has it.
+/// Pixels per inch of screens, as the style of figures has it.
 const SCREEN: f64 = 96.0;
 
 impl PageFormat {
     /// The form that a name ends in; PNG if it ends in nothing known.
     #[must_use]
     pub fn of(path: &Path) -> Self {
-        let ends_in =
-            |wanted: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted));
-        match () {
-            () if ends_in("svg") => Self::Svg,
-            () if ends_in("pdf") => Self::Pdf,
-            () => Self::Png,
+        let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
+        match extension.as_ref().and_then(|extension| extension.to_str()) {
+            Some("svg") => Self::Svg,
+            Some("pdf") => Self::Pdf,
+            _ => Self::Png,
         }
     }
 

@@ -74,7 +74,10 @@ mod tests {
 
     fn norm(scale: Scale, min: f64, max: f64) -> Normalization {
         let empty = Raster::<f64>::new([0, 0], vec![]);
-        RangeChoice::Fixed(min, max).normalization(scale, false, &empty).expect("a range")
+        RangeChoice::Fixed(min, max)
+            .span(scale, false, &empty, None)
+            .normalization(scale)
+            .expect("a range")
     }
 
     #[test]

@@ -60,7 +60,13 @@ pub(crate) fn runs(text: &str, size: f64) -> Vec<TextRun> {
 fn glyphs(text: &str, size: f64) -> (Vec<Glyph>, f64) {
     let (mut line, mut x) = (Vec::new(), 0.0);
     for run in runs(text, size) {
-        x = append(&mut line, &run.text, run.size, point(x, run.lowered as f32));
+        let font = FONT.as_scaled(px_scale(run.size));
+        for c in run.text.chars() {
+            let mut glyph = font.scaled_glyph(c);
+            glyph.position = point(x, run.lowered as f32);
+            x += font.h_advance(glyph.id);
+            line.push(glyph);
+        }
     }
     (line, f64::from(x))
 }
@@ -88,49 +94,24 @@ pub(crate) fn advance(c: char) -> f64 {
     f64::from(FONT.h_advance_unscaled(FONT.glyph_id(c)) / em)
 }
 
-/// Appends the glyphs of a piece of text that starts at `at`; returns where it ends.
-fn append(line: &mut Vec<Glyph>, text: &str, size: f64, mut at: Point) -> f32 {
-    let font = FONT.as_scaled(px_scale(size));
-    for c in text.chars() {
-        let mut glyph = font.scaled_glyph(c);
-        glyph.position = at;
-        at.x += font.h_advance(glyph.id);
-        line.push(glyph);
-    }
-    at.x
-}
-
 /// Length of a line of text \[pixels\].
 #[must_use]
 pub(crate) fn width(text: &str, size: f64) -> f64 {
     glyphs(text, size).1
 }
 
-/// A curve of an outline, in pixels.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum GlyphCurve {
-    Line([Vec2; 2]),
-    Quadratic([Vec2; 3]),
-    Cubic([Vec2; 4]),
-}
+/// A part of a glyph's outline: the two to four control points of a Bézier curve.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct GlyphCurve(pub(crate) Vec<Vec2>);
 
 impl GlyphCurve {
-    /// The points that span the curve.
-    fn points(&self) -> &[Vec2] {
-        match self {
-            Self::Line(points) => points,
-            Self::Quadratic(points) => points,
-            Self::Cubic(points) => points,
-        }
-    }
-
     /// Chords along the curve.
     pub(crate) fn chords(&self) -> Vec<[Vec2; 2]> {
         const COUNT: usize = 4;
         let between = |a: Vec2, b: Vec2, t: f64| a * (1.0 - t) + b * t;
         // de Casteljau
         let at = |t: f64| {
-            let mut points = self.points().to_vec();
+            let mut points = self.0.clone();
             while points.len() > 1 {
                 points = points.windows(2).map(|p| between(p[0], p[1], t)).collect();
             }
@@ -141,11 +122,15 @@ impl GlyphCurve {
     }
 }
 
-/// The box around curves.
-pub(crate) fn bounds(curves: &[GlyphCurve]) -> [Vec2; 2] {
+/// The box around some points: least and largest coordinates; of none, the least are +∞.
+pub(crate) fn bounds<'p>(points: impl Iterator<Item = &'p Vec2>) -> [Vec2; 2] {
     let start = [vec2(f64::INFINITY, f64::INFINITY), vec2(f64::NEG_INFINITY, f64::NEG_INFINITY)];
-    let points = curves.iter().flat_map(GlyphCurve::points);
     points.fold(start, |[lo, hi], &p| [lo.min(p), hi.max(p)])
+}
+
+/// The box around the control points of curves.
+pub(crate) fn curve_bounds(curves: &[GlyphCurve]) -> [Vec2; 2] {
+    bounds(curves.iter().flat_map(|curve| &curve.0))
 }
 
 /// The outlines of a line of text whose base line starts at a point and runs at an angle, from the
@@ -155,7 +140,7 @@ pub(crate) fn outlines(text: &str, size: f64, start: Vec2, angle: f64) -> Vec<Gl
     let turned = |x: f64, y: f64| start + vec2(cos * x + sin * y, cos * y - sin * x);
     let mut curves = Vec::new();
     for glyph in glyphs(text, size).0 {
-        let (scale, at) = (f64::from(unit(glyph.scale)), glyph.position);
+        let (scale, at) = (f64::from(glyph.scale.y / FONT.height_unscaled()), glyph.position);
         let to_page = |p: Point| {
             turned(
                 f64::from(at.x) + scale * f64::from(p.x),
@@ -163,18 +148,14 @@ pub(crate) fn outlines(text: &str, size: f64, start: Vec2, angle: f64) -> Vec<Gl
             )
         };
         let outline = FONT.outline(glyph.id).into_iter().flat_map(|outline| outline.curves);
-        curves.extend(outline.map(|curve| match curve {
-            OutlineCurve::Line(a, b) => GlyphCurve::Line([a, b].map(to_page)),
-            OutlineCurve::Quad(a, b, c) => GlyphCurve::Quadratic([a, b, c].map(to_page)),
-            OutlineCurve::Cubic(a, b, c, d) => GlyphCurve::Cubic([a, b, c, d].map(to_page)),
-        }));
+        let points = |curve: OutlineCurve| match curve {
+            OutlineCurve::Line(a, b) => vec![a, b],
+            OutlineCurve::Quad(a, b, c) => vec![a, b, c],
+            OutlineCurve::Cubic(a, b, c, d) => vec![a, b, c, d],
+        };
+        curves.extend(outline.map(|c| GlyphCurve(points(c).into_iter().map(to_page).collect())));
     }
     curves
-}
-
-/// Pixels per unit of the font.
-fn unit(scale: PxScale) -> f32 {
-    scale.y / FONT.height_unscaled()
 }
 
 /// The text, or as much of its beginning as fits with an ellipsis.
@@ -280,7 +261,7 @@ mod tests {
 
     /// Least and largest coordinates of a text's outlines.
     fn extent(text: &str, size: f64, angle: f64) -> [Vec2; 2] {
-        bounds(&outlines(text, size, Vec2::ZERO, angle))
+        curve_bounds(&outlines(text, size, Vec2::ZERO, angle))
     }
 
     /// DejaVu's digits are 1303/2048 of an em wide and its capitals 1493/2048 high.

@@ -327,8 +327,14 @@ fn log(norm: &Normalization, most: usize) -> Ticks {
     let decades = magnitude(norm.min())..=magnitude(norm.max());
     let inside = whole_decades(norm);
     if inside.len() < 2 {
+        let notation = Notation::of(norm);
+        let tick = |(digit, k): (i64, i32)| {
+            let (value, label) =
+                (times_power(digit as f64, k), decimal(digit, k - notation.exponent));
+            is_inside(norm, value).then(|| Tick { at: norm.position(value), label })
+        };
         let values = decades.flat_map(|k| [1, 2, 5].map(|digit| (digit, k)));
-        return labelled(norm, values.filter(|&(d, k)| is_inside(norm, times_power(d as f64, k))));
+        return Ticks::new(values.filter_map(tick).collect(), notation);
     }
     let stride = inside.len().div_ceil(most.max(2)) as i32;
     let (mut major, mut other): (Vec<i32>, Vec<i32>) =
@@ -338,7 +344,10 @@ fn log(norm: &Normalization, most: usize) -> Ticks {
         other = inside[1..inside.len() - 1].to_vec();
     }
     let label = |k: i32| Tick { at: norm.position(times_power(1.0, k)), label: power_of_ten(k) };
-    let between = if stride == 1 { parts_of(decades) } else { decade_values(other) };
+    let between = match stride {
+        1 => parts_of(decades),
+        _ => other.into_iter().map(|k| times_power(1.0, k)).collect(),
+    };
     let between = between.into_iter().filter(|&v| is_inside(norm, v));
     Ticks {
         major: major.into_iter().map(label).collect(),
@@ -385,21 +394,6 @@ fn signed_decades(norm: &Normalization, stride: usize) -> Vec<(f64, String)> {
 /// 2 to 9 times each power of ten.
 fn parts_of(decades: impl Iterator<Item = i32>) -> Vec<f64> {
     decades.flat_map(|k| (2..10).map(move |digit| times_power(f64::from(digit), k))).collect()
-}
-
-fn decade_values(decades: Vec<i32>) -> Vec<f64> {
-    decades.into_iter().map(|k| times_power(1.0, k)).collect()
-}
-
-/// Ticks at digit × 10^k, in units of one power of ten.
-fn labelled(norm: &Normalization, values: impl Iterator<Item = (i64, i32)>) -> Ticks {
-    let values: Vec<(i64, i32)> = values.collect();
-    let notation = Notation::of(norm);
-    let tick = |&(digit, k): &(i64, i32)| Tick {
-        at: norm.position(times_power(digit as f64, k)),
-        label: decimal(digit, k - notation.exponent),
-    };
-    Ticks::new(values.iter().map(tick).collect(), notation)
 }
 
 /// 10^k in figures, e.g. 10⁻³.
@@ -472,7 +466,7 @@ mod tests {
 
     fn norm(scale: Scale, min: f64, max: f64) -> Normalization {
         let empty = Raster::<f64>::new([0, 0], vec![]);
-        RangeChoice::Fixed(min, max).normalization(scale, false, &empty).unwrap()
+        RangeChoice::Fixed(min, max).span(scale, false, &empty, None).normalization(scale).unwrap()
     }
 
     #[test]

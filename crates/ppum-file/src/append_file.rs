@@ -9,7 +9,7 @@ use std::fs::OpenOptions;
 use std::io::{self, ErrorKind, Seek as _, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use crate::lock::Lock;
+use crate::lock::TargetLock;
 use crate::part::{is_at, live};
 use crate::ranged::RangedFile;
 use crate::write::{replace_locked, replaceable, resolve};
@@ -19,7 +19,7 @@ use crate::write::{replace_locked, replaceable, resolve};
 pub struct AppendFile {
     file: RangedFile,
     target: PathBuf,
-    _lock: Lock,
+    _lock: TargetLock,
 }
 
 impl AppendFile {
@@ -32,7 +32,7 @@ impl AppendFile {
         write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
     ) -> Result<Self, E> {
         let target = resolve(path)?;
-        let lock = Lock::acquire(&target)?;
+        let lock = TargetLock::acquire(&target)?;
         replace_locked(&target, write)?;
         Ok(Self::locked(target, lock)?)
     }
@@ -47,11 +47,11 @@ impl AppendFile {
         if replaceable(&target)?.is_none() {
             return Err(ErrorKind::NotFound.into());
         }
-        let lock = Lock::acquire(&target)?;
+        let lock = TargetLock::acquire(&target)?;
         Self::locked(target, lock)
     }
 
-    fn locked(target: PathBuf, lock: Lock) -> io::Result<Self> {
+    fn locked(target: PathBuf, lock: TargetLock) -> io::Result<Self> {
         let file = OpenOptions::new().read(true).write(true).open(&target)?;
         Ok(Self { file: RangedFile::of(file), target, _lock: lock })
     }

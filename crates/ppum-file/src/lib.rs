@@ -29,7 +29,7 @@ mod same;
 mod write;
 
 pub use append_file::AppendFile;
-pub use part::{WritingStop, abandon};
+pub use part::{WriteLock, abandon};
 pub use ranged::RangedFile;
 pub use read::{open, read, text, text_within, within};
 pub use same::is_same;

@@ -12,7 +12,7 @@ use crate::part::{existing_folder, is_at, live, remove_if_dead};
 
 /// The exclusive right to write a target, until this is dropped or the program ends or is killed.
 #[derive(Debug)]
-pub(crate) struct Lock {
+pub(crate) struct TargetLock {
     path: PathBuf,
     file: File,
 }
@@ -20,7 +20,7 @@ pub(crate) struct Lock {
 /// Most attempts: the last owner may remove the file between its opening and its locking.
 const MOST_ATTEMPTS: u32 = 1000;
 
-impl Lock {
+impl TargetLock {
     /// Acquires the lock of `target`, which must not be a link.
     ///
     /// # Errors
@@ -44,7 +44,7 @@ impl Lock {
     }
 }
 
-impl Drop for Lock {
+impl Drop for TargetLock {
     fn drop(&mut self) {
         if live().remove(&self.path) && is_at(&self.file, &self.path) {
             // a file that cannot be removed may stay: without an owner it has no effect
@@ -78,14 +78,14 @@ mod tests {
     fn one_at_a_time() {
         let folder = tempfile::tempdir().expect("a folder");
         let target = folder.path().join("a");
-        let lock = Lock::acquire(&target).expect("nobody has it");
-        for error in [Lock::acquire(&target).map(drop), refuse_taken(&target)] {
+        let lock = TargetLock::acquire(&target).expect("nobody has it");
+        for error in [TargetLock::acquire(&target).map(drop), refuse_taken(&target)] {
             assert_eq!(error.expect_err("it is taken").kind(), ErrorKind::ResourceBusy);
         }
         assert!(refuse_taken(&folder.path().join("b")).is_ok());
         drop(lock);
         assert_eq!(fs::read_dir(folder.path()).expect("a folder").count(), 0);
-        assert!(Lock::acquire(&target).is_ok());
+        assert!(TargetLock::acquire(&target).is_ok());
     }
 
     /// Its owner was killed.
@@ -94,7 +94,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let target = folder.path().join("a");
         let attempts: [fn(&Path) -> io::Result<()>; 2] =
-            [refuse_taken, |target| Lock::acquire(target).map(drop)];
+            [refuse_taken, |target| TargetLock::acquire(target).map(drop)];
         for attempt in attempts {
             fs::write(folder.path().join(".a.lock"), "").expect("written");
             attempt(&target).expect("nobody has it");
@@ -104,7 +104,7 @@ mod tests {
 
     #[test]
     fn folders_that_are_not_there() {
-        let error = Lock::acquire(Path::new("nowhere/a")).expect_err("no folder");
+        let error = TargetLock::acquire(Path::new("nowhere/a")).expect_err("no folder");
         assert!(error.to_string().contains("there is no folder nowhere"), "{error}");
     }
 }

@@ -23,18 +23,18 @@ pub(crate) fn live() -> MutexGuard<'static, BTreeSet<PathBuf>> {
 /// Removes all part files and locks of this program, which is about to end: none is made, and none
 /// takes its place, as long as the result is kept.
 #[must_use = "files can be written again once it is dropped"]
-pub fn abandon() -> WritingStop {
+pub fn abandon() -> WriteLock {
     let mut live = live();
     for path in std::mem::take(&mut *live) {
         // nothing better can be done about a file that cannot be removed
         let _ = fs::remove_file(path);
     }
-    WritingStop(live)
+    WriteLock(live)
 }
 
 /// All writing of this program stands still.
 #[derive(Debug)]
-pub struct WritingStop(
+pub struct WriteLock(
     #[expect(dead_code, reason = "it is held")] MutexGuard<'static, BTreeSet<PathBuf>>,
 );
 

@@ -8,7 +8,7 @@ use ppum_file::AppendFile;
 
 use crate::bytes::{appended, begun};
 use crate::error::WriteError;
-use crate::hdf5::Trunk;
+use crate::hdf5::AppendState;
 use crate::limits::MAX_SERIES_LENGTH;
 use crate::series::{Series, numbered};
 
@@ -22,7 +22,7 @@ use crate::series::{Series, numbered};
 pub struct SeriesWriter {
     path: PathBuf,
     file: AppendFile,
-    trunk: Trunk,
+    state: AppendState,
     head: Dataset,
     len: usize,
 }
@@ -37,12 +37,12 @@ impl SeriesWriter {
     pub fn begin(path: &Path, dataset: &Dataset) -> Result<Self, WriteError> {
         dataset.check()?;
         let bytes = begun(dataset)?;
-        let trunk = Trunk::read(&bytes).expect("this program made it");
+        let state = AppendState::read(&bytes.as_slice()).expect("this program made it");
         let file: io::Result<_> = AppendFile::begin(path, |out| out.write_all(&bytes));
         let file = file.map_err(|error| failed(path, error))?;
         let mut head = dataset.clone();
         let steps = std::mem::take(&mut head.steps);
-        let mut writer = Self { path: path.to_owned(), file, trunk, head, len: 1 };
+        let mut writer = Self { path: path.to_owned(), file, state, head, len: 1 };
         steps.iter().skip(1).try_for_each(|step| writer.append(step))?;
         Ok(writer)
     }
@@ -64,9 +64,9 @@ impl SeriesWriter {
         if !series.can_grow() {
             return Err(no_series("it has one checksum over all of it"));
         }
-        let trunk = Trunk::read(file.file()).ok_or_else(|| no_series(REWRITTEN))?;
+        let state = AppendState::read(file.file()).ok_or_else(|| no_series(REWRITTEN))?;
         let (head, len) = (series.head().clone(), series.len());
-        Ok(Self { path: path.to_owned(), file, trunk, head, len })
+        Ok(Self { path: path.to_owned(), file, state, head, len })
     }
 
     /// The number of steps in the file.
@@ -83,7 +83,7 @@ impl SeriesWriter {
     /// [`WriteError`], and then the file holds the steps that it held before.
     pub fn append(&mut self, step: &Step) -> Result<(), WriteError> {
         self.check(step)?;
-        let (addition, trunk) = appended(&self.trunk, self.len, step)?;
+        let (addition, state) = appended(&self.state, self.len, step)?;
         let length = addition.end + addition.bytes.len() as u64;
         if length > MAX_SERIES_LENGTH {
             return Err(WriteError::TooLong { length, most: MAX_SERIES_LENGTH });
@@ -91,7 +91,7 @@ impl SeriesWriter {
         let written = self.file.append(addition.end, &addition.bytes);
         let written = written.and_then(|()| self.file.publish(0, &addition.start));
         written.map_err(|error| failed(&self.path, error))?;
-        (self.trunk, self.len) = (trunk, self.len + 1);
+        (self.state, self.len) = (state, self.len + 1);
         Ok(())
     }
 

@@ -6,8 +6,8 @@ use ppum::check::CheckError;
 use ppum::dataset::{Dataset, Step};
 
 use crate::content::{ObjectTree, join, step_of, step_path};
-use crate::error::{ReadError, WriteError};
-use crate::hdf5::{Ranges, Trunk};
+use crate::error::{ReadError, WriteError, shortened};
+use crate::hdf5::{AppendState, Ranges};
 use crate::limits::FORMAT_VERSION;
 use crate::place::in_file;
 use crate::{checksum, decode, encode, hdf5};
@@ -38,27 +38,27 @@ pub(crate) fn begun(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
 /// Returns the bytes that appending the steps one by one after the first would give.
 fn series(dataset: &Dataset) -> Result<Vec<u8>, WriteError> {
     let mut bytes = begun(dataset)?;
-    let mut trunk = Trunk::read(&bytes).expect("this program made it");
+    let mut state = AppendState::read(&bytes.as_slice()).expect("this program made it");
     for (number, step) in dataset.steps.iter().enumerate().skip(1) {
-        let (step, grown) = appended(&trunk, number, step)?;
+        let (step, grown) = appended(&state, number, step)?;
         bytes.extend(step.bytes);
         bytes[..step.start.len()].copy_from_slice(&step.start);
-        trunk = grown;
+        state = grown;
     }
     Ok(bytes)
 }
 
-/// Returns the objects that make a step part of a file, and the trunk of the file that has it.
+/// Returns the objects that make a step part of a file, and the state of the file that has it.
 pub(crate) fn appended(
-    trunk: &Trunk,
+    state: &AppendState,
     number: usize,
     step: &Step,
-) -> Result<(hdf5::AppendedStep, Trunk), WriteError> {
+) -> Result<(hdf5::AppendedStep, AppendState), WriteError> {
     let mut content = encode::one_step(number, step)?;
     hdf5::check_texts(&content)?;
     let path = step_path(number);
     checksum::seal_step(&mut content, &path);
-    trunk.step(&content, &path)
+    state.step(&content, &path)
 }
 
 /// Makes sure that a dataset can be written and read again, before it is.
@@ -77,10 +77,6 @@ pub fn check(dataset: &Dataset) -> Result<(), WriteError> {
 ///
 /// [`ReadError`]; the dataset returned has passed [`Dataset::check`].
 pub fn from_bytes(bytes: Vec<u8>) -> Result<Dataset, ReadError> {
-    decoded(bytes).map_err(ReadError::shortened)
-}
-
-fn decoded(bytes: Vec<u8>) -> Result<Dataset, ReadError> {
     let content = hdf5::from_bytes(&bytes)?;
     drop(bytes);
     checked(&content)
@@ -93,17 +89,12 @@ pub fn diagnose_bytes(bytes: &[u8]) -> Vec<ReadError> {
 }
 
 pub(crate) fn all_errors(content: Result<ObjectTree, ReadError>) -> Vec<ReadError> {
-    let errors = match content {
-        Ok(content) => diagnose(&content),
-        Err(error) => vec![error],
-    };
-    errors.into_iter().map(ReadError::shortened).collect()
+    content.map_or_else(|error| vec![error], |content| diagnose(&content))
 }
 
 /// The dataset in a file of so many bytes.
 pub(crate) fn from_file(file: &dyn Ranges, length: u64) -> Result<Dataset, ReadError> {
-    let read = hdf5::from_file(file, length).and_then(|content| checked(&content));
-    read.map_err(ReadError::shortened)
+    hdf5::from_file(file, length).and_then(|content| checked(&content))
 }
 
 /// The dataset of a content. Its checksums are compared while it is made.
@@ -121,7 +112,8 @@ pub(crate) fn checked(content: &ObjectTree) -> Result<Dataset, ReadError> {
 
 /// An error of the dataset as one of its file.
 pub(crate) fn invalid(mut error: CheckError, content: &ObjectTree) -> ReadError {
-    error.place = in_file(&error.place, content);
+    error.place = shortened(in_file(&error.place, content));
+    error.message = shortened(error.message);
     ReadError::Invalid(error)
 }
 

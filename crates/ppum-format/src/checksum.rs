@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use sha2::{Digest, Sha256};
 
 use crate::content::{Array, ArrayValues, ObjectKind, ObjectTree, key, step_of};
-use crate::error::ReadError;
+use crate::error::{ReadError, shortened};
 
 /// Name of the attribute that holds the checksum as 64 hexadecimal digits: of the root over all, of
 /// a step over what is in it.
@@ -125,14 +125,14 @@ fn check(content: &ObjectTree, scope: &ChecksumScope) -> Result<(), ReadError> {
     content.holds(group, name, ObjectKind::Attribute)?;
     let Some(stored) = content.get(&scope.key()) else { return Ok(()) };
     let (ArrayValues::Text(stored), [] | [1]) = (&stored.values, stored.shape.as_slice()) else {
-        let mistake = "expected a string of 64 hexadecimal digits";
-        return Err(ReadError::object(&scope.key(), mistake));
+        let message = "expected a string of 64 hexadecimal digits";
+        return Err(ReadError::object(&scope.key(), message));
     };
     let (stored, computed) = (stored.concat(), digest(content, scope)?);
     if stored == computed {
         return Ok(());
     }
-    Err(ReadError::Checksum { attribute: scope.key(), stored, computed })
+    Err(ReadError::Checksum { attribute: scope.key(), stored: shortened(stored), computed })
 }
 
 fn digest(content: &ObjectTree, scope: &ChecksumScope) -> Result<String, ReadError> {
@@ -141,7 +141,7 @@ fn digest(content: &ObjectTree, scope: &ChecksumScope) -> Result<String, ReadErr
         let shape: Vec<String> = array.shape.iter().map(u64::to_string).collect();
         let header = format!("{name} {} {}\n", array.values.type_name(), shape.join("x"));
         hash.update(header.as_bytes());
-        update(&mut hash, &array.values).map_err(|mistake| ReadError::object(full, mistake))?;
+        update(&mut hash, &array.values).map_err(|message| ReadError::object(full, message))?;
     }
     Ok(hash.finalize().iter().fold(String::new(), |mut text, byte| {
         let _ = write!(text, "{byte:02x}");

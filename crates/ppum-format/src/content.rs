@@ -84,29 +84,29 @@ impl ObjectTree {
         self.groups.contains(path)
     }
 
-    /// True if a group has an object of this name and form.
+    /// True if a group has an object of this name and kind.
     ///
     /// # Errors
     ///
-    /// There is none, but one of this name and another form.
+    /// There is none, but one of this name and another kind.
     pub(crate) fn holds(
         &self,
         group: &str,
         name: &str,
-        form: ObjectKind,
+        kind: ObjectKind,
     ) -> Result<bool, ReadError> {
-        let is_there = |form: ObjectKind| match form {
+        let is_there = |kind: ObjectKind| match kind {
             ObjectKind::Group => self.groups.contains(&join(group, name)),
-            _ => self.arrays.contains_key(&key(group, name, form)),
+            _ => self.arrays.contains_key(&key(group, name, kind)),
         };
-        if is_there(form) {
+        if is_there(kind) {
             return Ok(true);
         }
         match ObjectKind::ALL.into_iter().find(|&other| is_there(other)) {
             None => Ok(false),
             Some(other) => Err(ReadError::object(
                 &key(group, name, other),
-                format!("is {}, but must be {}", other.words(), form.words()),
+                format!("is {}, but must be {}", other.words(), kind.words()),
             )),
         }
     }
@@ -140,8 +140,8 @@ impl ObjectTree {
 }
 
 /// The full name of an object of a group; the root's path is empty.
-pub(crate) fn key(group: &str, name: &str, form: ObjectKind) -> String {
-    match form {
+pub(crate) fn key(group: &str, name: &str, kind: ObjectKind) -> String {
+    match kind {
         ObjectKind::Attribute => join(group, &format!("@{name}")),
         ObjectKind::Dataset | ObjectKind::Group => join(group, name),
     }

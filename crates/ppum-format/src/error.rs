@@ -52,12 +52,12 @@ pub enum ReadError {
         source: Box<ReadError>,
     },
     /// An object of the file is missing or not what it should be.
-    #[error("{object}: {mistake}")]
+    #[error("{object}: {message}")]
     Object {
         /// Path in the file; attributes are written `group@attribute`.
         object: String,
         /// The error.
-        mistake: String,
+        message: String,
     },
     /// The content is not what was written.
     #[error(
@@ -82,8 +82,9 @@ impl ReadError {
         Self::Io { path: path.to_owned(), source }
     }
 
-    pub(crate) fn object(object: &str, mistake: impl Into<String>) -> Self {
-        Self::Object { object: object.to_owned(), mistake: mistake.into() }
+    /// An error of an object.
+    pub(crate) fn object(object: &str, message: impl Into<String>) -> Self {
+        Self::Object { object: shortened(object.to_owned()), message: shortened(message.into()) }
     }
 
     /// The object of the file that it is about, if it is about one.
@@ -97,38 +98,19 @@ impl ReadError {
             Self::Io { .. } | Self::Hdf5 { .. } | Self::NotADataset | Self::TooNew { .. } => None,
         }
     }
-
-    /// Returns the error with shortened quotations of the file's texts: they may be of any length.
-    pub(crate) fn shortened(mut self) -> Self {
-        match &mut self {
-            Self::Object { object, mistake } => [object, mistake].into_iter().for_each(shorten),
-            Self::Checksum { attribute, stored, .. } => {
-                [attribute, stored].into_iter().for_each(shorten)
-            }
-            Self::Invalid(CheckError { place, mistake, .. }) => {
-                [place, mistake].into_iter().for_each(shorten);
-            }
-            Self::Hdf5 { message } => shorten(message),
-            Self::Newer { source, .. } => {
-                let inner = std::mem::replace(&mut **source, Self::NotADataset);
-                **source = inner.shortened();
-            }
-            Self::Io { .. } | Self::NotADataset | Self::TooNew { .. } => {}
-        }
-        self
-    }
 }
 
 /// Longest text of an error, in characters: a formula's error with two lines of it fits.
 const LONGEST: usize = 700;
 
-/// Cuts the middle out of a long text.
-fn shorten(text: &mut String) {
+/// A text of a file without the middle, if it is long: it may be of any length.
+pub(crate) fn shortened(mut text: String) -> String {
     let place = |k: usize| text.char_indices().nth(k).map(|(at, _)| at);
     let last = text.chars().count().saturating_sub(LONGEST / 2);
     if let (Some(_), Some(from), Some(to)) = (place(LONGEST), place(LONGEST / 2), place(last)) {
         text.replace_range(from..to, " … ");
     }
+    text
 }
 
 /// The reason why a dataset could not be written. The file that was at the path before
@@ -172,12 +154,12 @@ pub enum WriteError {
     #[error("the dataset is inconsistent: {0}")]
     Invalid(#[from] CheckError),
     /// The format cannot express something.
-    #[error("{object}: {mistake}")]
+    #[error("{object}: {message}")]
     Object {
         /// Path it would have in the file.
         object: String,
         /// The error.
-        mistake: String,
+        message: String,
     },
     /// The HDF5 library refused.
     #[error("cannot make an HDF5 file of it: {message}")]
@@ -188,7 +170,7 @@ pub enum WriteError {
 }
 
 impl WriteError {
-    pub(crate) fn object(object: &str, mistake: impl Into<String>) -> Self {
-        Self::Object { object: object.to_owned(), mistake: mistake.into() }
+    pub(crate) fn object(object: &str, message: impl Into<String>) -> Self {
+        Self::Object { object: object.to_owned(), message: message.into() }
     }
 }

@@ -6,7 +6,8 @@ use std::path::Path;
 use ppum::dataset::Dataset;
 use ppum_file::RangedFile;
 
-use crate::bytes::{all_errors, from_file, to_bytes};
+use crate::bytes::{all_errors, checked, to_bytes};
+use crate::content::ObjectTree;
 use crate::error::{ReadError, WriteError};
 use crate::hdf5;
 use crate::limits::MAX_LENGTH;
@@ -17,20 +18,20 @@ use crate::limits::MAX_LENGTH;
 ///
 /// [`ReadError`]; the dataset returned has passed [`Dataset::check`].
 pub fn read(path: &Path) -> Result<Dataset, ReadError> {
+    content(path).and_then(|content| checked(&content))
+}
+
+/// All arrays and attributes of a file.
+fn content(path: &Path) -> Result<ObjectTree, ReadError> {
     let io = |error| ReadError::io(path, error);
     let file = RangedFile::open(path, MAX_LENGTH).map_err(io)?;
-    from_file(&file, file.length(MAX_LENGTH).map_err(io)?)
+    hdf5::from_file(&file, file.length(MAX_LENGTH).map_err(io)?)
 }
 
 /// All that is wrong with the dataset in a file, nothing if [`read`] would return it.
 #[must_use]
 pub fn diagnose(path: &Path) -> Vec<ReadError> {
-    let content = || {
-        let io = |error| ReadError::io(path, error);
-        let file = RangedFile::open(path, MAX_LENGTH).map_err(io)?;
-        hdf5::from_file(&file, file.length(MAX_LENGTH).map_err(io)?)
-    };
-    all_errors(content())
+    all_errors(content(path))
 }
 
 /// Writes a dataset to a file, completely or not at all, as [`ppum_file::replace`] does.

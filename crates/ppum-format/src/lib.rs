@@ -5,9 +5,9 @@
 //! file of another one.
 //! [`Series`] reads one step of a file at a time, [`SeriesWriter`] appends one. Between a dataset
 //! and HDF5 stands the content: a sorted map from the names of arrays and attributes to their
-//! values. Names and shapes meet the data model in `schema`, which names each array once, and in
-//! `encode` and `decode`; HDF5 is known to `hdf5` alone, and the checksum is taken over the
-//! content, so it does not depend on how HDF5 lays out its bytes.
+//! values. Names and shapes meet the data model in `schema`, which describes each object once: how
+//! it is written and read, and its place in errors. HDF5 is known to `hdf5` alone, and the checksum
+//! is taken over the content, so it does not depend on how HDF5 lays out its bytes.
 //!
 //! Files are not trusted: whatever their bytes are, reading ends in a checked [`Dataset`] or in a
 //! [`ReadError`] that names the object at fault, and what is allocated is bounded by the file's
@@ -47,7 +47,6 @@ mod append;
 mod arrays;
 mod bytes;
 mod checksum;
-mod column;
 mod content;
 mod decode;
 mod encode;
@@ -63,9 +62,11 @@ mod forge;
 mod hdf5;
 mod limits;
 mod lookup3;
+mod member;
 mod place;
 mod reader;
 mod schema;
+mod scopes;
 mod series;
 mod stored;
 mod writer;

@@ -1,85 +1,58 @@
 //! The places of a dataset's errors, in the file: a path through the data model becomes that of an
 //! HDF5 object.
 
-use crate::column::{ArrayColumn, ColumnNames};
-use crate::content::{ArrayValues, ObjectKind, ObjectTree, join, key, step_path};
-use crate::schema;
+use crate::content::{ArrayValues, ObjectKind, ObjectTree, join, key};
+use crate::member::{GroupShape, MemberNames, names_of};
+use crate::schema::{HEAD, STEPS};
 
-/// Lists whose entries are rows of the arrays of a group.
-const TABLES: &[&str] =
-    &["cracks", "functions", "holes", "intensities", "quantities", "reactions", "tips", "warnings"];
-
-/// The arrays of a group whose names differ from those in the data model, or that are parts of
-/// an array.
-fn names(group: &str) -> Vec<ColumnNames> {
-    fn of<S: ?Sized>(columns: &[ArrayColumn<S>]) -> Vec<ColumnNames> {
-        columns.iter().map(|column| column.names).collect()
-    }
-    match group {
-        "cracks" => of(schema::CRACKS),
-        "functions" => of(schema::FUNCTIONS),
-        "growth" => of(schema::GROWTH),
-        "holes" => of(schema::HOLES),
-        "intensities" => of(schema::INTENSITIES),
-        "quantities" => of(schema::QUANTITIES),
-        _ => Vec::new(),
-    }
-}
-
-/// The array of a name in the data model.
-fn column(group: &str, name: &str) -> Option<ColumnNames> {
-    let field = match (group, name) {
-        ("cracks", "segment") | ("holes", "center") => "points",
-        (_, other) => other,
-    };
-    names(group)
-        .into_iter()
-        .find(|names| names.field.rsplit('.').next().map(str::trim) == Some(field))
-}
-
-/// The name of an attribute or of an array.
-fn in_group(group: &str, name: &str) -> String {
-    match (group, name) {
-        ("equation", _) | ("growth", "cycles") => format!("@{name}"),
-        ("partition", "weight") => "@weight_formula".to_owned(),
-        _ => column(group, name).map_or(name, |names| names.array).to_owned(),
-    }
+/// The member of a name in the data model, where a segment and a centre are points.
+fn member(group: &[MemberNames], name: &str) -> Option<MemberNames> {
+    let last = |field: &'static str| field.rsplit('.').next().map(str::trim);
+    let named = |name: &str| group.iter().copied().find(|member| last(member.field) == Some(name));
+    let alias = || if ["segment", "center"].contains(&name) { named("points") } else { None };
+    named(name).or_else(alias)
 }
 
 /// The object that a place such as `steps[0].functions[2].cuts[1].left` is about, with the indices
 /// in its array. Text between back ticks is a name.
 pub(crate) fn in_file(place: &str, content: &ObjectTree) -> String {
     let (path, name) = place.split_at(place.find(" `").unwrap_or(place.len()));
+    let mut group = [names_of(HEAD), vec![STEPS.names]].concat();
     let mut found = String::new();
     let mut row = None;
     let mut indices = Vec::new();
     for part in path.split('.') {
         let (name, numbers) = part.split_at(part.find('[').unwrap_or(part.len()));
         let numbers = numbers.split(['[', ']']).filter_map(|number| number.parse().ok());
-        let mut numbers: Vec<usize> = numbers.collect();
-        let group = found.rsplit('/').next().unwrap_or_default();
-        let part = column(group, name).and_then(|names| Some((names.array, names.offsets?)));
-        if name == "steps" && !numbers.is_empty() {
-            found = step_path(numbers[0]);
-        } else if name == "fields" && !numbers.is_empty() {
-            found = join(&found, &format!("fields/{:04}", numbers[0]));
-        } else if TABLES.contains(&name) {
-            row = numbers.first().copied();
-            found = if name == "tips" { found } else { join(&found, name) };
-        } else if name == "load" {
-            found = join(&found, "@load");
-        } else if let (Some((array, offsets)), Some(k)) = (part, row) {
-            let first = entry(content, &key(&found, offsets, ObjectKind::Dataset), k);
-            // kinks are counted by their ends
-            let within = numbers.first().map_or(0, |n| if array == "kinks" { n / 2 } else { *n });
-            found = join(&found, array);
-            (row, indices) = (None, vec![first + within]);
-        } else if let Some(column) = column_of_cut(name).filter(|_| found.ends_with("/cuts")) {
-            indices.push(column);
-        } else if !matches!(name, "" | "frame" | "declared") {
-            found = join(&found, &in_group(group, name));
-            // a point of a row is all of it
-            indices = row.take().map_or_else(|| std::mem::take(&mut numbers), |k| vec![k]);
+        let numbers: Vec<usize> = numbers.collect();
+        match (member(&group, name), row, column_of_cut(name)) {
+            _ if matches!(name, "" | "frame" | "declared") => {}
+            (.., Some(column)) if found.ends_with("/cuts") => indices.push(column),
+            (Some(MemberNames { kind: ObjectKind::Group, stored, shape, members, .. }), ..) => {
+                found = if stored.is_empty() { found } else { join(&found, stored) };
+                match (shape, numbers.first()) {
+                    (GroupShape::Numbered, Some(k)) => found = join(&found, &format!("{k:04}")),
+                    (GroupShape::Table, first) => row = first.copied(),
+                    _ => {}
+                }
+                group = members();
+            }
+            (Some(MemberNames { stored, offsets: Some(offsets), .. }), Some(k), _) => {
+                let first = entry(content, &key(&found, offsets, ObjectKind::Dataset), k);
+                // kinks are counted by their ends
+                let within =
+                    numbers.first().map_or(0, |n| if stored == "kinks" { n / 2 } else { *n });
+                found = join(&found, stored);
+                (row, indices) = (None, vec![first + within]);
+            }
+            (member, ..) => {
+                found = match member {
+                    Some(member) => key(&found, member.stored, member.kind),
+                    None => join(&found, name),
+                };
+                // a point of a row is all of it
+                indices = row.take().map_or(numbers, |k| vec![k]);
+            }
         }
     }
     let indices = row.into_iter().chain(indices).map(|k| format!("[{k}]"));

@@ -9,6 +9,7 @@ use std::ops::Range;
 
 use crate::content::{ArrayValues, ElementType, ObjectKind, ObjectTree, join, key};
 use crate::error::ReadError;
+use crate::scopes::Scopes;
 use crate::stored::{StoredValue, WordTable, value};
 
 /// Most errors that are kept.
@@ -18,16 +19,18 @@ const MOST_ERRORS: usize = 100;
 pub(crate) struct GroupReader<'a> {
     pub(crate) path: String,
     pub(crate) content: &'a ObjectTree,
+    /// The scopes of formulas, once they are known.
+    pub(crate) scopes: Option<&'a Scopes>,
     errors: &'a RefCell<Vec<ReadError>>,
 }
 
-/// Returns the result of `read` for a content, or all of its errors.
+/// Returns the result of `read` for a content, or the first of its errors.
 pub(crate) fn read<T>(
     content: &ObjectTree,
     read: impl FnOnce(&GroupReader) -> T,
-) -> Result<T, Vec<ReadError>> {
+) -> Result<T, ReadError> {
     let (found, errors) = attempt(content, read);
-    if errors.is_empty() { Ok(found) } else { Err(errors) }
+    errors.into_iter().next().map_or(Ok(found), Err)
 }
 
 /// Returns what `read` makes of a content, and all errors; where there are any, the first is not to
@@ -37,13 +40,19 @@ pub(crate) fn attempt<T>(
     read: impl FnOnce(&GroupReader) -> T,
 ) -> (T, Vec<ReadError>) {
     let errors = RefCell::default();
-    let found = read(&GroupReader { path: String::new(), content, errors: &errors });
+    let path = String::new();
+    let found = read(&GroupReader { path, content, scopes: None, errors: &errors });
     (found, errors.into_inner())
 }
 
 impl<'a> GroupReader<'a> {
     fn at(&self, path: String) -> Self {
-        Self { path, content: self.content, errors: self.errors }
+        Self { path, ..*self }
+    }
+
+    /// The group, whose formulas are read in these scopes.
+    pub(crate) fn within<'s>(&'s self, scopes: Option<&'s Scopes>) -> GroupReader<'s> {
+        GroupReader { scopes, path: self.path.clone(), ..*self }
     }
 
     /// True if nothing wrong has been found so far.
@@ -69,28 +78,28 @@ impl<'a> GroupReader<'a> {
         join(&self.path, name)
     }
 
-    /// True if there is an object of this name and form.
-    pub(crate) fn holds(&self, name: &str, form: ObjectKind) -> bool {
-        self.is_there(name, form) == Some(true)
+    /// True if there is an object of this name and kind.
+    pub(crate) fn holds(&self, name: &str, kind: ObjectKind) -> bool {
+        self.is_there(name, kind) == Some(true)
     }
 
-    /// As [`holds`](Self::holds); none, and an error, if there is one of another form.
-    fn is_there(&self, name: &str, form: ObjectKind) -> Option<bool> {
-        self.or_report(self.content.holds(&self.path, name, form))
+    /// As [`holds`](Self::holds); none, and an error, if there is one of another kind.
+    fn is_there(&self, name: &str, kind: ObjectKind) -> Option<bool> {
+        self.or_report(self.content.holds(&self.path, name, kind))
     }
 
     /// Refuses an object that belongs to another word than the one the group has.
-    pub(crate) fn refuse(&self, name: &str, form: ObjectKind, word: &str) {
-        if self.holds(name, form) {
-            let key = key(&self.path, name, form);
-            let mistake = format!("does not belong to `{word}`; leave it out");
-            self.report(ReadError::object(&key, mistake));
+    pub(crate) fn refuse(&self, name: &str, kind: ObjectKind, word: &str) {
+        if self.holds(name, kind) {
+            let key = key(&self.path, name, kind);
+            let message = format!("does not belong to `{word}`; leave it out");
+            self.report(ReadError::object(&key, message));
         }
     }
 
     /// Adds an error about an object of this group, `@name` an attribute.
-    pub(crate) fn error(&self, name: &str, mistake: impl Into<String>) {
-        self.report(ReadError::object(&self.path_of(name), mistake));
+    pub(crate) fn error(&self, name: &str, message: impl Into<String>) {
+        self.report(ReadError::object(&self.path_of(name), message));
     }
 
     /// Adds an error, but not a second one about the same object: that often follows from
@@ -111,11 +120,11 @@ impl<'a> GroupReader<'a> {
     fn look<T: ElementType>(
         &self,
         name: &str,
-        form: ObjectKind,
+        kind: ObjectKind,
         shape: &[Extent],
     ) -> Option<&'a [T]> {
-        let is_there = self.is_there(name, form)?;
-        let key = key(&self.path, name, form);
+        let is_there = self.is_there(name, kind)?;
+        let key = key(&self.path, name, kind);
         let Some(array) = self.content.get(&key).filter(|_| is_there) else {
             // a group that is missing is one error
             if self.path.is_empty() || self.content.has_group(&self.path) {
@@ -127,7 +136,7 @@ impl<'a> GroupReader<'a> {
             && array.shape.iter().zip(shape).all(|(n, extent)| extent.allows(*n));
         let wanted = || shape.iter().map(Extent::to_string).collect::<Vec<_>>().join(", ");
         let (found, values) = (array.values.type_name(), T::of(&array.values));
-        let mistake = match (values, fits) {
+        let message = match (values, fits) {
             (Some(values), true) => return Some(values),
             (Some(_), false) => format!("has shape {:?}, expected [{}]", array.shape, wanted()),
             (None, true) => format!("has type {found}, expected {}", T::NAME),
@@ -138,13 +147,8 @@ impl<'a> GroupReader<'a> {
                 wanted()
             ),
         };
-        self.report(ReadError::object(&key, mistake));
+        self.report(ReadError::object(&key, message));
         None
-    }
-
-    /// True if the attribute is there.
-    pub(crate) fn has_attribute(&self, name: &str) -> bool {
-        self.content.get(&key(&self.path, name, ObjectKind::Attribute)).is_some()
     }
 
     /// True if the attribute is there and is a text.
@@ -167,20 +171,20 @@ impl<'a> GroupReader<'a> {
     }
 
     /// One value; of a scalar other writers make an array of one element.
-    fn one<T: StoredValue>(&self, name: &str, form: ObjectKind) -> Option<T> {
-        let key = key(&self.path, name, form);
+    fn one<T: StoredValue>(&self, name: &str, kind: ObjectKind) -> Option<T> {
+        let key = key(&self.path, name, kind);
         let is_single = self.content.get(&key).is_some_and(|array| array.shape == [1]);
         let shape = if is_single && T::SHAPE.is_empty() { &[1] } else { T::SHAPE };
         let shape: Vec<_> = shape.iter().copied().map(Extent::Is).collect();
-        let elements = self.look::<T::Element>(name, form, &shape)?;
+        let elements = self.look::<T::Element>(name, kind, &shape)?;
         if elements.len() < T::width() {
             self.report(ReadError::object(&key, "is empty"));
             return None;
         }
         let mut is_fine = true;
-        let value = T::restore(0, elements, &mut |mistake| {
+        let value = T::restore(0, elements, &mut |message| {
             is_fine = false;
-            self.report(ReadError::object(&key, mistake));
+            self.report(ReadError::object(&key, message));
         });
         is_fine.then_some(value)
     }
@@ -219,7 +223,7 @@ impl<'a> GroupReader<'a> {
             return vec![T::blank(); rows];
         };
         let rows = elements.chunks_exact(T::width()).enumerate();
-        rows.map(|(k, row)| T::restore(k, row, &mut |mistake| self.error(name, mistake))).collect()
+        rows.map(|(k, row)| T::restore(k, row, &mut |message| self.error(name, message))).collect()
     }
 
     /// The rows of a matrix with a given number of them.
@@ -255,7 +259,7 @@ impl<'a> GroupReader<'a> {
     }
 
     pub(crate) fn word<T: Clone>(&self, words: &WordTable<T>, word: &str, name: &str) -> Option<T> {
-        value(words, word).map_err(|mistake| self.error(name, mistake)).ok()
+        value(words, word).map_err(|message| self.error(name, message)).ok()
     }
 }
 
@@ -314,18 +318,9 @@ pub(crate) fn numbered<T>(
 
 /// The error that one of so many numbered groups is missing.
 pub(crate) fn missing(path: &str, count: usize) -> ReadError {
-    let mistake = format!(
+    let message = format!(
         "is missing: the {count} numbered groups here must be 0000, 0001, …, of four digits \
          at least and without gaps"
     );
-    ReadError::object(path, mistake)
-}
-
-/// The content of a group, nothing if it is not there.
-pub(crate) fn optional<T: Default>(
-    parent: &GroupReader,
-    name: &str,
-    items: impl Fn(&GroupReader) -> T,
-) -> T {
-    if parent.holds(name, ObjectKind::Group) { items(&parent.group(name)) } else { T::default() }
+    ReadError::object(path, message)
 }

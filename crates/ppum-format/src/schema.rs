@@ -1,111 +1,147 @@
-//! The arrays of the file's groups, each named once. Attributes, and what is in a group only
-//! sometimes, are in `encode` and `decode`.
+//! The objects of the file, each named once: how it is written, how it is read, and its name in the
+//! data model.
 
+mod domain;
+mod equation;
 mod functions;
+mod growth;
+mod partition;
+mod tables;
 
 use ppum::crack::Crack;
 use ppum::dataset::{
-    Attribute, BoxPartition, FieldData, NamedQuantity, Reaction, Record, TipIncrement,
-    TipIntensity, TipStatus, Warning,
+    Attribute, Dataset, FieldData, NamedQuantity, Reaction, Record, Step, TipIntensity, Warning,
 };
-use ppum::domain::Hole;
-use ppum::mesh::{Clip, Mesh};
 use ppum::polynomial::PolynomialSpace;
-use ppum::vec2::Vec2;
 
-use crate::column::{ArrayColumn, TableColumns, any_vector, table, vector};
-use crate::reader::GroupReader;
-use crate::stored::{self, StoredWord as _};
+use crate::content::Array;
+use crate::member::{GroupShape, Member, TableMembers, members, names_of, vector};
+use crate::reader::numbered;
 #[cfg(test)]
 pub(crate) use functions::role_by_name;
-pub(crate) use functions::{FUNCTIONS, StoredFunction};
 
-pub(crate) const QUANTITIES: &TableColumns<NamedQuantity> =
-    table!(NamedQuantity: cell("name", name), cell("formula", text), cell("unit", unit));
+/// All of a dataset but its steps; the tables, which formulas of the others may read, come first.
+pub(crate) const HEAD: &[Member<Dataset>] = members!(Dataset:
+    custom(tables::TABLES), attribute("title", title), attribute("program", program),
+    custom(PROBLEM), custom(domain::DOMAIN), custom(equation::EQUATION),
+    rows("quantities", quantities, QUANTITIES).optional(),
+);
 
-pub(crate) const BOXES: &[ArrayColumn<BoxPartition>] = &[
-    vector!(BoxPartition, center),
-    vector!(BoxPartition, half),
-    vector!(BoxPartition, origin),
-    vector!(BoxPartition, scale),
-    vector!(BoxPartition, cell).optional(),
-    vector!(BoxPartition, level).optional(),
-    vector!(BoxPartition, point),
-    any_vector!(BoxPartition, points),
-];
+const PROBLEM: Member<Dataset> = Member::<Dataset>::array(
+    "problem",
+    |dataset, group, name| {
+        let texts = dataset.problem.iter().cloned();
+        texts.for_each(|text| group.array(name, Array::scalar(text)));
+        Ok(())
+    },
+    |dataset, group, name, _| dataset.problem = Some(group.scalar(name)),
+)
+.optional();
 
-pub(crate) const MESH: &[ArrayColumn<Mesh>] = &[
-    vector!(Mesh, shape),
-    vector!(Mesh, origin),
-    vector!(Mesh, map_degree),
-    vector!(Mesh, map_space),
-    vector!(Mesh, map_offset),
-    vector!(Mesh, element),
-    ArrayColumn::new(
-        "map",
-        |mesh, group, name| group.put_matrix(name, mesh.map.iter()),
-        |mesh, group, name, _| mesh.map = group.matrix(name, 2).try_into().unwrap_or_default(),
-    ),
-];
+const QUANTITIES: &TableMembers<NamedQuantity> =
+    members!(NamedQuantity: cell("name", name), cell("formula", text), cell("unit", unit));
 
-/// The offsets of clips, there if there is any array of [`CLIPS`].
-pub(crate) const CLIP_OFFSETS: &[ArrayColumn<Mesh>] = &[ArrayColumn::new(
-    "clip_offsets",
-    |mesh, group, name| group.put(name, &mesh.clip_offsets),
-    |mesh, group, name, n| mesh.clip_offsets = group.rows(name, n + 1),
-)];
+/// The steps of a dataset; they are written and read one by one.
+pub(crate) const STEPS: Member<Dataset> = Member::<Dataset>::group(
+    "steps",
+    (GroupShape::Numbered, || names_of(STEP)),
+    |_, _, _| Ok(()),
+    |_, _, _, _| (),
+);
 
-pub(crate) const CLIPS: &TableColumns<Clip> =
-    table!(Clip: cell("clip_field", field), cell("clip_side", is_above));
+pub(crate) const STEP: &[Member<Step>] = members!(Step:
+    attribute("load", load), custom(partition::PARTITION), rows("cracks", cracks, CRACKS),
+    rows("intensities", intensities, INTENSITIES).optional_to_read(),
+    rows("history", history, HISTORY).optional_to_read(),
+    rows("warnings", warnings, WARNINGS).optional(), custom(growth::GROWTH),
+    custom(functions::FUNCTIONS), custom(FIELDS), custom(ATTRIBUTES),
+    rows("reactions", reactions, REACTIONS).optional(),
+);
 
-pub(crate) const CRACKS: &TableColumns<Crack> =
-    table!(Crack: cell("ends", ends), list("points", "offsets", points));
+/// The members of a step that are read without its patches.
+pub(crate) const RESULTS: &[&str] = &["cracks", "intensities", "history", "warnings", "growth"];
+
+const CRACKS: &TableMembers<Crack> =
+    members!(Crack: cell("ends", ends), list("points", "offsets", points));
+
+const FIELDS: Member<Step> = Member::<Step>::group(
+    "fields",
+    (GroupShape::Numbered, || names_of(FIELD)),
+    |step, group, name| {
+        let mut fields = step.fields.iter().enumerate();
+        fields.try_for_each(|(k, f)| group.group(&format!("{name}/{k:04}")).put(FIELD, f))
+    },
+    |step, group, name, _| {
+        let none = || FieldData::new("", &[]);
+        step.fields = numbered(group, name, |group| group.taken(FIELD, none()));
+    },
+);
 
 /// Components, coefficients, and what has an entry for each block.
-pub(crate) const FIELD: &[ArrayColumn<FieldData>] = &[
-    any_vector!(FieldData, components),
-    any_vector!(FieldData, exact).optional(),
-    any_vector!(FieldData, patch_blocks),
-    vector!(FieldData, block_function),
-    vector!(FieldData, block_degree),
-    ArrayColumn {
-        is_used: |data| data.block_space.contains(&PolynomialSpace::Tensor),
-        ..vector!(FieldData, block_space).optional()
+const FIELD: &[Member<FieldData>] = members!(FieldData:
+    attribute("name", name), attribute("unit", unit), any_vector(components),
+    any_vector(exact).optional_to_read(), any_vector(patch_blocks), vector(block_function),
+    vector(block_degree), custom(BLOCK_SPACE), vector(block_offset), custom(COEFFICIENTS),
+);
+
+/// Written where a block has a tensor product, and read as if it were missing where none has.
+const BLOCK_SPACE: Member<FieldData> = Member {
+    is_used: |data| data.block_space.contains(&PolynomialSpace::Tensor),
+    take: |data, group, name, n| {
+        let spaces: Vec<_> = group.rows(name, n);
+        let is_used = spaces.contains(&PolynomialSpace::Tensor);
+        data.block_space = if is_used { spaces } else { Vec::new() };
     },
-    vector!(FieldData, block_offset),
-    ArrayColumn::new(
-        "coefficients",
-        |data, group, name| group.put_matrix(name, data.coefficients.iter()),
-        |data, group, name, _| {
-            data.coefficients = group.matrix(name, group.rows_of(["components", name]));
-        },
-    ),
-];
+    ..vector!(FieldData, block_space).optional()
+};
 
-pub(crate) const ATTRIBUTES: &TableColumns<Attribute> =
-    table!(Attribute: cell("name", name), matrix("values", values));
+const COEFFICIENTS: Member<FieldData> = Member::<FieldData>::array(
+    "coefficients",
+    |data, group, name| group.put_matrix(name, data.coefficients.iter()),
+    |data, group, name, _| {
+        data.coefficients = group.matrix(name, group.rows_of(["components", name]));
+    },
+);
 
-pub(crate) const INTENSITIES: &TableColumns<TipIntensity> = table!(TipIntensity:
+const ATTRIBUTES: Member<Step> = Member::<Step>::group(
+    "attributes",
+    (GroupShape::Table, || names_of(ATTRIBUTE)),
+    |step, group, name| {
+        let mut group = group.group(name);
+        group.put(ATTRIBUTE, &step.attributes)?;
+        if step.attributes.is_empty() {
+            group.array("values", Array::matrix(&[[]; 0], step.partition.len()));
+        }
+        Ok(())
+    },
+    |step, group, name, _| step.attributes = group.group(name).table(ATTRIBUTE),
+)
+.optional_to_read();
+
+const ATTRIBUTE: &TableMembers<Attribute> =
+    members!(Attribute: cell("name", name), matrix("values", values));
+
+const INTENSITIES: &TableMembers<TipIntensity> = members!(TipIntensity:
     cell("crack", tip.crack), cell("end", tip.end), cell("k1", k1), cell("k2", k2),
     list("rings", "ring_offsets", rings), cell("t_stress", t_stress).optional(),
     cell("j", j).optional(), cell("error", error).optional(),
 );
 
-pub(crate) const HISTORY: &TableColumns<Record> =
-    table!(Record: cell("name", name), cell("value", value), cell("unit", unit));
+const HISTORY: &TableMembers<Record> =
+    members!(Record: cell("name", name), cell("value", value), cell("unit", unit));
 
-pub(crate) const WARNINGS: &TableColumns<Warning> = table!(Warning:
+const WARNINGS: &TableMembers<Warning> = members!(Warning:
     cell("kind", kind), cell("message", message), cell("at", at), cell("value", value),
     cell("limit", limit),
 );
 
-pub(crate) const REACTIONS: &TableColumns<Reaction> = table!(Reaction:
+const REACTIONS: &TableMembers<Reaction> = members!(Reaction:
     cell("on", on), custom(HELD), matrix("force", force), cell("moment", moment));
 
 /// Numbers that are 1 where the support holds a component.
-const HELD: ArrayColumn<[Reaction]> = ArrayColumn {
+const HELD: Member<[Reaction]> = Member {
     counts: true,
-    ..ArrayColumn::new(
+    ..Member::<[Reaction]>::array(
         "held",
         |rows, group, name| {
             let flag = |held: &bool| f64::from(u8::from(*held));
@@ -125,80 +161,3 @@ const HELD: ArrayColumn<[Reaction]> = ArrayColumn {
         },
     )
 };
-
-pub(crate) const GROWTH: &TableColumns<TipIncrement> = table!(TipIncrement:
-    cell("crack", tip.crack), cell("end", tip.end), cell("fate", fate), custom(OTHER),
-    list("path", "path_offsets", path), cell("strength", k_eq), cell("direction", direction),
-    cell("curvature", curvature), cell("length", length), cell("due", due),
-    cell("extension", extension),
-);
-
-const OTHER: ArrayColumn<[TipIncrement]> = ArrayColumn {
-    counts: true,
-    ..ArrayColumn::new(
-        "other",
-        |tips, group, name| group.put(name, &tips.iter().map(other).collect::<Vec<_>>()),
-        |tips, group, name, n| {
-            let others = tips.iter_mut().zip(group.rows(name, n));
-            others.for_each(|(tip, other)| set_other(group, tip, other));
-        },
-    )
-};
-
-/// The index of what a tip meets, −1 for none.
-fn other(tip: &TipIncrement) -> i64 {
-    match tip.fate {
-        TipStatus::MeetsHole(k) | TipStatus::MeetsCrack(k) => k.into(),
-        _ => -1,
-    }
-}
-
-fn set_other(group: &GroupReader, tip: &mut TipIncrement, other: i64) {
-    let word = tip.fate.word().unwrap_or_default();
-    match &mut tip.fate {
-        TipStatus::MeetsHole(k) | TipStatus::MeetsCrack(k) => match u32::try_from(other) {
-            Ok(index) => *k = index,
-            Err(_) => group.error("other", format!("{other} is no index of what `{word}`")),
-        },
-        _ if other != -1 && !group.is_wrong("fate") => {
-            group.error("other", format!("is {other} of `{word}`, must be -1"));
-        }
-        _ => {}
-    }
-}
-
-/// A hole as a row of its group.
-#[derive(Clone, Default)]
-pub(crate) struct StoredHole {
-    pub(crate) kind: String,
-    pub(crate) points: Vec<Vec2>,
-    pub(crate) radius: f64,
-}
-
-pub(crate) const HOLES: &TableColumns<StoredHole> = table!(StoredHole:
-    cell("kind", kind), list("points", "offsets", points), cell("radius", radius));
-
-impl StoredHole {
-    pub(crate) fn of(hole: &Hole) -> Self {
-        let (side, points, radius) = match hole {
-            Hole::Circle { center, radius } => (None, vec![*center], *radius),
-            Hole::Polygon { points, side } => (Some(*side), points.clone(), 0.0),
-        };
-        let kind = stored::HOLES.iter().find(|(kind, _)| *kind == side);
-        Self { kind: kind.map_or_else(String::new, |(_, word)| (*word).to_owned()), points, radius }
-    }
-
-    pub(crate) fn hole(self, group: &GroupReader) -> Option<Hole> {
-        let Self { kind, points, radius } = self;
-        match (group.word(stored::HOLES, &kind, "kind")?, &*points) {
-            (None, &[center]) => return Some(Hole::Circle { center, radius }),
-            (None, _) if group.is_wrong("points") => {}
-            (None, other) => {
-                group.error("offsets", format!("a circle has 1 point, not {}", other.len()));
-            }
-            (Some(side), _) if radius == 0.0 => return Some(Hole::Polygon { points, side }),
-            (Some(_), _) => group.error("radius", format!("is {radius} of a polygon, must be 0")),
-        }
-        None
-    }
-}

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use ppum::check::CheckError;
-use ppum::dataset::{Dataset, Step};
+use ppum::dataset::{BoxPartition, Dataset, Step};
 use ppum_file::RangedFile;
 
 use crate::bytes::{from_file, invalid, newer};
@@ -11,6 +11,7 @@ use crate::content::step_path;
 use crate::error::ReadError;
 use crate::hdf5::{Outline, Ranges};
 use crate::limits::{MAX_LENGTH, MAX_SERIES_LENGTH};
+use crate::schema::RESULTS;
 use crate::{checksum, decode};
 
 /// A dataset whose steps are read when they are asked for, each at the cost of one step.
@@ -54,12 +55,12 @@ impl Series {
                 _ => break,
             }
         }
-        let outline = read.map_err(ReadError::shortened)?;
+        let outline = read?;
         let minor = decode::check_version(&outline.content)?;
         if checksum::is_whole(&outline.content) {
             return from_file(&file, file.length(MAX_LENGTH).map_err(io)?).map(Self::of);
         }
-        let head = head(&outline).map_err(|error| newer(error, minor).shortened())?;
+        let head = head(&outline).map_err(|error| newer(error, minor))?;
         Ok(Self { head, minor, steps: StepStore::Stored(file, outline) })
     }
 
@@ -186,11 +187,15 @@ impl Series {
     fn empty(&self, number: usize) -> Result<Step, ReadError> {
         let (file, outline) = match &self.steps {
             StepStore::Stored(file, outline) => (file, outline),
-            StepStore::Read(steps) => return Ok(decode::empty_step(get(steps, number)?.load)),
+            StepStore::Read(steps) => {
+                let mut step = Step::new(BoxPartition::EMPTY);
+                step.load = get(steps, number)?.load;
+                return Ok(step);
+            }
         };
         let path = path(number, self.len())?;
         let read = outline.step(file, &path, Some(&[]));
-        self.explained(read.and_then(|content| decode::empty(&content, &path)))
+        self.explained(read.and_then(|content| decode::part_of_step(&content, &path, &[])))
     }
 
     /// The dataset with a step that is read now. The step's checksum is compared while it is made.
@@ -220,8 +225,8 @@ impl Series {
         number: usize,
     ) -> Result<Step, ReadError> {
         let path = path(number, self.len())?;
-        let content = outline.step(file, &path, Some(decode::RESULTS))?;
-        let step = decode::results(&content, &path)?;
+        let content = outline.step(file, &path, Some(RESULTS))?;
+        let step = decode::part_of_step(&content, &path, RESULTS)?;
         step.check_results().map_err(|mut error| {
             error.place = format!("steps[{number}].{}", error.place);
             invalid(error, &content)
@@ -230,7 +235,7 @@ impl Series {
     }
 
     fn explained<T>(&self, read: Result<T, ReadError>) -> Result<T, ReadError> {
-        read.map_err(|error| newer(error, self.minor).shortened())
+        read.map_err(|error| newer(error, self.minor))
     }
 }
 
@@ -241,7 +246,7 @@ fn head(outline: &Outline) -> Result<Dataset, ReadError> {
     let count = outline.steps().len();
     if count == 0 {
         // it says that there is none
-        head.check()?;
+        head.check().map_err(|error| invalid(error, &outline.content))?;
     }
     for number in 0..count {
         let path = step_path(number);

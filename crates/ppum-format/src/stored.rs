@@ -2,8 +2,7 @@
 
 use ppum::crack::{CrackEnd, End, SegmentId};
 use ppum::dataset::{GrowthStop, Ring, StressState, TipStatus, WarningKind};
-use ppum::domain::PolygonSide;
-use ppum::function::{Cut, CutSide, Role};
+use ppum::function::{Cut, CutBranch, Role};
 use ppum::mesh::Shape;
 use ppum::polynomial::PolynomialSpace;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -96,7 +95,7 @@ numbers! {
         |numbers, row, report| cut(numbers).unwrap_or_else(|| {
             report(format!("row {row} is no cut"));
             let segment = SegmentId { crack: 0, segment: 0 };
-            Cut { segment, left: CutSide::Outside, right: CutSide::Outside }
+            Cut { segment, left: CutBranch::Outside, right: CutBranch::Outside }
         });
 }
 
@@ -104,7 +103,7 @@ numbers! {
 fn cut([crack, segment, left, right]: [i64; 4]) -> Option<Cut> {
     let index = |number: i64| u32::try_from(number).ok();
     let segment = SegmentId { crack: index(crack)?, segment: index(segment)? };
-    Some(Cut { segment, left: CutSide::of_number(left)?, right: CutSide::of_number(right)? })
+    Some(Cut { segment, left: CutBranch::of_number(left)?, right: CutBranch::of_number(right)? })
 }
 
 /// NaN stands for what is not known.
@@ -192,8 +191,8 @@ impl<T: StoredWord> StoredValue for T {
     }
 
     fn restore(_: usize, elements: &[String], report: &mut dyn FnMut(String)) -> Self {
-        value(T::WORDS, &elements[0]).unwrap_or_else(|mistake| {
-            report(mistake);
+        value(T::WORDS, &elements[0]).unwrap_or_else(|message| {
+            report(message);
             T::WORDS[0].0
         })
     }
@@ -263,6 +262,7 @@ macro_rules! kinds {
 
 kinds! {
     EquationKind: Elasticity "elasticity", Eigenstrain "eigenstrain", Poisson "poisson", None "none";
+    HoleKind: Circle "circle", Polygon "polygon", Outside "outside";
     // readers of files before 1.2 know the first alone
     DomainKind: Box "box", BoxWithHoles "box-with-holes", Mesh "mesh";
     PartitionKind: Boxes "shepard-box", Mesh "mesh";
@@ -275,7 +275,7 @@ impl StoredWord for TipStatus {
     const WORDS: &'static WordTable<Self> = &[
         (Self::Unknown, "unknown"),
         (Self::Grows, "grows"),
-        (Self::LeavesPlate, "leaves-plate"),
+        (Self::LeavesBody, "leaves-plate"),
         (Self::MeetsHole(0), "meets-hole"),
         (Self::MeetsCrack(0), "meets-crack"),
         (Self::Waits, "waits"),
@@ -300,13 +300,6 @@ pub(crate) const WEIGHTS: &WordTable<Option<WeightFunction>> = &[
     (Some(WeightFunction::Quadratic), "quadratic"),
     (Some(WeightFunction::Cubic), "cubic"),
     (None, "formula"),
-];
-
-/// Kinds of holes: a circle, or what is cut out of a polygon.
-pub(crate) const HOLES: &WordTable<Option<PolygonSide>> = &[
-    (None, "circle"),
-    (Some(PolygonSide::Inside), "polygon"),
-    (Some(PolygonSide::Outside), "outside"),
 ];
 
 /// Values with numbers, 0, 1, …, and their words in messages.

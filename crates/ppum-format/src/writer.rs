@@ -34,7 +34,7 @@ impl GroupWriter<'_> {
     }
 
     /// Values, one in a row.
-    pub(crate) fn put<'v, T: StoredValue + 'v>(
+    pub(crate) fn values<'v, T: StoredValue + 'v>(
         &mut self,
         name: &str,
         values: impl IntoIterator<Item = &'v T>,

@@ -68,35 +68,30 @@ impl Op {
     }
 
     /// The operands, in order.
-    pub(crate) fn operands(&self) -> impl Iterator<Item = NodeId> + use<> {
-        let array = match *self {
-            Self::Constant(_) | Self::Input(_) | Self::Truth(_) => [None; 3],
+    fn operands_mut(&mut self) -> impl Iterator<Item = &mut NodeId> {
+        let array = match self {
+            Self::Constant(_) | Self::Input(_) | Self::Truth(_) => [None, None, None],
             Self::Unary(_, a) | Self::Power(a, _) | Self::Not(a) => [Some(a), None, None],
             Self::Binary(_, a, b) | Self::Compare(_, a, b) | Self::And(a, b) | Self::Or(a, b) => {
                 [Some(a), Some(b), None]
             }
-            Self::Table { x, y, .. } => [Some(x), y, None],
+            Self::Table { x, y, .. } => [Some(x), y.as_mut(), None],
             Self::Select(c, a, b) => [Some(c), Some(a), Some(b)],
         };
         array.into_iter().flatten()
     }
 
+    /// The operands, in order.
+    pub(crate) fn operands(mut self) -> impl Iterator<Item = NodeId> {
+        let mut array = [None; 3];
+        array.iter_mut().zip(self.operands_mut()).for_each(|(to, operand)| *to = Some(*operand));
+        array.into_iter().flatten()
+    }
+
     /// Returns the operation on other operands.
-    fn renumbered(self, new: impl Fn(NodeId) -> NodeId) -> Self {
-        match self {
-            Self::Constant(_) | Self::Input(_) | Self::Truth(_) => self,
-            Self::Unary(op, a) => Self::Unary(op, new(a)),
-            Self::Power(a, n) => Self::Power(new(a), n),
-            Self::Not(a) => Self::Not(new(a)),
-            Self::Binary(op, a, b) => Self::Binary(op, new(a), new(b)),
-            Self::Compare(op, a, b) => Self::Compare(op, new(a), new(b)),
-            Self::And(a, b) => Self::And(new(a), new(b)),
-            Self::Or(a, b) => Self::Or(new(a), new(b)),
-            Self::Table { table, orders, x, y } => {
-                Self::Table { table, orders, x: new(x), y: y.map(new) }
-            }
-            Self::Select(c, a, b) => Self::Select(new(c), new(a), new(b)),
-        }
+    fn renumbered(mut self, new: impl Fn(NodeId) -> NodeId) -> Self {
+        self.operands_mut().for_each(|operand| *operand = new(*operand));
+        self
     }
 }
 
@@ -319,23 +314,28 @@ impl Graph {
 
     /// Both conditions.
     pub(crate) fn and(&mut self, a: NodeId, b: NodeId) -> NodeId {
-        match (self.known_truth(a), self.known_truth(b)) {
-            (Some(true), _) => b,
-            (_, Some(true)) => a,
-            (Some(false), _) | (_, Some(false)) => self.truth(false),
-            _ if a == b => a,
-            _ => self.node(Op::And(a.min(b), a.max(b))),
-        }
+        self.joined(true, a, b, Op::And)
     }
 
     /// At least one condition.
     pub(crate) fn or(&mut self, a: NodeId, b: NodeId) -> NodeId {
+        self.joined(false, a, b, Op::Or)
+    }
+
+    /// Two conditions joined by an operation that `neutral` does not change.
+    fn joined(
+        &mut self,
+        neutral: bool,
+        a: NodeId,
+        b: NodeId,
+        op: fn(NodeId, NodeId) -> Op,
+    ) -> NodeId {
         match (self.known_truth(a), self.known_truth(b)) {
-            (Some(false), _) => b,
-            (_, Some(false)) => a,
-            (Some(true), _) | (_, Some(true)) => self.truth(true),
-            _ if a == b => a,
-            _ => self.node(Op::Or(a.min(b), a.max(b))),
+            (Some(known), _) if known == neutral => b,
+            (_, Some(known)) if known == neutral => a,
+            (None, None) if a == b => a,
+            (None, None) => self.node(op(a.min(b), a.max(b))),
+            _ => self.truth(!neutral),
         }
     }
 
@@ -343,13 +343,8 @@ impl Graph {
     pub(crate) fn select(&mut self, c: NodeId, a: NodeId, b: NodeId) -> NodeId {
         match self.op(c) {
             _ if a == b => a,
-            Op::Truth(holds) => {
-                if holds {
-                    a
-                } else {
-                    b
-                }
-            }
+            Op::Truth(true) => a,
+            Op::Truth(false) => b,
             Op::Not(c) => self.node(Op::Select(c, b, a)),
             _ => self.node(Op::Select(c, a, b)),
         }

@@ -19,17 +19,14 @@
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
-use crate::derivative::DerivativeError;
-use crate::derivative::gradients;
-use crate::formula::Formula;
-use crate::formula::check_inputs;
+use crate::derivative::{DerivativeError, gradients};
+use crate::formula::{Formula, check_inputs};
 use crate::graph::{Graph, NodeId, Op};
 use crate::lanes::Tape;
 use crate::language::scope::Scope;
 use crate::program::FormulaProgram;
 use crate::reciprocal::share_reciprocals;
-use crate::wgsl;
-use crate::wgsl::WgslError;
+use crate::wgsl::{self, WgslError};
 
 /// Values and derivatives of formulas of one scope.
 ///
@@ -164,7 +161,6 @@ impl FormulaJets {
         self.program.ops().contains(&Op::Input(input as u32))
     }
 
-    #[cfg(test)]
     /// The program that every back end starts from.
     #[cfg(test)]
     pub(crate) fn program(&self) -> &FormulaProgram {

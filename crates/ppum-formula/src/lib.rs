@@ -19,7 +19,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Every formula goes through the same rooms, each a loop over what the one before has made:
+//! Every formula goes through the same stages, each a loop over what the one before has made:
 //!
 //! ```text
 //! text ─▶ lexer ─▶ parser ─▶ tree ─▶ lower ─▶ graph ─▶ derivative ─▶ program ─┬▶ one point, f64: the reference

@@ -24,7 +24,7 @@ pub(crate) enum LibraryFunction {
 impl LibraryFunction {
     /// The function of a name.
     pub(crate) fn named(name: &str) -> Option<Self> {
-        FUNCTIONS.iter().find(|(known, _)| *known == name).map(|&(_, function)| function)
+        functions().find(|(known, _)| *known == name).map(|(_, function)| function)
     }
 
     /// Number of arguments; `None` of functions with arguments that are no values.
@@ -40,32 +40,19 @@ impl LibraryFunction {
 
 /// Names of all functions, to be listed and completed.
 pub fn function_names() -> impl Iterator<Item = &'static str> {
-    FUNCTIONS.iter().map(|(name, _)| *name)
+    functions().map(|(name, _)| name)
 }
 
-/// All functions.
-pub(crate) const FUNCTIONS: [(&str, LibraryFunction); 26] = [
-    ("sqrt", LibraryFunction::Unary(Unary::Sqrt)),
-    ("cbrt", LibraryFunction::Unary(Unary::Cbrt)),
-    ("exp", LibraryFunction::Unary(Unary::Exp)),
-    ("log", LibraryFunction::Unary(Unary::Log)),
-    ("log10", LibraryFunction::Unary(Unary::Log10)),
-    ("sin", LibraryFunction::Unary(Unary::Sin)),
-    ("cos", LibraryFunction::Unary(Unary::Cos)),
-    ("tan", LibraryFunction::Unary(Unary::Tan)),
-    ("asin", LibraryFunction::Unary(Unary::Asin)),
-    ("acos", LibraryFunction::Unary(Unary::Acos)),
-    ("atan", LibraryFunction::Unary(Unary::Atan)),
-    ("sinh", LibraryFunction::Unary(Unary::Sinh)),
-    ("cosh", LibraryFunction::Unary(Unary::Cosh)),
-    ("tanh", LibraryFunction::Unary(Unary::Tanh)),
-    ("abs", LibraryFunction::Unary(Unary::Abs)),
-    ("sign", LibraryFunction::Unary(Unary::Sign)),
-    ("floor", LibraryFunction::Unary(Unary::Floor)),
-    ("atan2", LibraryFunction::Binary(Binary::Atan2)),
-    ("min", LibraryFunction::Binary(Binary::Min)),
-    ("max", LibraryFunction::Binary(Binary::Max)),
-    ("hypot", LibraryFunction::Binary(Binary::Hypot)),
+/// All functions with their names.
+pub(crate) fn functions() -> impl Iterator<Item = (&'static str, LibraryFunction)> {
+    let unary = Unary::ALL.iter().map(|op| (op.text(), LibraryFunction::Unary(*op)));
+    let binary = Binary::ALL.iter().map(|op| (op.text(), LibraryFunction::Binary(*op)));
+    let all = unary.chain(binary).chain(OTHERS);
+    all.filter(|(text, _)| text.starts_with(|c: char| c.is_ascii_alphabetic()))
+}
+
+/// Functions that are no operation of numbers.
+const OTHERS: [(&str, LibraryFunction); 5] = [
     ("if", LibraryFunction::If),
     ("clamp", LibraryFunction::Clamp),
     ("table", LibraryFunction::Table),
@@ -110,11 +97,8 @@ pub(crate) fn constant(name: &str) -> Option<f64> {
 
 /// Name of an operation that formulas write as a function.
 pub(crate) fn name_of(function: LibraryFunction) -> &'static str {
-    FUNCTIONS
-        .iter()
-        .find(|(_, known)| *known == function)
-        .map(|&(name, _)| name)
-        .expect("operators are written with their own signs")
+    let mut all = functions().filter(|(_, known)| *known == function);
+    all.next().expect("operators are written with their own signs").0
 }
 
 /// True if the language itself uses the name.

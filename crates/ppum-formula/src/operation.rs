@@ -3,99 +3,77 @@
 use crate::elementary;
 use crate::real::DoubleFunction as _;
 
-/// Functions of one number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Unary {
-    Neg,
-    Sqrt,
-    Cbrt,
-    Exp,
-    /// Natural logarithm.
-    Log,
-    Log10,
-    Sin,
-    Cos,
-    Tan,
-    Asin,
-    Acos,
-    Atan,
-    Sinh,
-    Cosh,
-    Tanh,
-    Abs,
-    /// −1, 0 or +1.
-    Sign,
-    Floor,
+/// Operations with their texts and their values: functions have names, others a sign.
+macro_rules! operations {
+    ($(#[$about:meta])* $type:ident $arguments:tt {
+        $($(#[$doc:meta])* $name:ident $text:literal = $value:expr;)+
+    }) => {
+        $(#[$about])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+        pub(crate) enum $type { $($(#[$doc])* $name),+ }
+
+        impl $type {
+            /// All of them.
+            pub(crate) const ALL: &'static [Self] = &[$(Self::$name),+];
+
+            /// Name or sign, in formulas and in WGSL.
+            pub(crate) fn text(self) -> &'static str {
+                match self { $(Self::$name => $text),+ }
+            }
+        }
+
+        operations!(@apply $type $arguments $($name = $value;)+);
+    };
+    (@apply $type:ident [$($a:ident),+] $($name:ident = $value:expr;)+) => {
+        impl $type {
+            /// The value. Unlike those of std, `min` and `max` hand NaN on.
+            pub(crate) fn apply(self, $($a: f64),+) -> f64 {
+                match self { $(Self::$name => $value),+ }
+            }
+        }
+    };
 }
 
-impl Unary {
-    /// The value at `a`.
-    pub(crate) fn apply(self, a: f64) -> f64 {
-        match self {
-            Self::Neg => -a,
-            Self::Sqrt => a.sqrt(),
-            Self::Cbrt => elementary::Cbrt.apply([a]),
-            Self::Exp => elementary::Exp.apply([a]),
-            Self::Log => elementary::Log.apply([a]),
-            Self::Log10 => elementary::Log10.apply([a]),
-            Self::Sin => elementary::Sin.apply([a]),
-            Self::Cos => elementary::Cos.apply([a]),
-            Self::Tan => elementary::Tan.apply([a]),
-            Self::Asin => elementary::Asin.apply([a]),
-            Self::Acos => elementary::Acos.apply([a]),
-            Self::Atan => elementary::Atan.apply([a]),
-            Self::Sinh => elementary::Sinh.apply([a]),
-            Self::Cosh => elementary::Cosh.apply([a]),
-            Self::Tanh => elementary::Tanh.apply([a]),
-            Self::Abs => a.abs(),
-            Self::Sign => sign(a),
-            Self::Floor => a.floor(),
-        }
+operations! {
+    /// Functions of one number.
+    Unary [a] {
+        Neg "-" = -a;
+        Sqrt "sqrt" = a.sqrt();
+        Cbrt "cbrt" = elementary::Cbrt.apply([a]);
+        Exp "exp" = elementary::Exp.apply([a]);
+        /// Natural logarithm.
+        Log "log" = elementary::Log.apply([a]);
+        Log10 "log10" = elementary::Log10.apply([a]);
+        Sin "sin" = elementary::Sin.apply([a]);
+        Cos "cos" = elementary::Cos.apply([a]);
+        Tan "tan" = elementary::Tan.apply([a]);
+        Asin "asin" = elementary::Asin.apply([a]);
+        Acos "acos" = elementary::Acos.apply([a]);
+        Atan "atan" = elementary::Atan.apply([a]);
+        Sinh "sinh" = elementary::Sinh.apply([a]);
+        Cosh "cosh" = elementary::Cosh.apply([a]);
+        Tanh "tanh" = elementary::Tanh.apply([a]);
+        Abs "abs" = a.abs();
+        /// −1, 0 or +1; NaN of NaN.
+        Sign "sign" = if a > 0.0 { 1.0 } else if a < 0.0 { -1.0 } else { a };
+        Floor "floor" = a.floor();
     }
 }
 
-/// −1, 0 or +1; NaN of NaN.
-fn sign(a: f64) -> f64 {
-    if a > 0.0 {
-        1.0
-    } else if a < 0.0 {
-        -1.0
-    } else {
-        a
-    }
-}
-
-/// Functions of two numbers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Binary {
-    Add,
-    Sub,
-    Mul,
-    Div,
-    Pow,
-    /// Angle of the point (b, a), as in `atan2(y, x)`.
-    Atan2,
-    Min,
-    Max,
-    /// √(a² + b²) without overflow.
-    Hypot,
-}
-
-impl Binary {
-    /// The value at `(a, b)`. Unlike those of std, `min` and `max` hand NaN on.
-    pub(crate) fn apply(self, a: f64, b: f64) -> f64 {
-        match self {
-            Self::Add => a + b,
-            Self::Sub => a - b,
-            Self::Mul => a * b,
-            Self::Div => a / b,
-            Self::Pow => elementary::Pow.apply([a, b]),
-            Self::Atan2 => elementary::Atan2.apply([a, b]),
-            Self::Min if a < b || a.is_nan() => a,
-            Self::Max if a > b || a.is_nan() => a,
-            Self::Min | Self::Max => b,
-            Self::Hypot => elementary::Hypot.apply([a, b]),
-        }
+operations! {
+    /// Functions of two numbers.
+    Binary [a, b] {
+        Add "+" = a + b;
+        Sub "-" = a - b;
+        Mul "*" = a * b;
+        Div "/" = a / b;
+        Pow "^" = elementary::Pow.apply([a, b]);
+        /// Angle of the point (b, a), as in `atan2(y, x)`.
+        Atan2 "atan2" = elementary::Atan2.apply([a, b]);
+        Min "min" = if a < b || a.is_nan() { a } else { b };
+        Max "max" = if a > b || a.is_nan() { a } else { b };
+        /// √(a² + b²) without overflow.
+        Hypot "hypot" = elementary::Hypot.apply([a, b]);
     }
 }
 

@@ -98,11 +98,10 @@ impl<'a> Printer<'a> {
             Op::Input(index) => atom(self.inputs[index as usize].to_owned(), 0),
             Op::Unary(Unary::Neg, a) => self.prefix("-", a, precedence::POWER, precedence::MINUS),
             Op::Unary(op, a) => self.call(LibraryFunction::Unary(op), &[a]),
-            Op::Power(a, n) if n < 0 => {
-                self.before(a, precedence::ATOM, &format!("^({n})"), precedence::POWER)
-            }
             Op::Power(a, n) => {
-                self.before(a, precedence::ATOM, &format!("^{n}"), precedence::POWER)
+                let (a, n) = (self.operand(a, precedence::ATOM), number(f64::from(n)));
+                let power = joined(&a, "^", &enclosed(n, precedence::ATOM), precedence::POWER);
+                PrintedTerm { depth: a.depth, ..power }
             }
             Op::Binary(op, a, b) => self.binary(op, a, b),
             Op::Table { table, orders, x, y } => self.table(table as usize, orders, x, y),
@@ -130,13 +129,8 @@ impl<'a> Printer<'a> {
             Binary::Mul => self.infix(a, "*", b, precedence::PRODUCT),
             Binary::Div => self.infix(a, "/", b, precedence::PRODUCT),
             Binary::Pow => {
-                let (a, b) = (self.operand(a, precedence::ATOM), self.operand(b, precedence::ATOM));
-                let depth = a.depth.max(b.depth);
-                PrintedTerm {
-                    text: format!("{}^{}", a.text, b.text),
-                    strength: precedence::POWER,
-                    depth,
-                }
+                let [a, b] = [a, b].map(|part| self.operand(part, precedence::ATOM));
+                joined(&a, "^", &b, precedence::POWER)
             }
             Binary::Atan2 | Binary::Min | Binary::Max | Binary::Hypot => {
                 self.call(LibraryFunction::Binary(op), &[a, b])
@@ -148,8 +142,7 @@ impl<'a> Printer<'a> {
     fn infix(&mut self, a: NodeId, sign: &str, b: NodeId, strength: u8) -> PrintedTerm {
         let left = strength + u8::from(strength == precedence::COMPARISON);
         let (a, b) = (self.operand(a, left), self.operand(b, strength + 1));
-        let depth = a.depth.max(b.depth);
-        PrintedTerm { text: format!("{}{sign}{}", a.text, b.text), strength, depth }
+        joined(&a, sign, &b, strength)
     }
 
     fn prefix(&mut self, sign: &str, a: NodeId, weakest: u8, strength: u8) -> PrintedTerm {
@@ -157,42 +150,37 @@ impl<'a> Printer<'a> {
         PrintedTerm { text: format!("{sign}{}", a.text), strength, depth: a.depth + 1 }
     }
 
-    fn before(&mut self, a: NodeId, weakest: u8, sign: &str, strength: u8) -> PrintedTerm {
-        let a = self.operand(a, weakest);
-        PrintedTerm { text: format!("{}{sign}", a.text), strength, depth: a.depth }
+    fn call(&self, function: LibraryFunction, arguments: &[NodeId]) -> PrintedTerm {
+        self.call_with(function, Vec::new(), arguments)
     }
 
-    fn call(&mut self, function: LibraryFunction, arguments: &[NodeId]) -> PrintedTerm {
-        let pieces: Vec<PrintedTerm> = arguments.iter().map(|&a| self.operand(a, 0)).collect();
-        let depth = pieces.iter().map(|piece| piece.depth).max().unwrap_or(0);
-        let texts: Vec<&str> = pieces.iter().map(|piece| piece.text.as_str()).collect();
+    /// A call with some texts before its arguments.
+    fn call_with(
+        &self,
+        function: LibraryFunction,
+        mut texts: Vec<String>,
+        arguments: &[NodeId],
+    ) -> PrintedTerm {
+        let pieces = || arguments.iter().map(|&a| &self.pieces[a.index()]);
+        let depth = pieces().map(|piece| piece.depth).max().unwrap_or(0);
+        texts.extend(pieces().map(|piece| piece.text.clone()));
         atom(format!("{}({})", name_of(function), texts.join(", ")), depth + 1)
     }
 
     /// `table(name, x, y)` or `dtable(name, m, n, x, y)`.
     fn table(&self, table: usize, orders: [u8; 2], x: NodeId, y: Option<NodeId>) -> PrintedTerm {
-        let given = 1 + usize::from(y.is_some());
-        let mut parts = vec![self.tables[table].to_owned()];
-        let derived = orders != [0, 0];
-        if derived {
-            parts.extend(orders[..given].iter().map(u8::to_string));
+        let arguments: Vec<NodeId> = [x].into_iter().chain(y).collect();
+        let mut texts = vec![self.tables[table].to_owned()];
+        if orders == [0, 0] {
+            return self.call_with(LibraryFunction::Table, texts, &arguments);
         }
-        let pieces: Vec<PrintedTerm> =
-            [Some(x), y].into_iter().flatten().map(|a| self.operand(a, 0)).collect();
-        let depth = pieces.iter().map(|piece| piece.depth).max().unwrap_or(0);
-        parts.extend(pieces.into_iter().map(|piece| piece.text));
-        let function =
-            if derived { LibraryFunction::TableDerivative } else { LibraryFunction::Table };
-        atom(format!("{}({})", name_of(function), parts.join(", ")), depth + 1)
+        texts.extend(orders[..arguments.len()].iter().map(u8::to_string));
+        self.call_with(LibraryFunction::TableDerivative, texts, &arguments)
     }
 
     /// The text of an operand, in parentheses if it binds less tightly than `weakest`.
     fn operand(&self, id: NodeId, weakest: u8) -> PrintedTerm {
-        let piece = self.pieces[id.index()].clone();
-        if piece.strength >= weakest {
-            return piece;
-        }
-        atom(format!("({})", piece.text), piece.depth + 1)
+        enclosed(self.pieces[id.index()].clone(), weakest)
     }
 }
 
@@ -219,6 +207,19 @@ fn uses(program: &FormulaProgram, defined: &[Option<&str>]) -> Vec<u32> {
         }
     }
     uses
+}
+
+/// A text, in parentheses if it binds less tightly than `weakest`.
+fn enclosed(piece: PrintedTerm, weakest: u8) -> PrintedTerm {
+    if piece.strength >= weakest {
+        return piece;
+    }
+    atom(format!("({})", piece.text), piece.depth + 1)
+}
+
+fn joined(a: &PrintedTerm, sign: &str, b: &PrintedTerm, strength: u8) -> PrintedTerm {
+    let depth = a.depth.max(b.depth);
+    PrintedTerm { text: format!("{}{sign}{}", a.text, b.text), strength, depth }
 }
 
 fn atom(text: String, depth: usize) -> PrintedTerm {

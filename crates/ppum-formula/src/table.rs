@@ -50,80 +50,16 @@ impl PartialEq for Table {
     }
 }
 
-/// Data that make no table.
+/// Why data make no table: a sentence with the remedy.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum TableError {
-    /// Fewer than two knots.
-    #[error("table `{table}` has {given} knots in {axis}; at least two are needed")]
-    TooFewKnots {
-        /// The table.
-        table: String,
-        /// `x` or `y`.
-        axis: char,
-        /// Knots given.
-        given: usize,
-    },
-    /// An infinity or NaN among the knots.
-    #[error(
-        "table `{table}`: knot {index} in {axis}, counted from 0, is {value}; it must be finite"
-    )]
-    KnotNotFinite {
-        /// The table.
-        table: String,
-        /// `x` or `y`.
-        axis: char,
-        /// Index of the knot.
-        index: usize,
-        /// The knot.
-        value: f64,
-    },
-    /// Knots are not in strictly increasing order.
-    #[error(
-        "table `{table}`: knot {index} in {axis}, counted from 0, is {value} after {previous}; sort the knots and \
-         give each one once"
-    )]
-    NotIncreasing {
-        /// The table.
-        table: String,
-        /// `x` or `y`.
-        axis: char,
-        /// Index of the later knot.
-        index: usize,
-        /// The later knot.
-        value: f64,
-        /// The knot before it.
-        previous: f64,
-    },
-    /// The number of values is not that of the knots.
-    #[error(
-        "table `{table}` has {given} values, but {expected} are needed: one for each knot, in rows of \
-         constant y"
-    )]
-    ValueCount {
-        /// The table.
-        table: String,
-        /// Number of knots, or product of the two numbers.
-        expected: usize,
-        /// Values given.
-        given: usize,
-    },
-    /// An infinity or NaN among the values.
-    #[error("table `{table}`: value {index}, counted from 0, is {value}; it must be finite")]
-    ValueNotFinite {
-        /// The table.
-        table: String,
-        /// Index of the value, row after row.
-        index: usize,
-        /// The value.
-        value: f64,
-    },
-    /// The spline's coefficients are beyond double precision.
-    #[error("table `{table}` is too steep for double precision; scale its knots or its values")]
-    TooSteep {
-        /// The table.
-        table: String,
-    },
+#[error("table `{table}`{message}")]
+pub struct TableError {
+    table: String,
+    message: String,
+    /// The list that is wrong: `x`, `y` or `values`.
+    pub list: &'static str,
+    /// The number in the list that is wrong, from 0, if it is one.
+    pub index: Option<usize>,
 }
 
 /// Coefficients of a cubic polynomial, constant first.
@@ -137,7 +73,7 @@ impl Table {
     /// When there are fewer than two knots, they do not increase strictly, a number is not finite,
     /// or there is not one value for each knot.
     pub fn curve(name: &str, x: Vec<f64>, values: Vec<f64>) -> Result<Self, TableError> {
-        check_knots(name, 'x', &x)?;
+        check_knots(name, "x", &x)?;
         check_values(name, x.len(), &values)?;
         let coefficients = spline(&x, &values).concat();
         Self { name: name.to_owned(), x, y: Vec::new(), values, coefficients }.check_steepness()
@@ -154,8 +90,8 @@ impl Table {
         y: Vec<f64>,
         values: Vec<f64>,
     ) -> Result<Self, TableError> {
-        check_knots(name, 'x', &x)?;
-        check_knots(name, 'y', &y)?;
+        check_knots(name, "x", &x)?;
+        check_knots(name, "y", &y)?;
         check_values(name, x.len() * y.len(), &values)?;
         let coefficients = tensor_spline(&x, &y, &values);
         Self { name: name.to_owned(), x, y, values, coefficients }.check_steepness()
@@ -163,10 +99,10 @@ impl Table {
 
     fn check_steepness(self) -> Result<Self, TableError> {
         if self.coefficients.iter().all(|c| c.is_finite()) {
-            Ok(self)
-        } else {
-            Err(TableError::TooSteep { table: self.name })
+            return Ok(self);
         }
+        let message = " is too steep for double precision; scale its knots or its values".into();
+        Err(TableError { table: self.name, message, list: "values", index: None })
     }
 
     /// Its name in formulas.
@@ -321,35 +257,33 @@ fn polynomial<R: Double>(c: Cubic<R>, order: u8, t: R) -> R {
     }
 }
 
-fn check_knots(name: &str, axis: char, knots: &[f64]) -> Result<(), TableError> {
-    let table = || name.to_owned();
+fn check_knots(name: &str, list: &'static str, knots: &[f64]) -> Result<(), TableError> {
+    let error = |index, message| Err(TableError { table: name.to_owned(), message, list, index });
     if knots.len() < 2 {
-        return Err(TableError::TooFewKnots { table: table(), axis, given: knots.len() });
+        let given = knots.len();
+        return error(None, format!(" has {given} knots in {list}; at least two are needed"));
     }
-    if let Some((index, &value)) = knots.iter().enumerate().find(|(_, knot)| !knot.is_finite()) {
-        return Err(TableError::KnotNotFinite { table: table(), axis, index, value });
-    }
-    match (1..knots.len()).find(|&i| knots[i] <= knots[i - 1]) {
-        Some(index) => Err(TableError::NotIncreasing {
-            table: table(),
-            axis,
-            index,
-            value: knots[index],
-            previous: knots[index - 1],
-        }),
-        None => Ok(()),
-    }
+    let infinite = knots.iter().position(|knot| !knot.is_finite());
+    let falling = (1..knots.len()).find(|&k| knots[k] <= knots[k - 1]);
+    let Some(k) = infinite.or(falling) else { return Ok(()) };
+    let wrong = match infinite {
+        Some(_) => "; it must be finite".to_owned(),
+        None => format!(" after {}; sort the knots and give each one once", knots[k - 1]),
+    };
+    error(Some(k), format!(": knot {k} in {list}, counted from 0, is {}{wrong}", knots[k]))
 }
 
 fn check_values(name: &str, expected: usize, values: &[f64]) -> Result<(), TableError> {
-    let (table, given) = (name.to_owned(), values.len());
+    let (table, given, list) = (name.to_owned(), values.len(), "values");
     if given != expected {
-        return Err(TableError::ValueCount { table, expected, given });
+        let message = format!(
+            " has {given} values, but {expected} are needed: one for each knot, in rows of constant y"
+        );
+        return Err(TableError { table, message, list, index: None });
     }
-    match values.iter().enumerate().find(|(_, value)| !value.is_finite()) {
-        Some((index, &value)) => Err(TableError::ValueNotFinite { table, index, value }),
-        None => Ok(()),
-    }
+    let Some(k) = values.iter().position(|value| !value.is_finite()) else { return Ok(()) };
+    let message = format!(": value {k}, counted from 0, is {}; it must be finite", values[k]);
+    Err(TableError { table, message, list, index: Some(k) })
 }
 
 /// The cubics of the not-a-knot spline between the knots.

@@ -65,9 +65,12 @@
 //! solve                                            plan, system, solution, dataset
 //! diagnostics                                      warnings
 //! intensity                                        K_I, K_II, J, T
+//! error, estimate                                  what cannot be solved, and the memory it takes
 //! ```
 
 pub mod diagnostics;
+mod error;
+mod estimate;
 pub mod growth;
 pub mod intensity;
 pub mod solve;

@@ -21,13 +21,7 @@ impl AdapterKind {
     /// The kind in one word.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Discrete => "discrete",
-            Self::Integrated => "integrated",
-            Self::Virtual => "virtual",
-            Self::Other => "other",
-            Self::Software => "software",
-        }
+        ["discrete", "integrated", "virtual", "other", "software"][self as usize]
     }
 }
 
@@ -49,7 +43,6 @@ pub enum AdapterChoice {
 
 impl AdapterChoice {
     /// True if an adapter of this kind will do.
-    #[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a browser chooses by itself"))]
     pub(crate) fn accepts(self, kind: AdapterKind) -> bool {
         self == Self::Any || kind <= AdapterKind::Virtual
     }

@@ -119,17 +119,6 @@ pub enum GpuError {
     /// A field on a mesh.
     #[error("the patches are the elements of a mesh, which graphics cards do not draw")]
     Mesh,
-    /// A component that the field does not have.
-    #[error("there is no component {component}, counted from 0")]
-    Component {
-        /// The component asked for.
-        component: u8,
-        /// Components of the field.
-        count: usize,
-    },
-    /// A field with other patches or blocks than the scene that was uploaded.
-    #[error("the scene was uploaded of another field; upload this one")]
-    OtherField,
 }
 
 impl GpuError {

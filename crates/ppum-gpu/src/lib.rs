@@ -8,8 +8,7 @@
 //! - *gather*: each pixel finds the patches that cover it, sums and divides once;
 //! - *splat*: the three passes of Üffinger et al. 2011, patches drawn as quads and blended.
 //!
-//! A program knows its scene, and its type says what it yields: [`Values`], [`Colors`] or
-//! [`Derivatives`].
+//! A program knows its scene, and its type says what it yields: [`Values`] or [`Colors`].
 //!
 //! ```
 //! use ppum::prelude::*;
@@ -41,7 +40,8 @@
 //!
 //! // a program draws any view, here with colours of one range
 //! let Style { colormap, scale, undefined, .. } = Style::default();
-//! let normalization = RangeChoice::Auto.normalization(scale, colormap.diverging, &raster)?;
+//! let span = RangeChoice::Auto.span(scale, colormap.diverging, &raster, None);
+//! let normalization = span.normalization(scale)?;
 //! let shading = TransferFunction { normalization, colormap, undefined };
 //! let colors = Colors { quantity: u, shading: shading.clone() };
 //! let mut movie = renderer.compile(&scene, colors, Method::Gather)?;
@@ -84,12 +84,11 @@ mod tests;
 pub use choice::{AdapterChoice, AdapterKind};
 pub use device::Gpu;
 pub use device::adapter::AdapterInfo;
-#[cfg(not(target_arch = "wasm32"))]
 pub use device::adapter::adapters;
 pub use error::{GpuError, RenderError};
 pub use frame::shading::TransferFunction;
 pub use program::Program;
-pub use program::output::{Colors, Derivatives, Output, Values};
+pub use program::output::{Colors, Output, Values};
 pub use renderer::Renderer;
 pub use renderer::pending::QueuedOutput;
 pub use scene::Scene;

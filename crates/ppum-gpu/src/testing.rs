@@ -19,9 +19,9 @@ pub fn texts<O: Output>(
     output: &O,
     method: Method,
 ) -> Result<Vec<String>, RenderError> {
-    output.check(field)?;
+    let quantity = output.quantity();
+    quantity.check(field)?;
     let groups = FunctionGroups::new(&field.step.functions);
     let (layout, ..) = SceneLayout::of_field(field, Bodies::new(field, &groups).shape);
-    let wanted = (&output.quantity(), output.order());
-    Ok(ShaderText::new(&groups, field, wanted, method, O::FINISH)?.shaders(layout))
+    Ok(ShaderText::new(&groups, field, &quantity, method, O::FINISH)?.shaders(layout))
 }

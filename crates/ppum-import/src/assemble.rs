@@ -6,8 +6,8 @@ use ppum::vec2::Vec2;
 use crate::chain::{CurveChain, Joints, Network};
 use crate::crossing;
 use crate::curve::PlaneCurve;
-use crate::error::ImportError;
-use crate::sketch::{NamedCurve, Sketch};
+use crate::error::{ImportError, shown};
+use crate::sketch::{NO_CURVES, NamedCurve, Sketch};
 
 /// Most closed curves, and most open ones.
 const MOST_CHAINS: usize = 10_000;
@@ -58,8 +58,7 @@ impl ClosedCurve {
 pub(crate) fn assemble(mut sketch: Sketch, tolerance: f64) -> Result<BodyDrawing, ImportError> {
     let size = sketch.size();
     let tolerance = tolerance * size;
-    sketch.fit(tolerance);
-    let curves = std::mem::take(&mut sketch.curves);
+    let curves = sketch.fitted(tolerance);
     let curves = without_copies(curves, tolerance, &mut sketch);
     let (cracks, curves): (Vec<_>, Vec<_>) =
         curves.into_iter().partition(NamedCurve::is_named_crack);
@@ -131,20 +130,29 @@ fn nested(
     open: &[CurveChain],
 ) -> Result<Vec<ClosedCurve>, ImportError> {
     if closed.len().max(open.len()) > MOST_CHAINS {
-        return Err(ImportError::TooMany { what: "separate curves", most: MOST_CHAINS });
+        return Err(ImportError::too_many("separate curves", MOST_CHAINS));
     }
     closed.sort_by(|a, b| b.area.total_cmp(&a.area));
     let source = |c: &ClosedCurve| c.chain.curves[0].source;
     crossing::check(&closed.iter().map(|c| (&c.points[..], source(c))).collect::<Vec<_>>())?;
     let Some((outline, holes)) = closed.split_first() else { return Ok(closed) };
     if let Some(beside) = holes.iter().find(|hole| !contains(&outline.points, hole.points[0])) {
-        let at = [outline.points[0], beside.points[0]];
-        return Err(ImportError::Bodies { at, first: source(outline), second: source(beside) });
+        let [first, second] =
+            [outline, beside].map(|c| format!("{} ({})", shown(c.points[0]), source(c)));
+        return Err(ImportError(format!(
+            "the closed curves at {first} and at {second} lie beside each other: there is more than one body; keep \
+             one of them"
+        )));
     }
     for (k, hole) in holes.iter().enumerate() {
         let at = hole.points[0];
         if let Some(around) = holes[..k].iter().find(|around| contains(&around.points, at)) {
-            return Err(ImportError::Nested { at, inner: source(hole), hole: source(around) });
+            return Err(ImportError(format!(
+                "the closed curve at {} ({}) lies in the hole of {}: it would be another body; remove it",
+                shown(at),
+                source(hole),
+                source(around)
+            )));
         }
     }
     Ok(closed)
@@ -168,11 +176,17 @@ fn no_outline(open: &[CurveChain]) -> ImportError {
     };
     let largest = open.iter().max_by(|a, b| spread(a).total_cmp(&spread(b)));
     let Some([first, .., last] | [first @ last]) = largest.map(|chain| &chain.curves[..]) else {
-        return ImportError::Empty { layers: Vec::new(), notices: Vec::new() };
+        return ImportError(NO_CURVES.to_owned());
     };
     let ([from, _], [_, to]) = (first.curve.ends(), last.curve.ends());
-    let (from_source, to_source) = (first.source, last.source);
-    ImportError::Open { from, from_source, to, to_source, gap: (to - from).length() }
+    ImportError(format!(
+        "no curve closes: the outline is open from {} ({}) to {} ({}), a gap of {}; close it",
+        shown(from),
+        first.source,
+        shown(to),
+        last.source,
+        (to - from).length()
+    ))
 }
 
 /// Refuses cracks that close, or lie outside.
@@ -184,12 +198,18 @@ fn check_cracks(
     for crack in cracks {
         let (points, curve) = (crack.flattened(), crack.curves[0].source);
         if crack.is_closed {
-            return Err(ImportError::ClosedCrack { at: points[0], curve });
+            return Err(ImportError(format!(
+                "the crack at {} ({curve}) closes, and would cut the body; open it, or give it another name",
+                shown(points[0])
+            )));
         }
         let distance = |p: &Vec2| segment::polyline_distance(&outline.points, *p);
         let is_outside = |p: &&Vec2| !contains(&outline.points, **p) && distance(p) > BEYOND * size;
         if let Some(at) = points.iter().find(is_outside) {
-            return Err(ImportError::Outside { at: *at, curve });
+            return Err(ImportError(format!(
+                "the open curve of {curve}, a crack, leaves the body at {}; shorten it, or leave it out",
+                shown(*at)
+            )));
         }
     }
     Ok(())

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use ppum::vec2::Vec2;
 
-use crate::error::ImportError;
+use crate::error::{ImportError, shown};
 use crate::sketch::NamedCurve;
 
 /// Points that are one if they are within a tolerance of the first of them.
@@ -89,17 +89,21 @@ impl Network {
         for joint in 0..self.meeting.len() {
             let left: Vec<_> = self.left(joint).collect();
             if left.len() > 2 {
-                let named: Vec<_> = left
-                    .iter()
-                    .filter_map(|(k, end)| Some((self.curves[*k].as_ref()?, *end)))
-                    .collect();
-                let (first, end) = named[0];
-                let sources = named.iter().take(3).map(|(named, _)| named.source).collect();
-                return Err(ImportError::Branch {
-                    at: first.curve.ends()[end],
-                    count: left.len(),
-                    sources,
-                });
+                let named =
+                    left.iter().filter_map(|(k, end)| Some((self.curves[*k].as_ref()?, end)));
+                let at = named
+                    .clone()
+                    .next()
+                    .map_or(Vec2::ZERO, |(first, end)| first.curve.ends()[*end]);
+                let sources: Vec<_> =
+                    named.take(3).map(|(named, _)| named.source.to_string()).collect();
+                return Err(ImportError(format!(
+                    "{} curves meet at {}, among them {}; the border of a body does not branch: give cracks the \
+                     layer, group or label `crack`",
+                    left.len(),
+                    shown(at),
+                    sources.join(" and ")
+                )));
             }
         }
         Ok(())

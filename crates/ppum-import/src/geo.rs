@@ -12,11 +12,11 @@ use ppum::vec2::{Vec2, vec2};
 use crate::bspline::BSpline;
 use crate::curve::{EllipseArc, PlaneCurve};
 use crate::error::ImportError;
-use crate::sketch::{NamedCurve, Sketch};
+use crate::sketch::{DrawnCurve, Sketch};
 use crate::source::SourceLine;
 
 /// Statements that make nothing of the boundary.
-const SILENT: [&str; 15] = [
+const SILENT: [&str; 14] = [
     "SetFactory",
     "Mesh",
     "Plane Surface",
@@ -28,7 +28,6 @@ const SILENT: [&str; 15] = [
     "Transfinite",
     "Recombine",
     "Characteristic",
-    "MeshSize",
     "Field",
     "Geometry",
     "General",
@@ -46,19 +45,13 @@ const BLOCKS: [(&str, &str); 5] = [
 /// Longest list with a range, `1:100`.
 const LONGEST: usize = 100_000;
 
-/// A curve of the file, before physical groups name it.
-enum GeoCurve {
-    Curve(PlaneCurve),
-    Splines(Vec<BSpline>),
-}
-
 #[derive(Default)]
 struct GeoFile {
     variables: BTreeMap<String, f64>,
     /// Variables whose values are not read, with their lines.
     unread: BTreeMap<String, SourceLine>,
     points: BTreeMap<i64, Vec2>,
-    curves: BTreeMap<i64, (GeoCurve, SourceLine)>,
+    curves: BTreeMap<i64, (Vec<DrawnCurve>, SourceLine)>,
     names: BTreeMap<i64, String>,
     sketch: Sketch,
 }
@@ -87,10 +80,7 @@ pub(crate) fn read(text: &str) -> Result<Sketch, ImportError> {
             }
             None => {
                 let (length, end) = statement_end(rest).ok_or_else(|| {
-                    ImportError::syntax(
-                        source,
-                        "the statement has no semicolon; the file may be cut off",
-                    )
+                    source.error("the statement has no semicolon; the file may be cut off")
                 })?;
                 geometry.statement(&rest[..length], source)?;
                 end
@@ -163,16 +153,15 @@ fn block_end(rest: &str, source: SourceLine) -> Result<Option<(&'static str, usi
             return Ok(Some((kind, at + semicolon)));
         }
     }
-    Err(ImportError::syntax(source, format!("{kind} has no {end}; the file may be cut off")))
+    Err(source.error(format!("{kind} has no {end}; the file may be cut off")))
 }
 
 impl GeoFile {
     fn statement(&mut self, text: &str, source: SourceLine) -> Result<(), ImportError> {
         let Some((left, value)) = text.split_once('=') else {
             let kind = text.split(['(', '{', '[']).next().unwrap_or_default().trim();
-            let is_embedded = text.contains("In Surface");
-            if !kind.is_empty() && !is_embedded && !is_silent(kind) {
-                self.sketch.leave(start_of(kind), source);
+            if !kind.is_empty() && !text.contains("In Surface") {
+                self.leave(kind, source);
             }
             return Ok(());
         };
@@ -182,38 +171,37 @@ impl GeoFile {
         };
         let statement = Statement { kind, tag, value: value.trim(), source };
         match kind {
-            "Point" => self.point(&statement),
-            "Physical Curve" | "Physical Line" => self.physical(&statement),
+            "Point" => self.point(&statement)?,
+            "Physical Curve" | "Physical Line" => self.physical(&statement)?,
             "Line" | "Circle" | "Ellipse" | "Ellipsis" | "Spline" | "BSpline" | "Bezier" => {
-                self.curve(&statement)
+                self.curve(&statement)?;
             }
             _ if tag.is_empty() && is_name(kind) && !statement.value.starts_with(['{', '"']) => {
                 match self.number(statement.value, source) {
                     Ok(value) => drop(self.variables.insert(kind.to_owned(), value)),
                     Err(_) => {
-                        self.sketch
-                            .leave(format!("{kind} = {}", start_of(statement.value)), source);
+                        let what = format!("{kind} = {}", start_of(statement.value));
+                        self.sketch.leave(what, source);
                         self.unread.insert(kind.to_owned(), source);
                     }
                 }
-                Ok(())
             }
-            kind => {
-                if !is_silent(kind) {
-                    self.sketch.leave(start_of(kind), source);
-                }
-                Ok(())
-            }
+            kind => self.leave(kind, source),
+        }
+        Ok(())
+    }
+
+    /// Leaves a statement that is not read, unless it makes nothing of the boundary.
+    fn leave(&mut self, kind: &str, source: SourceLine) {
+        if !SILENT.iter().any(|silent| kind.starts_with(silent)) {
+            self.sketch.leave(start_of(kind), source);
         }
     }
 
     fn point(&mut self, statement: &Statement<'_>) -> Result<(), ImportError> {
         let (tag, at) = (self.tag(statement)?, self.list(statement)?);
         let [x, y, rest @ ..] = &at[..] else {
-            return Err(ImportError::syntax(
-                statement.source,
-                "a Point has fewer than two coordinates; add them",
-            ));
+            return Err(statement.source.error("a Point has fewer than two coordinates; add them"));
         };
         if rest.first().is_some_and(|z| *z != 0.0) {
             self.sketch.leave("z of a Point; curves are taken in the x-y plane", statement.source);
@@ -231,30 +219,20 @@ impl GeoFile {
         let point = |tag: &f64| {
             let point = self.points.get(&(tag.abs() as i64)).copied();
             point.ok_or_else(|| {
-                ImportError::syntax(
-                    statement.source,
-                    format!("Point({tag}) is not defined; define it before"),
-                )
+                statement.source.error(format!("Point({tag}) is not defined; define it before"))
             })
         };
         // circles of the OpenCASCADE kernel: centre, radius, angles
         let is_centred = statement.kind == "Circle" && numbers.len() >= 4;
-        let points: Vec<Vec2> = if is_centred {
-            Vec::new()
+        let (made, count) = if is_centred {
+            (centred(&numbers), 0)
         } else {
-            numbers.iter().map(point).collect::<Result<_, _>>()?
+            let points: Vec<_> = numbers.iter().map(point).collect::<Result<_, _>>()?;
+            (made(statement.kind, &points), points.len())
         };
-        let made = if is_centred { centred(&numbers) } else { made(statement.kind, &points) };
-        let Some(made) = made else {
-            return Err(ImportError::syntax(
-                statement.source,
-                format!(
-                    "{} has {} points that make no such curve; repair it",
-                    statement.kind,
-                    points.len()
-                ),
-            ));
-        };
+        let kind = statement.kind;
+        let message = || format!("{kind} has {count} points that make no such curve; repair it");
+        let made = made.ok_or_else(|| statement.source.error(message()))?;
         self.curves.insert(tag, (made, statement.source));
         Ok(())
     }
@@ -285,12 +263,9 @@ impl GeoFile {
                 [self.number(from, statement.source)?, self.number(to, statement.source)?];
             let count = (to - from).floor();
             if !(0.0..LONGEST as f64).contains(&count) {
-                return Err(ImportError::syntax(
-                    statement.source,
-                    format!(
+                return Err(statement.source.error(format!(
                         "the list has {count} numbers from {from} to {to}, but at most {LONGEST} are read"
-                    ),
-                ));
+                    )));
             }
             numbers.extend((0..=count as usize).map(|k| from + k as f64));
         }
@@ -309,7 +284,7 @@ impl GeoFile {
                 }
                 None => format!("`{}` is no number; write one", start_of(text)),
             };
-            ImportError::syntax(source, message)
+            source.error(message)
         })
     }
 
@@ -341,23 +316,14 @@ impl GeoFile {
     }
 
     fn draw(&mut self) -> Result<(), ImportError> {
-        for (tag, (made, source)) in std::mem::take(&mut self.curves) {
-            let name = self.names.get(&tag).cloned();
-            match made {
-                GeoCurve::Curve(curve) => self.sketch.add(NamedCurve::new(curve, name, source))?,
-                GeoCurve::Splines(all) => {
-                    all.into_iter().try_for_each(|spline| {
-                        self.sketch.add_spline(spline, name.clone(), source)
-                    })?;
-                }
+        for (tag, (curves, source)) in std::mem::take(&mut self.curves) {
+            let name = self.names.get(&tag);
+            for curve in curves {
+                self.sketch.add(curve, name.cloned(), source)?;
             }
         }
         Ok(())
     }
-}
-
-fn is_silent(kind: &str) -> bool {
-    SILENT.iter().any(|silent| kind.starts_with(silent))
 }
 
 fn is_name(word: &str) -> bool {
@@ -398,34 +364,32 @@ fn words(text: &str) -> Vec<&str> {
 }
 
 /// A circle, or an arc of one, by centre, radius and angles.
-fn centred(numbers: &[f64]) -> Option<GeoCurve> {
+fn centred(numbers: &[f64]) -> Option<Vec<DrawnCurve>> {
     let [x, y, _, radius, angles @ ..] = numbers else { return None };
     let range = [angles.first().copied().unwrap_or(0.0), angles.get(1).copied().unwrap_or(TAU)];
     let arc = EllipseArc::circle(vec2(*x, *y), *radius, range);
-    (*radius > 0.0).then_some(GeoCurve::Curve(PlaneCurve::Arc(arc)))
+    (*radius > 0.0).then(|| vec![PlaneCurve::Arc(arc).into()])
 }
 
-/// A curve by its points.
-fn made(kind: &str, points: &[Vec2]) -> Option<GeoCurve> {
-    let is_straight = points.len() == 2 && matches!(kind, "Spline" | "BSpline" | "Bezier");
-    match (kind, points) {
-        ("Line", [_, _, ..]) => Some(GeoCurve::Curve(PlaneCurve::Polyline(points.to_vec()))),
-        _ if is_straight => Some(GeoCurve::Curve(PlaneCurve::Polyline(points.to_vec()))),
-        ("Circle", &[a, center, b]) => arc(a, center, a, b),
-        ("Ellipse" | "Ellipsis", &[a, center, major, b]) => arc(a, center, major, b),
-        ("Spline", [_, _, ..]) => Some(GeoCurve::Splines(catmull_rom(points)?)),
-        ("BSpline", _) => Some(GeoCurve::Splines(vec![BSpline::clamped(
-            points.len().saturating_sub(1).min(3),
-            points,
-        )?])),
-        ("Bezier", _) => Some(GeoCurve::Splines(vec![BSpline::bezier(points)?])),
-        _ => None,
-    }
+/// The curves by points.
+fn made(kind: &str, points: &[Vec2]) -> Option<Vec<DrawnCurve>> {
+    let curve = match (kind, points) {
+        ("Line", [_, _, ..]) | ("Spline" | "BSpline" | "Bezier", [_, _]) => {
+            DrawnCurve::polyline(points.to_vec())
+        }
+        ("Circle", &[a, center, b]) => arc(a, center, a, b)?,
+        ("Ellipse" | "Ellipsis", &[a, center, major, b]) => arc(a, center, major, b)?,
+        ("Spline", [_, _, ..]) => return catmull_rom(points),
+        ("BSpline", _) => BSpline::clamped(points.len().saturating_sub(1).min(3), points)?.into(),
+        ("Bezier", _) => BSpline::bezier(points)?.into(),
+        _ => return None,
+    };
+    Some(vec![curve])
 }
 
 /// The shorter arc between two points of an ellipse with a point on its first axis. In the axes'
 /// frame x² / a² + y² / b² = 1 holds at both points, which gives a and b; a circle needs one.
-fn arc(from: Vec2, center: Vec2, major: Vec2, to: Vec2) -> Option<GeoCurve> {
+fn arc(from: Vec2, center: Vec2, major: Vec2, to: Vec2) -> Option<DrawnCurve> {
     let axis = (major - center).unit();
     let own = [from, to].map(|p| vec2((p - center).dot(axis), axis.cross(p - center)));
     let [p, q] = own.map(|v| vec2(v.x * v.x, v.y * v.y));
@@ -444,27 +408,19 @@ fn arc(from: Vec2, center: Vec2, major: Vec2, to: Vec2) -> Option<GeoCurve> {
     let radii = [axis * radii[0], axis.left() * radii[1]];
     let arc = EllipseArc { center, radii, range: [start, start + turn] };
     let is_arc = turn.is_finite() && turn != 0.0 && radii.iter().all(|r| r.is_finite());
-    is_arc.then_some(GeoCurve::Curve(PlaneCurve::Arc(arc)))
+    is_arc.then(|| PlaneCurve::Arc(arc).into())
 }
 
 /// The Catmull–Rom spline of Gmsh, one Bézier curve between two points; the tangent at a point is
 /// half the step from the one before it to the one after it. A closed one goes on behind its ends.
-fn catmull_rom(points: &[Vec2]) -> Option<Vec<BSpline>> {
-    let n = points.len();
-    let is_closed = points[0] == points[n - 1];
-    let at = |k: usize| points[k];
-    let before = |k: usize| match k {
-        0 if is_closed => at(n - 2),
-        0 => at(0) * 2.0 - at(1),
-        k => at(k - 1),
+fn catmull_rom(points: &[Vec2]) -> Option<Vec<DrawnCurve>> {
+    let ([first, second, ..], [.., before, last]) = (points, points) else { return None };
+    let [start, end] = match first == last {
+        true => [*before, *second],
+        false => [*first * 2.0 - *second, *last * 2.0 - *before],
     };
-    let after = |k: usize| match k {
-        k if k + 1 < n => at(k + 1),
-        _ if is_closed => at(1),
-        _ => at(n - 1) * 2.0 - at(n - 2),
-    };
-    let slope = |k: usize| (after(k) - before(k)) / 6.0;
-    let bezier =
-        |k: usize| BSpline::bezier(&[at(k), at(k) + slope(k), at(k + 1) - slope(k + 1), at(k + 1)]);
-    (0..n - 1).map(bezier).collect()
+    let all = [&[start], points, &[end]].concat();
+    let slope = |from: Vec2, to: Vec2| (to - from) / 6.0;
+    let controls = |p: &[Vec2]| [p[1], p[1] + slope(p[0], p[2]), p[2] - slope(p[1], p[3]), p[2]];
+    all.windows(4).map(|p| BSpline::bezier(&controls(p)).map(DrawnCurve::from)).collect()
 }

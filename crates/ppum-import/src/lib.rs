@@ -68,7 +68,12 @@ impl DrawingFormat {
         let known =
             [("dxf", Self::Dxf), ("svg", Self::Svg), ("msh", Self::Msh), ("geo", Self::Geo)];
         let found = known.into_iter().find(|(name, _)| extension.eq_ignore_ascii_case(name));
-        found.map(|(_, format)| format).ok_or(ImportError::UnknownFormat)
+        found.map(|(_, format)| format).ok_or_else(|| {
+            ImportError(
+                "drawings are DXF, SVG, MSH or GEO files; end the name in .dxf, .svg, .msh or .geo"
+                    .into(),
+            )
+        })
     }
 }
 
@@ -108,7 +113,10 @@ pub fn read(
     let is_faceless = sketch.is_mesh_without_faces;
     let assembled = assemble::assemble(sketch, options.tolerance.clamp(1e-12, 1e-2));
     assembled.map_err(|error| match is_faceless {
-        true => ImportError::Faceless(Box::new(error)),
+        true => ImportError(format!(
+            "the mesh has no triangles or quadrilaterals, and its lines are no border: {error}; save it with its \
+             surfaces: a Physical Surface, or Mesh.SaveAll = 1"
+        )),
         false => error,
     })
 }

@@ -33,46 +33,18 @@ const ELEMENTS: [(usize, usize, usize); 13] = [
 /// A point, which no boundary needs.
 const POINT: usize = 15;
 
-/// Lines of a file as lists of words.
-struct MeshLines<'a> {
-    lines: std::str::Lines<'a>,
-    line: usize,
-}
-
-impl<'a> MeshLines<'a> {
-    fn next(&mut self) -> Result<&'a str, ImportError> {
-        self.line += 1;
-        let error = "the file ends too early; save or copy it once more";
-        self.lines.next().map(str::trim).ok_or_else(|| self.error(error))
-    }
-
-    /// The numbers of the next line.
-    fn numbers<T: std::str::FromStr>(&mut self, least: usize) -> Result<Vec<T>, ImportError> {
-        let all: Result<Vec<T>, _> =
-            self.next()?.split_ascii_whitespace().map(str::parse).collect();
-        let all = all.ok().filter(|all| all.len() >= least);
-        all.ok_or_else(|| {
-            self.error(format!("a line of {least} numbers or more belongs here; repair the file"))
-        })
-    }
-
-    fn error(&self, message: impl Into<String>) -> ImportError {
-        ImportError::syntax(self.source(), message)
-    }
-
-    fn source(&self) -> SourceLine {
-        SourceLine::new(self.line)
-    }
-}
-
 /// Nodes along an edge of an element, with the line of the element.
 struct EdgeNodes {
     nodes: Vec<usize>,
     line: usize,
 }
 
+/// The lines of a file, and the mesh that was read from them.
 #[derive(Default)]
-struct GmshMesh {
+struct GmshMesh<'a> {
+    text: Vec<&'a str>,
+    /// How many lines were read.
+    line: usize,
     version: f64,
     /// Names of physical groups of lines.
     names: HashMap<i64, String>,
@@ -89,61 +61,79 @@ struct GmshMesh {
 }
 
 pub(crate) fn read(text: &str) -> Result<Sketch, ImportError> {
-    let (mut mesh, mut words) = (GmshMesh::default(), MeshLines { lines: text.lines(), line: 0 });
-    while words.lines.clone().next().is_some() {
-        match words.next()? {
-            "$MeshFormat" => mesh.read_format(&mut words)?,
-            "$PhysicalNames" => mesh.read_names(&mut words)?,
-            "$Entities" => mesh.read_entities(&mut words)?,
-            "$Nodes" if mesh.is_blocked() => mesh.read_node_blocks(&mut words)?,
-            "$Nodes" | "$ParametricNodes" => mesh.read_nodes(&mut words)?,
-            "$Elements" if mesh.is_blocked() => mesh.read_element_blocks(&mut words)?,
-            "$Elements" => mesh.read_elements(&mut words)?,
+    let mut mesh = GmshMesh { text: text.lines().collect(), ..GmshMesh::default() };
+    while mesh.line < mesh.text.len() {
+        match mesh.next()? {
+            "$MeshFormat" => mesh.read_format()?,
+            "$PhysicalNames" => mesh.read_names()?,
+            "$Entities" => mesh.read_entities()?,
+            "$Nodes" if mesh.is_blocked() => mesh.read_node_blocks()?,
+            "$Nodes" | "$ParametricNodes" => mesh.read_nodes()?,
+            "$Elements" if mesh.is_blocked() => mesh.read_element_blocks()?,
+            "$Elements" => mesh.read_elements()?,
             _ => {}
         }
     }
     if mesh.version == 0.0 {
-        return Err(ImportError::syntax(
-            SourceLine::new(1),
-            "there is no $MeshFormat; is this a mesh of Gmsh?",
-        ));
+        return Err(SourceLine::new(1).error("there is no $MeshFormat; is this a mesh of Gmsh?"));
     }
     mesh.draw()?;
     Ok(mesh.sketch)
 }
 
-impl GmshMesh {
+impl<'a> GmshMesh<'a> {
+    fn next(&mut self) -> Result<&'a str, ImportError> {
+        let line = self.text.get(self.line).map(|line| line.trim());
+        self.line += 1;
+        line.ok_or_else(|| self.error("the file ends too early; save or copy it once more"))
+    }
+
+    /// The numbers of the next line.
+    fn numbers<T: std::str::FromStr>(&mut self, least: usize) -> Result<Vec<T>, ImportError> {
+        let all: Result<Vec<T>, _> =
+            self.next()?.split_ascii_whitespace().map(str::parse).collect();
+        let all = all.ok().filter(|all| all.len() >= least);
+        all.ok_or_else(|| {
+            self.error(format!("a line of {least} numbers or more belongs here; repair the file"))
+        })
+    }
+
+    fn error(&self, message: impl std::fmt::Display) -> ImportError {
+        SourceLine::new(self.line).error(message)
+    }
+
     fn is_blocked(&self) -> bool {
         self.version >= 4.0
     }
 
-    fn read_format(&mut self, words: &mut MeshLines<'_>) -> Result<(), ImportError> {
-        let format: Vec<f64> = words.numbers(3)?;
+    fn read_format(&mut self) -> Result<(), ImportError> {
+        let format: Vec<f64> = self.numbers(3)?;
         if format[1] != 0.0 {
-            return Err(words
-                .error("is a binary mesh, which is not read; save it as text: Mesh.Binary = 0"));
+            return Err(
+                self.error("is a binary mesh, which is not read; save it as text: Mesh.Binary = 0")
+            );
         }
         if format[0] != 2.2 && format[0] != 4.1 {
             let message = format!(
                 "is a mesh of format {}, but 2.2 and 4.1 are read; save it with Mesh.MshFileVersion = 4.1",
                 format[0]
             );
-            return Err(words.error(message));
+            return Err(self.error(message));
         }
         self.version = format[0];
         self.sketch.about = Some(format!("Mesh of Gmsh, format {}.", format[0]));
         Ok(())
     }
 
-    fn read_names(&mut self, words: &mut MeshLines<'_>) -> Result<(), ImportError> {
-        for _ in 0..words.numbers::<usize>(1)?[0] {
-            let line = words.next()?;
+    fn read_names(&mut self) -> Result<(), ImportError> {
+        for _ in 0..self.numbers::<usize>(1)?[0] {
+            let line = self.next()?;
             let mut parts = line.splitn(3, char::is_whitespace);
             let (Some(dimension), Some(Ok(tag)), Some(name)) =
                 (parts.next(), parts.next().map(str::parse), parts.next())
             else {
                 return Err(
-                    words.error("a dimension, a number and a name belong here; repair the file")
+                    self.error("a dimension, a number and a name belong here; repair the file")
                 );
             };
             if dimension == "1" {
@@ -154,97 +144,89 @@ impl GmshMesh {
     }
 
     /// Physical groups of the curves; points come before them.
-    fn read_entities(&mut self, words: &mut MeshLines<'_>) -> Result<(), ImportError> {
-        let counts: Vec<usize> = words.numbers(4)?;
+    fn read_entities(&mut self) -> Result<(), ImportError> {
+        let counts: Vec<usize> = self.numbers(4)?;
         for _ in 0..counts[0] {
-            words.next()?;
+            self.next()?;
         }
         for _ in 0..counts[1] {
-            let curve: Vec<f64> = words.numbers(8)?;
+            let curve: Vec<f64> = self.numbers(8)?;
             if curve[7] > 0.0 {
                 let group = curve
                     .get(8)
-                    .ok_or_else(|| words.error("a physical group is missing; repair the file"))?;
+                    .ok_or_else(|| self.error("a physical group is missing; repair the file"))?;
                 self.curves.insert(curve[0] as i64, group.abs() as i64);
             }
         }
         Ok(())
     }
 
-    fn add_node(
-        &mut self,
-        tag: usize,
-        at: &[f64],
-        words: &MeshLines<'_>,
-    ) -> Result<(), ImportError> {
+    fn add_node(&mut self, tag: usize, at: &[f64]) -> Result<(), ImportError> {
         if !at.iter().all(|x| x.is_finite()) {
-            return Err(words.error("the node has numbers that are not finite; repair the file"));
+            return Err(self.error("the node has numbers that are not finite; repair the file"));
         }
         if at[2] != 0.0 {
-            self.sketch.leave("z of a node; the border is taken in the x-y plane", words.source());
+            self.sketch.leave(
+                "z of a node; the border is taken in the x-y plane",
+                SourceLine::new(self.line),
+            );
         }
         self.numbers.insert(tag, self.nodes.len());
         self.nodes.push(vec2(at[0], at[1]));
         Ok(())
     }
 
-    fn read_nodes(&mut self, words: &mut MeshLines<'_>) -> Result<(), ImportError> {
-        for _ in 0..words.numbers::<usize>(1)?[0] {
-            let node: Vec<f64> = words.numbers(4)?;
-            self.add_node(node[0] as usize, &node[1..4], words)?;
+    fn read_nodes(&mut self) -> Result<(), ImportError> {
+        for _ in 0..self.numbers::<usize>(1)?[0] {
+            let node: Vec<f64> = self.numbers(4)?;
+            self.add_node(node[0] as usize, &node[1..4])?;
         }
         Ok(())
     }
 
-    fn read_node_blocks(&mut self, words: &mut MeshLines<'_>) -> Result<(), ImportError> {
-        for _ in 0..words.numbers::<usize>(4)?[0] {
-            let count = words.numbers::<usize>(4)?[3];
+    fn read_node_blocks(&mut self) -> Result<(), ImportError> {
+        for _ in 0..self.numbers::<usize>(4)?[0] {
+            let count = self.numbers::<usize>(4)?[3];
             let mut tags = Vec::new();
             for _ in 0..count {
-                tags.push(words.numbers::<usize>(1)?[0]);
+                tags.push(self.numbers::<usize>(1)?[0]);
             }
             for tag in tags {
-                let at: Vec<f64> = words.numbers(3)?;
-                self.add_node(tag, &at, words)?;
+                let at: Vec<f64> = self.numbers(3)?;
+                self.add_node(tag, &at)?;
             }
         }
         Ok(())
     }
 
-    fn read_elements(&mut self, words: &mut MeshLines<'_>) -> Result<(), ImportError> {
-        for _ in 0..words.numbers::<usize>(1)?[0] {
-            let element: Vec<i64> = words.numbers(3)?;
+    fn read_elements(&mut self) -> Result<(), ImportError> {
+        for _ in 0..self.numbers::<usize>(1)?[0] {
+            let element: Vec<i64> = self.numbers(3)?;
             let (kind, tags) = (element[1] as usize, element[2].clamp(0, 1000) as usize);
             let group = if tags > 0 { element.get(3).copied().unwrap_or(0) } else { 0 };
-            self.add_element(kind, element.get(3 + tags..).unwrap_or_default(), group, words)?;
+            self.add_element(kind, element.get(3 + tags..).unwrap_or_default(), group)?;
         }
         Ok(())
     }
 
-    fn read_element_blocks(&mut self, words: &mut MeshLines<'_>) -> Result<(), ImportError> {
-        for _ in 0..words.numbers::<usize>(4)?[0] {
-            let block: Vec<i64> = words.numbers(4)?;
+    fn read_element_blocks(&mut self) -> Result<(), ImportError> {
+        for _ in 0..self.numbers::<usize>(4)?[0] {
+            let block: Vec<i64> = self.numbers(4)?;
             let group =
                 if block[0] == 1 { self.curves.get(&block[1]).copied().unwrap_or(0) } else { 0 };
             for _ in 0..block[3] {
-                let element: Vec<i64> = words.numbers(1)?;
-                self.add_element(block[2] as usize, &element[1..], group, words)?;
+                let element: Vec<i64> = self.numbers(1)?;
+                self.add_element(block[2] as usize, &element[1..], group)?;
             }
         }
         Ok(())
     }
 
     /// Keeps a line, or the edges of an element; nodes are corners, then those along each edge.
-    fn add_element(
-        &mut self,
-        kind: usize,
-        tags: &[i64],
-        group: i64,
-        words: &MeshLines<'_>,
-    ) -> Result<(), ImportError> {
+    fn add_element(&mut self, kind: usize, tags: &[i64], group: i64) -> Result<(), ImportError> {
         let Some((_, corners, order)) = ELEMENTS.iter().find(|element| element.0 == kind) else {
             if kind != POINT {
-                self.sketch.leave(format!("element of type {kind}"), words.source());
+                self.sketch.leave(format!("element of type {kind}"), SourceLine::new(self.line));
             }
             return Ok(());
         };
@@ -254,12 +236,12 @@ impl GmshMesh {
         let nodes: Option<Vec<_>> =
             tags.get(..count).and_then(|tags| tags.iter().map(known).collect());
         let nodes = nodes.ok_or_else(|| {
-            words.error("the element has too few nodes, or unknown ones; repair the file")
+            self.error("the element has too few nodes, or unknown ones; repair the file")
         })?;
         let edge = |k: usize| {
             let inner = &nodes[corners + k * (order - 1)..][..order - 1];
             let ends = [nodes[k], nodes[(k + 1) % corners]];
-            EdgeNodes { nodes: [&ends[..1], inner, &ends[1..]].concat(), line: words.line }
+            EdgeNodes { nodes: [&ends[..1], inner, &ends[1..]].concat(), line: self.line }
         };
         if *corners == 2 {
             self.lines.push((edge(0), group));
@@ -278,31 +260,27 @@ impl GmshMesh {
         if let Some(edge) = self.edges.iter().find(|edge| counts[&key(edge)] > 2) {
             let message =
                 "an edge belongs to three elements, which no plane mesh has; repair the mesh";
-            return Err(ImportError::syntax(SourceLine::new(edge.line), message));
+            return Err(SourceLine::new(edge.line).error(message));
         }
         let is_mesh = !self.edges.is_empty();
         self.sketch.is_mesh_without_faces = !is_mesh;
-        let inner: Vec<_> =
-            self.lines.iter().filter(|(edge, _)| counts.get(&key(edge)) != Some(&1)).collect();
         let mut curves: Vec<_> = self
             .edges
             .iter()
             .filter(|edge| counts[&key(edge)] == 1)
             .map(|edge| self.named(edge, groups.get(&key(edge))))
             .collect();
-        let mut left = Vec::new();
-        for (edge, group) in inner {
-            let named = self.named(edge, Some(group));
-            let is_crack =
-                named.name.as_ref().is_some_and(|name| name.to_lowercase().starts_with("crack"));
-            if is_mesh && !is_crack {
-                left.push((named.name, named.source));
-            } else {
-                curves.push(named);
+        for (edge, group) in std::mem::take(&mut self.lines) {
+            if counts.get(&key(&edge)) == Some(&1) {
+                continue;
             }
-        }
-        for (name, source) in left.into_iter().filter_map(|(name, source)| Some((name?, source))) {
-            self.sketch.leave(format!("line of {name} inside of the body"), source);
+            let named = self.named(&edge, Some(&group));
+            let name = named.name.as_deref().unwrap_or_default();
+            if !is_mesh || name.to_lowercase().starts_with("crack") {
+                curves.push(named);
+            } else if !name.is_empty() {
+                self.sketch.leave(format!("line of {name} inside of the body"), named.source);
+            }
         }
         self.add_with_cracks(curves)
     }
@@ -329,7 +307,7 @@ impl GmshMesh {
                 continue;
             }
             known.insert(ends, self.sketch.curves.len());
-            self.sketch.add(named)?;
+            self.sketch.add(named.curve, named.name, named.source)?;
         }
         Ok(())
     }

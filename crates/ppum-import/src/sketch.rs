@@ -14,14 +14,17 @@ use crate::source::SourceLine;
 /// Most curves that are read: a problem file holds fewer.
 const MOST_CURVES: usize = 1 << 20;
 
+/// The begin of the message about a drawing without curves.
+pub(crate) const NO_CURVES: &str = "the file has no curves that can be read";
+
 /// Most things that are named.
 const MOST_NOTICES: usize = 50;
 
 /// A curve of a drawing.
 #[derive(Clone, Debug, PartialEq)]
-pub struct NamedCurve {
+pub struct NamedCurve<C = PlaneCurve> {
     /// Its points.
-    pub curve: PlaneCurve,
+    pub curve: C,
     /// The layer, group or label.
     pub name: Option<String>,
     /// Where it was read.
@@ -30,18 +33,71 @@ pub struct NamedCurve {
     pub is_crack: bool,
 }
 
-impl NamedCurve {
-    pub(crate) fn new(curve: PlaneCurve, name: Option<String>, source: SourceLine) -> Self {
+impl<C> NamedCurve<C> {
+    pub(crate) fn new(curve: C, name: Option<String>, source: SourceLine) -> Self {
         Self { curve, name, source, is_crack: false }
+    }
+}
+
+/// A curve as a file draws it.
+#[derive(Clone, Debug)]
+pub(crate) enum DrawnCurve {
+    /// One that the problem file knows.
+    Plane(PlaneCurve),
+    /// One that becomes splines once the size of the drawing is known.
+    BSpline(BSpline),
+}
+
+impl From<PlaneCurve> for DrawnCurve {
+    fn from(curve: PlaneCurve) -> Self {
+        Self::Plane(curve)
+    }
+}
+
+impl From<BSpline> for DrawnCurve {
+    fn from(spline: BSpline) -> Self {
+        Self::BSpline(spline)
+    }
+}
+
+impl DrawnCurve {
+    /// Straight segments through points.
+    pub(crate) fn polyline(points: Vec<Vec2>) -> Self {
+        PlaneCurve::Polyline(points).into()
+    }
+
+    pub(crate) fn mapped(&self, map: &PlaneMap) -> Self {
+        match self {
+            Self::Plane(curve) => curve.mapped(map).into(),
+            Self::BSpline(spline) => spline.clone().mapped(map).into(),
+        }
+    }
+
+    fn is_finite(&self) -> bool {
+        match self {
+            Self::Plane(curve) => curve.is_finite(),
+            Self::BSpline(spline) => PlaneCurve::Polyline(spline.points().to_vec()).is_finite(),
+        }
+    }
+
+    /// Points around which the curve lies, about.
+    fn extent(&self) -> Vec<Vec2> {
+        match self {
+            Self::Plane(PlaneCurve::Polyline(points) | PlaneCurve::Spline(points)) => {
+                points.clone()
+            }
+            Self::Plane(PlaneCurve::Arc(arc)) => {
+                arc.halves().iter().flat_map(|half| half.range.map(|t| half.point(t))).collect()
+            }
+            Self::BSpline(spline) => spline.points().to_vec(),
+        }
     }
 }
 
 /// The curves of a file, as they were read.
 #[derive(Debug, Default)]
 pub(crate) struct Sketch {
-    pub(crate) curves: Vec<NamedCurve>,
-    /// Curves that become splines once the size of the drawing is known.
-    splines: Vec<(BSpline, Option<String>, SourceLine)>,
+    pub(crate) curves: Vec<NamedCurve<DrawnCurve>>,
     /// A sentence on units and version.
     pub(crate) about: Option<String>,
     /// True if names are layers, which need not tell the sides of a body apart.
@@ -61,66 +117,49 @@ impl Sketch {
     }
 
     /// Adds a curve, if its numbers are usable; an arc without extent is left.
-    pub(crate) fn add(&mut self, named: NamedCurve) -> Result<(), ImportError> {
-        let (source, is_finite) = (named.source, named.curve.is_finite());
-        match &named.curve {
-            PlaneCurve::Arc(arc) if is_finite && arc.is_empty() => {
-                self.leave("arc without extent", source);
-            }
-            _ => self.curves.push(named),
-        }
-        self.check(source, is_finite)
-    }
-
-    /// Adds a curve that becomes a spline.
-    pub(crate) fn add_spline(
+    pub(crate) fn add(
         &mut self,
-        spline: BSpline,
+        curve: impl Into<DrawnCurve>,
         name: Option<String>,
         source: SourceLine,
     ) -> Result<(), ImportError> {
-        let is_finite = PlaneCurve::Polyline(spline.points().to_vec()).is_finite();
-        self.splines.push((spline, name, source));
-        self.check(source, is_finite)
-    }
-
-    fn check(&self, source: SourceLine, is_finite: bool) -> Result<(), ImportError> {
-        if !is_finite {
-            return Err(ImportError::syntax(
-                source,
-                "has numbers that are not finite, or too large",
-            ));
+        let curve = curve.into();
+        if !curve.is_finite() {
+            return Err(source.error("has numbers that are not finite, or too large"));
         }
-        if self.curves.len() + self.splines.len() > MOST_CURVES {
-            return Err(ImportError::TooMany { what: "curves", most: MOST_CURVES });
+        match &curve {
+            DrawnCurve::Plane(PlaneCurve::Arc(arc)) if arc.is_empty() => {
+                self.leave("arc without extent", source);
+            }
+            _ => self.curves.push(NamedCurve::new(curve, name, source)),
+        }
+        if self.curves.len() > MOST_CURVES {
+            return Err(ImportError::too_many("curves", MOST_CURVES));
         }
         Ok(())
     }
 
     /// Leaves curves of these names only; none of them stand for all.
     pub(crate) fn keep(&mut self, layers: &[String]) -> Result<(), ImportError> {
-        let names = self.names();
-        let is_kept = |name: &Option<String>| {
-            layers.is_empty() || name.as_ref().is_some_and(|name| layers.contains(name))
-        };
-        self.curves.retain(|named| is_kept(&named.name));
-        self.splines.retain(|(_, name, _)| is_kept(name));
-        if self.curves.is_empty() && self.splines.is_empty() {
-            return Err(ImportError::Empty { layers: names, notices: self.notices() });
+        let names: BTreeSet<_> =
+            self.curves.iter().filter_map(|named| named.name.clone()).collect();
+        self.curves.retain(|named| {
+            layers.is_empty() || named.name.as_ref().is_some_and(|name| layers.contains(name))
+        });
+        if self.curves.is_empty() {
+            let names: Vec<_> = names.into_iter().collect();
+            let names = match &names[..] {
+                [] => String::new(),
+                names => format!(" of these names; it has {}", names.join(", ")),
+            };
+            let notices = self.notices().into_iter().map(|notice| format!("; {notice}"));
+            let notices: String = notices.collect();
+            return Err(ImportError(format!("{NO_CURVES}{names}{notices}")));
         }
         // the layer of what has none
         let is_layer = |name: &String| !(self.is_layered && name == "0");
         self.curves.iter_mut().for_each(|named| named.name = named.name.take().filter(is_layer));
-        self.splines.iter_mut().for_each(|(_, name, _)| *name = name.take().filter(is_layer));
         Ok(())
-    }
-
-    /// The names of all curves.
-    fn names(&self) -> Vec<String> {
-        let curves = self.curves.iter().filter_map(|named| named.name.clone());
-        let all: BTreeSet<_> =
-            curves.chain(self.splines.iter().filter_map(|s| s.1.clone())).collect();
-        all.into_iter().collect()
     }
 
     /// Remembers something that is not read.
@@ -148,30 +187,27 @@ impl Sketch {
 
     /// The longer side of the box around all curves.
     pub(crate) fn size(&self) -> f64 {
-        let ends = self.curves.iter().flat_map(|named| match &named.curve {
-            PlaneCurve::Polyline(points) | PlaneCurve::Spline(points) => points.clone(),
-            PlaneCurve::Arc(arc) => named
-                .curve
-                .ends()
-                .into_iter()
-                .chain(arc.halves().map(|half| half.point(half.range[1])))
-                .collect(),
-        });
-        let inner = self.splines.iter().flat_map(|(spline, ..)| spline.points().to_vec());
-        let corners: Option<[Vec2; 2]> = ends.chain(inner).fold(None, |corners, p| match corners {
-            Some([low, high]) => Some([low.min(p), high.max(p)]),
-            None => Some([p, p]),
-        });
-        corners.map_or(0.0, |[low, high]| (high - low).x.max((high - low).y))
+        let points = || self.curves.iter().flat_map(|named| named.curve.extent());
+        let (low, high) = (points().reduce(Vec2::min), points().reduce(Vec2::max));
+        low.zip(high).map_or(0.0, |(low, high)| (high - low).x.max((high - low).y))
     }
 
-    /// Replaces B-splines by curves of the problem file.
-    pub(crate) fn fit(&mut self, tolerance: f64) {
-        let mut largest = 0.0_f64;
-        for (spline, name, source) in std::mem::take(&mut self.splines) {
+    /// The curves of the problem file that stand for those of the drawing, those for B-splines
+    /// last.
+    pub(crate) fn fitted(&mut self, tolerance: f64) -> Vec<NamedCurve> {
+        let (mut largest, mut known, mut fitted) = (0.0_f64, Vec::new(), Vec::new());
+        for NamedCurve { curve, name, source, is_crack } in std::mem::take(&mut self.curves) {
+            let spline = match curve {
+                DrawnCurve::Plane(curve) => {
+                    known.push(NamedCurve { curve, name, source, is_crack });
+                    continue;
+                }
+                DrawnCurve::BSpline(spline) => spline,
+            };
             let (curves, distance) = spline.fitted(tolerance);
-            let named = |curve| NamedCurve::new(curve, name.clone(), source);
-            self.curves.extend(curves.into_iter().map(named));
+            fitted.extend(
+                curves.into_iter().map(|curve| NamedCurve::new(curve, name.clone(), source)),
+            );
             if distance > tolerance {
                 self.remark("the curve has a cusp and became a polyline", source);
             }
@@ -180,15 +216,12 @@ impl Sketch {
         self.fit = (largest > 0.0).then(|| {
             format!("Bézier curves and B-splines became splines, {largest:.1e} from them at most")
         });
+        known.extend(fitted);
+        known
     }
 
     /// Maps all curves, as the y axis of SVG, which points down.
     pub(crate) fn map(&mut self, map: &PlaneMap) {
-        for named in &mut self.curves {
-            named.curve = named.curve.mapped(map);
-        }
-        let splines = std::mem::take(&mut self.splines);
-        self.splines =
-            splines.into_iter().map(|(s, name, source)| (s.mapped(map), name, source)).collect();
+        self.curves.iter_mut().for_each(|named| named.curve = named.curve.mapped(map));
     }
 }

@@ -30,6 +30,9 @@ const TO_BE_FILLED: &str = r#"
 /// Conditions for the first parts of the boundary.
 const EXAMPLES: [&str; 2] = ["displacement = [0, 0]", "traction = [0, 1]"];
 
+/// The lines before the parts without examples.
+const OTHERS: &str = "#\n# Other parts, which are free without a [[boundary]]:\n";
+
 impl BodyDrawing {
     /// The problem file: TOML with outline, holes and cracks; material and loads as comments.
     /// `file` is the name of the drawing in the first comment.
@@ -86,17 +89,12 @@ impl BodyDrawing {
         }
         let nameless = |k: &usize| holes[*k].curves.iter().all(|named| named.name.is_none());
         parts.extend((0..holes.len()).filter(nameless).map(|k| format!("on = {{ hole = {k} }}")));
-        let examples = EXAMPLES
-            .iter()
-            .zip(&parts)
-            .map(|(load, on)| format!("#\n# [[boundary]]\n# {on}\n# {load}\n"));
-        let others = parts.iter().skip(EXAMPLES.len()).map(|on| format!("# {on}\n"));
-        let head = if parts.len() > EXAMPLES.len() {
-            "#\n# Other parts, which are free without a [[boundary]]:\n"
-        } else {
-            ""
+        let text = |(k, on): (usize, &String)| match EXAMPLES.get(k) {
+            Some(load) => format!("#\n# [[boundary]]\n# {on}\n# {load}\n"),
+            None if k == EXAMPLES.len() => format!("{OTHERS}# {on}\n"),
+            None => format!("# {on}\n"),
         };
-        examples.collect::<String>() + head + &others.collect::<String>()
+        parts.iter().enumerate().map(text).collect()
     }
 
     fn path(&self, chain: &CurveChain) -> String {

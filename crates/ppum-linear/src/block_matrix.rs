@@ -122,7 +122,9 @@ impl BlockMatrix {
     /// Block (i, j) with i ≤ j, or nothing if the patches are not coupled.
     #[must_use]
     pub fn block(&self, i: usize, j: usize) -> Option<MatRef<'_, f64>> {
-        self.pattern.position(i, j).map(|k| self.stored_block(k, i, j))
+        let (rows, columns) = (self.unknowns(i).len(), self.unknowns(j).len());
+        let place = self.pattern.position(i, j)?;
+        Some(MatRef::from_row_major_slice(self.stored(place), rows, columns))
     }
 
     /// Adds `block` [unknowns of i × unknowns of j] to block (i, j), i ≤ j.
@@ -138,11 +140,6 @@ impl BlockMatrix {
         let range = self.block_starts[k]..self.block_starts[k + 1];
         let mut sum = MatMut::from_row_major_slice_mut(&mut self.values[range], rows, columns);
         sum += block;
-    }
-
-    /// Row, column and place of every stored block, in the order of storage.
-    pub(super) fn stored_places(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
-        self.pattern.pairs().enumerate().map(|(k, (i, j))| (i, j, k))
     }
 
     /// The values of the stored block `k`, row-major.
@@ -175,8 +172,7 @@ impl BlockMatrix {
         let mut y = vec![0.0; x.len()];
         for (k, (i, j)) in self.pattern.pairs().enumerate() {
             let (rows, columns) = (self.unknowns(i), self.unknowns(j));
-            let block = &self.values[self.block_starts[k]..self.block_starts[k + 1]];
-            for (a, entries) in rows.zip(block.chunks_exact(columns.len().max(1))) {
+            for (a, entries) in rows.zip(self.stored(k).chunks_exact(columns.len().max(1))) {
                 y[a] += entries.iter().zip(&x[columns.clone()]).map(|(k, x)| k * x).sum::<f64>();
                 if i != j {
                     let x_a = x[a];
@@ -186,15 +182,10 @@ impl BlockMatrix {
         }
         y
     }
-
-    fn stored_block(&self, k: usize, i: usize, j: usize) -> MatRef<'_, f64> {
-        let values = &self.values[self.block_starts[k]..self.block_starts[k + 1]];
-        MatRef::from_row_major_slice(values, self.unknowns(i).len(), self.unknowns(j).len())
-    }
 }
 
 /// 0, x₀, x₀ + x₁, …
-fn running_sum(sizes: impl Iterator<Item = usize>) -> Vec<usize> {
+pub(super) fn running_sum(sizes: impl Iterator<Item = usize>) -> Vec<usize> {
     let sums = sizes.scan(0, |sum, size| {
         *sum += size;
         Some(*sum)

@@ -11,11 +11,11 @@
 //! makes are dense matrices: `docs/decisions/0027-factorisation.md` has the measurements.
 
 use super::block_matrix::BlockMatrix;
-use super::conjugate::norm;
+use super::conjugate::{norm, relative};
 use super::elimination::Elimination;
 use super::factor::CholeskyFactor;
 use super::neighbours::Neighbours;
-use super::solver::{LinearError, LinearSolution, LinearSolver};
+use super::solver::{LinearError, LinearSolution, LinearSolver, check_load};
 use faer::Mat;
 use std::borrow::Cow;
 
@@ -55,16 +55,11 @@ impl<'a> Cholesky<'a> {
         Self::of(Cow::Borrowed(matrix))
     }
 
-    /// Factorises a matrix that it keeps.
+    /// Factorises a matrix that it may own.
     ///
     /// # Errors
     /// Those of [`Cholesky::new`].
-    pub fn owned(matrix: BlockMatrix) -> Result<Cholesky<'static>, LinearError> {
-        Cholesky::of(Cow::Owned(matrix))
-    }
-
-    /// Factors a matrix that it may own.
-    pub(super) fn of(matrix: Cow<'a, BlockMatrix>) -> Result<Self, LinearError> {
+    pub fn of(matrix: Cow<'a, BlockMatrix>) -> Result<Self, LinearError> {
         let scale = inverse_root_diagonal(&matrix)?;
         let sizes: Vec<_> = (0..matrix.n_blocks()).map(|i| matrix.unknowns(i).len()).collect();
         let neighbours = Neighbours::new(matrix.pattern());
@@ -74,10 +69,35 @@ impl<'a> Cholesky<'a> {
         let dependent = replaced_pivots(&factor, &matrix)?;
         Ok(Self { matrix, scale, factor, dependent })
     }
+
+    /// K⁻¹ x, as it comes: without a look at the residual.
+    pub(super) fn apply_inverse(&self, x: &[f64]) -> Vec<f64> {
+        self.inverse(&[x.to_vec()]).remove(0)
+    }
+
     /// f − K u.
     fn residual(&self, f: &[f64], u: &[f64]) -> Vec<f64> {
         let product = self.matrix.multiply(u);
         f.iter().zip(product).map(|(f, ku)| f - ku).collect()
+    }
+
+    /// Adds a correction, if it makes the residual smaller; false if another one would not.
+    fn refine(
+        &self,
+        load: &[f64],
+        unknowns: &mut Vec<f64>,
+        rest: &mut Vec<f64>,
+        mut correction: Vec<f64>,
+    ) -> bool {
+        let is_last = norm(&correction) <= LAST_CORRECTION * norm(unknowns);
+        correction.iter_mut().zip(&*unknowns).for_each(|(c, u)| *c += u);
+        let left = self.residual(load, &correction);
+        // rounding can feed what is nearly free
+        let is_better = norm(&left) < norm(rest);
+        if is_better {
+            (*unknowns, *rest) = (correction, left);
+        }
+        is_better && !is_last
     }
 
     /// D P^T (L L^T)⁻¹ P D x of each x.
@@ -100,37 +120,39 @@ impl<'a> Cholesky<'a> {
 
 impl LinearSolver for Cholesky<'_> {
     fn solve(&self, f: &[f64]) -> Result<LinearSolution, LinearError> {
-        let all = self.solve_all(&[f.to_vec()])?;
-        Ok(all.into_iter().next().expect("a solution for each load"))
+        Ok(self.solve_all(&[f.to_vec()])?.remove(0))
     }
 
     /// Up to two steps of iterative refinement.
     fn solve_all(&self, loads: &[Vec<f64>]) -> Result<Vec<LinearSolution>, LinearError> {
-        let first = self.solve_roughly(loads)?;
-        let unrefined = loads.iter().zip(first).map(|(f, u)| RefinementState::new(self, f, u));
-        let mut all: Vec<RefinementState<'_>> = unrefined.collect();
+        let mut all = self.solve_roughly(loads)?;
+        let rest = |(load, unknowns): (&Vec<f64>, &Vec<f64>)| self.residual(load, unknowns);
+        let mut rests: Vec<_> = loads.iter().zip(&all).map(rest).collect();
+        let mut open: Vec<usize> = (0..loads.len()).collect();
         for _ in 0..REFINEMENTS {
-            let open: Vec<_> = all.iter_mut().filter(|refined| !refined.is_done).collect();
-            let rests: Vec<_> = open.iter().map(|refined| refined.rest.clone()).collect();
-            for (refined, correction) in open.into_iter().zip(self.inverse(&rests)) {
-                refined.correct(self, correction);
-            }
+            let corrections =
+                self.inverse(&open.iter().map(|&k| rests[k].clone()).collect::<Vec<_>>());
+            let mut corrections = corrections.into_iter();
+            open.retain(|&k| {
+                let correction = corrections.next().unwrap_or_default();
+                self.refine(&loads[k], &mut all[k], &mut rests[k], correction)
+            });
         }
-        all.into_iter().map(|refined| self.consistent(refined)).collect()
+        let solution = |((load, unknowns), rest): ((&Vec<f64>, Vec<f64>), Vec<f64>)| {
+            let relative_residual = relative(&rest, load);
+            match self.dependent.first() {
+                Some(&u) if relative_residual > CONSISTENT => {
+                    Err(not_positive_definite(&self.matrix, u))
+                }
+                _ => Ok(LinearSolution { unknowns, relative_residual, history: None }),
+            }
+        };
+        loads.iter().zip(all).zip(rests).map(solution).collect()
     }
 
     fn solve_roughly(&self, loads: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LinearError> {
-        for f in loads {
-            assert_eq!(f.len(), self.matrix.n_unknowns(), "one entry for each unknown");
-            if let Some(u) = f.iter().position(|x| !x.is_finite()) {
-                return Err(LinearError::LoadNotFinite { patch: self.matrix.patch_of(u) });
-            }
-        }
+        loads.iter().try_for_each(|load| check_load(&self.matrix, load))?;
         Ok(self.inverse(loads))
-    }
-
-    fn apply_inverse(&self, x: &mut [f64]) {
-        x.copy_from_slice(&self.inverse(&[x.to_vec()])[0]);
     }
 
     fn n_dependent(&self) -> usize {
@@ -139,49 +161,6 @@ impl LinearSolver for Cholesky<'_> {
 
     fn bytes(&self) -> usize {
         self.matrix.bytes() + self.factor.bytes()
-    }
-}
-
-impl Cholesky<'_> {
-    /// A solution, unless the load is not consistent with a semi-definite matrix.
-    fn consistent(&self, refined: RefinementState<'_>) -> Result<LinearSolution, LinearError> {
-        let residual = norm(&refined.rest);
-        let relative_residual = if residual == 0.0 { 0.0 } else { residual / norm(refined.load) };
-        match self.dependent.first() {
-            Some(&u) if relative_residual > CONSISTENT => {
-                Err(not_positive_definite(&self.matrix, u))
-            }
-            _ => Ok(LinearSolution { unknowns: refined.unknowns, relative_residual, course: None }),
-        }
-    }
-}
-
-/// A solution on the way.
-struct RefinementState<'f> {
-    load: &'f [f64],
-    unknowns: Vec<f64>,
-    /// f − K u
-    rest: Vec<f64>,
-    is_done: bool,
-}
-
-impl<'f> RefinementState<'f> {
-    fn new(solver: &Cholesky<'_>, load: &'f [f64], unknowns: Vec<f64>) -> Self {
-        let rest = solver.residual(load, &unknowns);
-        Self { load, unknowns, rest, is_done: false }
-    }
-
-    /// Adds a correction, if it makes the residual smaller.
-    fn correct(&mut self, solver: &Cholesky<'_>, mut correction: Vec<f64>) {
-        let is_last = norm(&correction) <= LAST_CORRECTION * norm(&self.unknowns);
-        correction.iter_mut().zip(&self.unknowns).for_each(|(c, u)| *c += u);
-        let left = solver.residual(self.load, &correction);
-        // rounding can feed what is nearly free
-        let is_better = norm(&left) < norm(&self.rest);
-        if is_better {
-            (self.unknowns, self.rest) = (correction, left);
-        }
-        self.is_done = is_last || !is_better;
     }
 }
 
@@ -326,7 +305,7 @@ mod tests {
             let sizes: Vec<_> = (0..n * n).map(|i| matrix.unknowns(i).len()).collect();
             let found = fill(&grid(n), &sizes);
             let factor = Cholesky::new(&matrix).unwrap();
-            // strips have their triangles in full
+            // panels have their triangles in full
             let ratio = 8.0 * found / factor.factor.bytes() as f64;
             assert!((0.7..=1.0).contains(&ratio), "{n}: {ratio}");
         }

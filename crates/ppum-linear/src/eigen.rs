@@ -58,6 +58,17 @@ impl SymmetricEigen {
         Ok(Self { values, vectors })
     }
 
+    /// Decomposes a tridiagonal matrix, whose `coupling[k]` is between k and k + 1.
+    pub(super) fn tridiagonal(diagonal: &[f64], coupling: &[f64]) -> Result<Self, EigenError> {
+        let n = diagonal.len();
+        let matrix = Mat::from_fn(n, n, |i, j| match i.abs_diff(j) {
+            0 => diagonal[i],
+            1 => coupling[i.min(j)],
+            _ => 0.0,
+        });
+        Self::new(matrix.as_ref())
+    }
+
     /// The matrix R = Λ^−½ Uᵀ [kept × n] of the eigenvalues above `limit`, so that R A Rᵀ = I.
     pub fn inverse_root(&self, limit: f64) -> Mat<f64> {
         let kept = self.values.iter().take_while(|&&value| value > limit).count();

@@ -7,10 +7,10 @@
 //! a dense matrix. Columns of blocks are joined to fronts with more zeros in them where that is
 //! faster than to take them one after the other.
 
-use super::block_matrix::BlockPattern;
+use super::block_matrix::{BlockPattern, running_sum};
 use super::front::{Front, runs};
 use super::neighbours::Neighbours;
-use super::ordering::by_degree;
+use super::ordering::minimum_degree_order;
 use std::cmp::Reverse;
 use std::ops::Range;
 
@@ -49,22 +49,21 @@ pub fn fill(pattern: &BlockPattern, sizes: &[usize]) -> f64 {
 impl Elimination {
     /// The elimination of a matrix with `sizes[i]` unknowns in block i.
     pub(super) fn new(neighbours: &Neighbours, sizes: &[usize]) -> Self {
-        let ranked = by_degree(neighbours);
-        let drafts = drafts(neighbours, sizes, &ranked);
-        let (sequence, subtrees) = sequence(&drafts);
-        let numbered = FrontNumbering::new(&drafts, &sequence, &ranked);
-        let FrontNumbering { order, places, numbers } = numbered;
-        let mut offsets = vec![0];
-        for &block in &order {
-            offsets.push(offsets[offsets.len() - 1] + sizes[block as usize]);
-        }
-        let front = |&draft: &usize| {
-            let SymbolicFront { pivots, below, children, .. } = &drafts[draft];
+        let ranked = minimum_degree_order(neighbours);
+        let symbolic = symbolic(neighbours, sizes, &ranked);
+        let (sequence, subtrees) = sequence(&symbolic);
+        let pivots = sequence.iter().flat_map(|&number| &symbolic[number].pivots);
+        let order: Vec<u32> = pivots.map(|&rank| ranked[rank as usize]).collect();
+        let places = inverse(order.iter().map(|&block| block as usize), order.len());
+        let numbers = inverse(sequence.iter().copied(), symbolic.len());
+        let offsets = running_sum(order.iter().map(|&block| sizes[block as usize]));
+        let front = |&number: &usize| {
+            let SymbolicFront { pivots, below, children, .. } = &symbolic[number];
             let place = |&rank: &u32| places[ranked[rank as usize] as usize];
             let first = pivots.first().map_or(0, |rank| place(rank) as usize);
             let mut below: Vec<u32> = below.iter().map(place).collect();
             below.sort_unstable();
-            let children = children.iter().map(|&child| numbers[child]).collect();
+            let children = children.iter().map(|&child| numbers[child] as usize).collect();
             Front::new(first..first + pivots.len(), below, children, &offsets)
         };
         let mut fronts: Vec<Front> = sequence.iter().map(front).collect();
@@ -73,19 +72,15 @@ impl Elimination {
                 fronts[child].runs = runs(&fronts[child], &fronts[parent]);
             }
         }
-        let fill = sequence.iter().map(|&draft| drafts[draft].shape.values()).sum();
+        let fill = sequence.iter().map(|&number| symbolic[number].shape.values()).sum();
         Self { order, places, offsets, fronts, subtrees, fill }
     }
 
     /// The unknowns of the pivots of some fronts, counted in the order of elimination.
     pub(super) fn unknowns(&self, fronts: Range<usize>) -> Range<usize> {
-        match self.fronts.get(fronts) {
-            Some([first, .., last]) => {
-                self.offsets[first.pivots.start]..self.offsets[last.pivots.end]
-            }
-            Some([only]) => self.offsets[only.pivots.start]..self.offsets[only.pivots.end],
-            _ => 0..0,
-        }
+        let fronts = &self.fronts[fronts];
+        let ends = fronts.first().zip(fronts.last());
+        ends.map_or(0..0, |(a, b)| self.offsets[a.pivots.start]..self.offsets[b.pivots.end])
     }
 
     /// The fronts in no subtree.
@@ -94,23 +89,11 @@ impl Elimination {
     }
 }
 
-/// Blocks and fronts in their order.
-struct FrontNumbering {
-    order: Vec<u32>,
-    places: Vec<u32>,
-    /// The number of each draft as a front.
-    numbers: Vec<usize>,
-}
-
-impl FrontNumbering {
-    fn new(drafts: &[SymbolicFront], sequence: &[usize], ranked: &[u32]) -> Self {
-        let pivots = sequence.iter().flat_map(|&draft| &drafts[draft].pivots);
-        let order: Vec<u32> = pivots.map(|&rank| ranked[rank as usize]).collect();
-        let (mut places, mut numbers) = (vec![0; order.len()], vec![0; drafts.len()]);
-        (0..).zip(&order).for_each(|(place, &block)| places[block as usize] = place);
-        (0..).zip(sequence).for_each(|(number, &draft)| numbers[draft] = number);
-        Self { order, places, numbers }
-    }
+/// The place of each number below `n` in a list of them.
+fn inverse(list: impl Iterator<Item = usize>, n: usize) -> Vec<u32> {
+    let mut places = vec![0; n];
+    (0..).zip(list).for_each(|(place, number)| places[number] = place);
+    places
 }
 
 /// The unknowns of a front: its pivots and those below them.
@@ -152,18 +135,17 @@ struct SymbolicFront {
 }
 
 /// The fronts of a ranking, each with the number of its last pivot.
-fn drafts(neighbours: &Neighbours, sizes: &[usize], ranked: &[u32]) -> Vec<SymbolicFront> {
+fn symbolic(neighbours: &Neighbours, sizes: &[usize], ranked: &[u32]) -> Vec<SymbolicFront> {
     let n = ranked.len();
-    let mut ranks = vec![0; n];
-    (0..).zip(ranked).for_each(|(rank, &block)| ranks[block as usize] = rank);
+    let ranks = inverse(ranked.iter().map(|&block| block as usize), n);
     let size = |rank: u32| sizes[ranked[rank as usize] as usize] as f64;
-    let mut drafts: Vec<SymbolicFront> = Vec::with_capacity(n);
+    let mut symbolic: Vec<SymbolicFront> = Vec::with_capacity(n);
     let mut waiting: Vec<Vec<usize>> = vec![Vec::new(); n];
     let mut seen = vec![u32::MAX; n];
     for (k, &block) in (0..n as u32).zip(ranked) {
         let children = std::mem::take(&mut waiting[k as usize]);
         let own = neighbours.of(block as usize).iter().map(|entry| ranks[entry.column as usize]);
-        let inherited = children.iter().flat_map(|&child| drafts[child].below.iter().copied());
+        let inherited = children.iter().flat_map(|&child| symbolic[child].below.iter().copied());
         let mut below = Vec::new();
         for rank in own.chain(inherited).filter(|&rank| rank > k) {
             if std::mem::replace(&mut seen[rank as usize], k) != k {
@@ -176,19 +158,19 @@ fn drafts(neighbours: &Neighbours, sizes: &[usize], ranked: &[u32]) -> Vec<Symbo
         }
         let shape =
             FrontSize { pivots: size(k), below: below.iter().map(|&rank| size(rank)).sum() };
-        let draft = SymbolicFront { pivots: vec![k], below, children: Vec::new(), shape };
-        let draft = draft.with_children(children, &mut drafts);
-        drafts.push(draft);
+        let front = SymbolicFront { pivots: vec![k], below, children: Vec::new(), shape };
+        let front = front.with_children(children, &mut symbolic);
+        symbolic.push(front);
     }
-    drafts
+    symbolic
 }
 
 impl SymbolicFront {
     /// Takes children, and the pivots of those with which it is faster to be one front.
-    fn with_children(mut self, mut children: Vec<usize>, drafts: &mut [Self]) -> Self {
-        children.sort_by_key(|&child| Reverse(drafts[child].pivots.len()));
+    fn with_children(mut self, mut children: Vec<usize>, symbolic: &mut [Self]) -> Self {
+        children.sort_by_key(|&child| Reverse(symbolic[child].pivots.len()));
         for number in children {
-            let child = &mut drafts[number];
+            let child = &mut symbolic[number];
             let joined = FrontSize { pivots: self.shape.pivots + child.shape.pivots, ..self.shape };
             if joined.cost() > self.shape.cost() + child.shape.cost() {
                 self.children.push(number);
@@ -206,17 +188,17 @@ impl SymbolicFront {
 
 /// The fronts, children before parents: those of subtrees of little work, subtree by subtree, and
 /// then all others.
-fn sequence(drafts: &[SymbolicFront]) -> (Vec<usize>, Vec<Range<usize>>) {
-    let fronts = || (0..drafts.len()).filter(|&number| !drafts[number].pivots.is_empty());
-    let (mut work, mut parents) = (vec![0.0; drafts.len()], vec![None; drafts.len()]);
+fn sequence(symbolic: &[SymbolicFront]) -> (Vec<usize>, Vec<Range<usize>>) {
+    let fronts = || (0..symbolic.len()).filter(|&number| !symbolic[number].pivots.is_empty());
+    let (mut work, mut parents) = (vec![0.0; symbolic.len()], vec![None; symbolic.len()]);
     for number in fronts() {
-        work[number] += drafts[number].shape.cost();
-        for &child in &drafts[number].children {
+        work[number] += symbolic[number].shape.cost();
+        for &child in &symbolic[number].children {
             work[number] += work[child];
             parents[child] = Some(number);
         }
     }
-    let all: f64 = fronts().map(|number| drafts[number].shape.cost()).sum();
+    let all: f64 = fronts().map(|number| symbolic[number].shape.cost()).sum();
     let is_small = |number: usize| work[number] <= SUBTREE * all;
     let is_root = |number: &usize| {
         is_small(*number) && parents[*number].is_none_or(|parent| !is_small(parent))
@@ -228,7 +210,7 @@ fn sequence(drafts: &[SymbolicFront]) -> (Vec<usize>, Vec<Range<usize>>) {
         let mut open = vec![root];
         while let Some(number) = open.pop() {
             sequence.push(number);
-            open.extend(&drafts[number].children);
+            open.extend(&symbolic[number].children);
         }
         sequence[first..].reverse();
         subtrees.push(first..sequence.len());

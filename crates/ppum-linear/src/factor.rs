@@ -2,18 +2,18 @@
 //!
 //! A front holds the columns of its pivots with what earlier fronts have left there, eliminates
 //! them as a dense matrix, and hands on what that leaves to its parent (the multifrontal method of
-//! Duff & Reid 1983). Threads take subtrees, and strips of large fronts. The values of a strip are
+//! Duff & Reid 1983). Threads take subtrees, and panels of large fronts. The values of a panel are
 //! computed in one order, so that results have the same bits on any number of threads.
 
 use super::block_matrix::BlockMatrix;
 use super::elimination::Elimination;
-use super::front::{Front, RowRun, divided};
+use super::front::{Front, RowRun, split_at_ranges};
 use super::neighbours::Neighbours;
 use super::panel::{FactorFailure, FrontPanel, ZeroPivotPolicy};
 use rayon::prelude::*;
 use std::ops::Range;
 
-/// Columns of a strip: wide enough for fast products, narrow enough that all threads have some.
+/// Columns of a panel: wide enough for fast products, narrow enough that all threads have some.
 const WIDTH: usize = 128;
 
 /// Operations from which on threads share a front.
@@ -24,7 +24,7 @@ const SHARED: usize = 1 << 22;
 pub(super) struct CholeskyFactor {
     pub(super) elimination: Elimination,
     /// The columns of the pivots of each front.
-    pub(super) strips: Vec<Vec<FrontPanel>>,
+    pub(super) panels: Vec<Vec<FrontPanel>>,
 }
 
 /// A matrix that is to be factorised, and how.
@@ -59,18 +59,18 @@ impl CholeskyFactor {
         let vanishing = ZeroPivotPolicy::Refused;
         let source =
             FactorInput { matrix, neighbours, scale, elimination: &elimination, vanishing };
-        let strips = match source.factor() {
+        let panels = match source.factor() {
             Err(FactorFailure::Pivot) => {
                 FactorInput { vanishing: ZeroPivotPolicy::LeftOut, ..source }.factor()?
             }
             other => other?,
         };
-        Ok(Self { elimination, strips })
+        Ok(Self { elimination, panels })
     }
 
     /// Bytes of the values.
     pub(super) fn bytes(&self) -> usize {
-        self.strips.iter().flatten().map(FrontPanel::bytes).sum()
+        self.panels.iter().flatten().map(FrontPanel::bytes).sum()
     }
 
     /// The unknowns of a matrix in the order of elimination.
@@ -80,7 +80,7 @@ impl CholeskyFactor {
 
     /// The pivots L_kk in that order.
     pub(super) fn pivots(&self) -> impl Iterator<Item = f64> {
-        self.strips.iter().flatten().flat_map(FrontPanel::diagonal)
+        self.panels.iter().flatten().flat_map(FrontPanel::diagonal)
     }
 }
 
@@ -89,7 +89,7 @@ impl FactorInput<'_> {
         let Elimination { fronts, subtrees, .. } = self.elimination;
         let mut done: Vec<FactoredFront> = Vec::new();
         done.resize_with(fronts.len(), FactoredFront::default);
-        let parts = divided(&mut done, subtrees);
+        let parts = split_at_ranges(&mut done, subtrees);
         let of_subtree = |(range, part): (&Range<usize>, &mut [FactoredFront])| {
             range.clone().try_for_each(|front| self.eliminate(front, part, range.start))
         };
@@ -113,52 +113,45 @@ impl FactorInput<'_> {
         };
         let left: Vec<_> = front.children.iter().map(of_child).collect();
         let shared = front.rows() * front.rows() * front.n_pivots() > SHARED;
-        let mut strips = self.gathered(front, &left, shared)?;
+        let least = if shared { 1 } else { usize::MAX };
+        let mut panels = self.gather(front, &left, least)?;
         drop(left);
-        let n_strips = strips.partition_point(|strip| strip.first < front.n_pivots());
-        for k in 0..n_strips {
-            let (before, after) = strips.split_at_mut(k + 1);
+        let n_panels = panels.partition_point(|panel| panel.first < front.n_pivots());
+        for k in 0..n_panels {
+            let (before, after) = panels.split_at_mut(k + 1);
             let own = &mut before[k];
             own.eliminate(self.vanishing, shared)?;
-            let subtract = |strip: &mut FrontPanel| strip.subtract(own);
-            if shared {
-                after.par_iter_mut().with_max_len(1).for_each(subtract);
-            } else {
-                after.iter_mut().for_each(subtract);
-            }
+            let after = after.par_iter_mut().with_max_len(1).with_min_len(least);
+            after.for_each(|panel| panel.subtract(own));
         }
-        let mut below = strips.split_off(n_strips);
-        below.iter_mut().for_each(|strip| strip.first -= front.n_pivots());
-        done[number - first] = FactoredFront { pivots: strips, below };
+        let mut below = panels.split_off(n_panels);
+        below.iter_mut().for_each(|panel| panel.first -= front.n_pivots());
+        done[number - first] = FactoredFront { pivots: panels, below };
         Ok(())
     }
 
-    /// The strips of a front: entries of the matrix, and what the children have left.
-    fn gathered(
+    /// The panels of a front: entries of the matrix, and what the children have left. A thread
+    /// takes so many at least.
+    fn gather(
         &self,
         front: &Front,
         left: &[ContributionBlock<'_>],
-        shared: bool,
+        least: usize,
     ) -> Result<Vec<FrontPanel>, FactorFailure> {
-        let strip = |blocks: &Range<usize>| -> Result<FrontPanel, FactorFailure> {
+        let panel = |blocks: &Range<usize>| -> Result<FrontPanel, FactorFailure> {
             let [from, to] = [blocks.start, blocks.end].map(|block| front.starts[block]);
-            let mut strip = FrontPanel::new(from, to - from, front.rows())?;
+            let mut panel = FrontPanel::new(from, to - from, front.rows())?;
             if from < front.n_pivots() {
-                self.add_entries(front, blocks.clone(), &mut strip);
+                self.add_entries(front, blocks.clone(), &mut panel);
             }
-            left.iter().for_each(|(runs, strips)| add(&mut strip, runs, strips));
-            Ok(strip)
+            left.iter().for_each(|(runs, panels)| add(&mut panel, runs, panels));
+            Ok(panel)
         };
-        let strips = front.strips(WIDTH);
-        if shared {
-            strips.par_iter().with_max_len(1).map(strip).collect()
-        } else {
-            strips.iter().map(strip).collect()
-        }
+        front.panels(WIDTH).par_iter().with_max_len(1).with_min_len(least).map(panel).collect()
     }
 
     /// Adds the matrix's own entries in the columns of some pivots.
-    fn add_entries(&self, front: &Front, blocks: Range<usize>, strip: &mut FrontPanel) {
+    fn add_entries(&self, front: &Front, blocks: Range<usize>, panel: &mut FrontPanel) {
         let Elimination { order, places, .. } = self.elimination;
         for local in blocks {
             let place = front.pivots.start + local;
@@ -175,7 +168,7 @@ impl FactorInput<'_> {
                 let (down, right) = if i <= j { (1, rows.len()) } else { (columns.len(), 1) };
                 let row = front.starts[front.local(other)];
                 for (a, u) in columns.clone().enumerate() {
-                    let out = strip.column_mut(front.starts[local] + a, row);
+                    let out = panel.column_mut(front.starts[local] + a, row);
                     for (b, (v, out)) in rows.clone().zip(out).enumerate() {
                         *out = values[a * right + b * down] * (self.scale[u] * self.scale[v]);
                     }
@@ -185,9 +178,9 @@ impl FactorInput<'_> {
     }
 }
 
-/// Adds what a child has left to a strip of its parent.
-fn add(strip: &mut FrontPanel, runs: &[RowRun], left: &[FrontPanel]) {
-    let columns = strip.first..strip.end();
+/// Adds what a child has left to a panel of its parent.
+fn add(panel: &mut FrontPanel, runs: &[RowRun], left: &[FrontPanel]) {
+    let columns = panel.first..panel.end();
     for part in left {
         let mut number = runs.partition_point(|run| run.end() <= part.first);
         for column in part.first..part.end() {
@@ -199,7 +192,7 @@ fn add(strip: &mut FrontPanel, runs: &[RowRun], left: &[FrontPanel]) {
             for run in &runs[number..] {
                 let from = run.from.max(column);
                 let source = &part.column(column, from)[..run.end() - from];
-                let out = strip.column_mut(to, run.to + from - run.from);
+                let out = panel.column_mut(to, run.to + from - run.from);
                 out.iter_mut().zip(source).for_each(|(out, x)| *out += x);
             }
         }
@@ -214,7 +207,7 @@ mod tests {
     use faer::linalg::solvers::Solve;
     use ppum_testkit::random::Random;
 
-    /// Blocks of 90 unknowns, all coupled: one front in several strips, which threads share.
+    /// Blocks of 90 unknowns, all coupled: one front in several panels, which threads share.
     fn dense(blocks: usize, random: &mut Random) -> BlockMatrix {
         let starts = (0..=blocks).scan(0, |sum, i| {
             let start = *sum;

@@ -1,5 +1,6 @@
 //! The fronts of an elimination: which rows of a dense matrix belong to what.
 
+use super::block_matrix::running_sum;
 use std::ops::Range;
 
 /// Blocks that are eliminated together, and those below them.
@@ -41,10 +42,8 @@ impl Front {
         children: Vec<usize>,
         offsets: &[usize],
     ) -> Self {
-        let mut starts = vec![0];
-        for place in pivots.clone().chain(below.iter().map(|&place| place as usize)) {
-            starts.push(starts[starts.len() - 1] + offsets[place + 1] - offsets[place]);
-        }
+        let places = pivots.clone().chain(below.iter().map(|&place| place as usize));
+        let starts = running_sum(places.map(|place| offsets[place + 1] - offsets[place]));
         Self { pivots, below, children, starts, runs: Vec::new() }
     }
 
@@ -67,17 +66,17 @@ impl Front {
         self.pivots.len() + below
     }
 
-    /// Its blocks in strips of about one number of rows, none with pivots and others.
-    pub(super) fn strips(&self, width: usize) -> Vec<Range<usize>> {
+    /// Its blocks in panels of about one number of rows, none with pivots and others.
+    pub(super) fn panels(&self, width: usize) -> Vec<Range<usize>> {
         let (middle, end) = (self.pivots.len(), self.starts.len() - 1);
-        let mut strips = Vec::new();
+        let mut panels = Vec::new();
         for blocks in [0..middle, middle..end] {
-            self.add_strips(blocks, width, &mut strips);
+            self.add_panels(blocks, width, &mut panels);
         }
-        strips
+        panels
     }
 
-    fn add_strips(&self, blocks: Range<usize>, width: usize, strips: &mut Vec<Range<usize>>) {
+    fn add_panels(&self, blocks: Range<usize>, width: usize, panels: &mut Vec<Range<usize>>) {
         let (start, end) = (self.starts[blocks.start], self.starts[blocks.end]);
         let n = (end - start).div_ceil(width);
         let mut from = blocks.start;
@@ -88,7 +87,7 @@ impl Front {
                 false => self.starts[..=blocks.end].partition_point(|&row| row <= reached) - 1,
             };
             if self.starts[to] > self.starts[from] {
-                strips.push(from..to);
+                panels.push(from..to);
                 from = to;
             }
         }
@@ -112,7 +111,10 @@ pub(super) fn runs(front: &Front, parent: &Front) -> Vec<RowRun> {
 }
 
 /// The slices of some ranges, which follow each other from the beginning on.
-pub(super) fn divided<'s, T>(mut all: &'s mut [T], ranges: &[Range<usize>]) -> Vec<&'s mut [T]> {
+pub(super) fn split_at_ranges<'s, T>(
+    mut all: &'s mut [T],
+    ranges: &[Range<usize>],
+) -> Vec<&'s mut [T]> {
     let mut parts = Vec::new();
     for range in ranges {
         let (part, rest) = all.split_at_mut(range.len());

@@ -4,6 +4,7 @@
 
 mod block_matrix;
 mod cholesky;
+mod clusters;
 mod conjugate;
 mod dense;
 mod eigen;
@@ -11,11 +12,10 @@ mod elimination;
 mod factor;
 mod front;
 mod inverse;
-mod kernel;
-mod knots;
 mod multilevel;
 mod neighbours;
 mod nonnegative;
+mod null_space;
 mod ordering;
 mod panel;
 mod pencil;
@@ -23,20 +23,19 @@ mod rows;
 mod smoother;
 mod solver;
 mod spectrum;
-mod sweep;
+mod substitution;
 #[cfg(test)]
 mod test_matrices;
 mod transfer;
 
 pub use block_matrix::{BlockMatrix, BlockPattern};
 pub use cholesky::Cholesky;
-pub use conjugate::ConvergenceHistory;
 pub use dense::{add_at, product, taken, times};
 pub use eigen::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
 pub use elimination::fill;
 pub use multilevel::{CoarseLevel, Multilevel};
 pub use nonnegative::nonnegative_residual;
 pub use pencil::largest_eigenvalue;
-pub use solver::{LinearError, LinearSolution, LinearSolver};
+pub use solver::{ConvergenceHistory, LinearError, LinearSolution, LinearSolver};
 pub use spectrum::Spectrum;
 pub use transfer::Transfer;

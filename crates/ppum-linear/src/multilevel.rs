@@ -2,9 +2,9 @@
 //! coarser levels.
 //!
 //! ```text
-//! x = (D + L)⁻¹ f                      sweep forward, then the knots
+//! x = (D + L)⁻¹ f                      sweep forward, then the clusters
 //! x ← x + P y,  K_c y = Pᵀ (f − K x)   correction: the same on the next level, or by Cholesky on the coarsest
-//! x ← x + (D + Lᵀ)⁻¹ (f − K x)         the knots, then sweep backward
+//! x ← x + (D + Lᵀ)⁻¹ (f − K x)         the clusters, then sweep backward
 //! ```
 //!
 //! The coarse matrices K_c are what the caller gives: Pᵀ K P need not be among them. The cycle is
@@ -12,17 +12,14 @@
 
 use super::block_matrix::BlockMatrix;
 use super::cholesky::Cholesky;
-use super::conjugate::{ConvergenceHistory, Iteration, IterationEnd, dot, norm};
-use super::kernel::NullSpace;
+use super::conjugate::{conjugate_gradients, dot, norm, relative};
+use super::null_space::NullSpace;
 use super::rows::SymmetricRows;
 use super::smoother::Smoother;
-use super::solver::{LinearError, LinearSolution, LinearSolver};
+use super::solver::{ConvergenceHistory, LinearError, LinearSolution, LinearSolver, check_load};
 use super::transfer::Transfer;
 use faer::Mat;
 use std::borrow::Cow;
-
-/// Steps that no problem with working levels needs.
-const MOST_STEPS: usize = 300;
 
 /// Times that the iteration starts again from the true residual, which rounding takes away from the
 /// one that it keeps.
@@ -66,7 +63,7 @@ pub struct Multilevel<'a> {
     coarsest: (SymmetricRows<'a>, Cholesky<'a>),
     kernel: NullSpace,
     /// The largest entry of the diagonal.
-    stiffest: f64,
+    largest_diagonal: f64,
     goes_on: &'a (dyn Fn() -> bool + Sync),
     tolerance: f64,
 }
@@ -98,8 +95,9 @@ impl<'a> Multilevel<'a> {
         on_coarsest.iter().for_each(|functional| hold(&mut held, functional));
         let coarsest = (rows, Cholesky::of(Cow::Owned(held))?);
         let kernel = NullSpace::default();
-        let mut solver = Self { levels, coarsest, kernel, stiffest: 0.0, goes_on, tolerance };
-        solver.stiffest = solver.rows(0).stiffest();
+        let mut solver =
+            Self { levels, coarsest, kernel, largest_diagonal: 0.0, goes_on, tolerance };
+        solver.largest_diagonal = solver.rows(0).largest_diagonal();
         solver.kernel = solver.modes(free, &on_coarsest)?;
         Ok(solver)
     }
@@ -107,9 +105,7 @@ impl<'a> Multilevel<'a> {
     /// The modes of a singular matrix: those of the coarsest level, prolonged.
     fn modes(&self, free: &[Vec<f64>], on_coarsest: &[Vec<f64>]) -> Result<NullSpace, LinearError> {
         let mode = |functional: &Vec<f64>| {
-            let mut z = functional.clone();
-            self.coarsest.1.apply_inverse(&mut z);
-            let mut z = self.coarsest.0.coloured(&z);
+            let mut z = self.coarsest.0.coloured(&self.coarsest.1.apply_inverse(functional));
             for (k, SmoothedLevel { smoother, transfer }) in self.levels.iter().enumerate().rev() {
                 let mut finer = vec![0.0; smoother.rows.n_unknowns()];
                 transfer.add_prolonged((self.rows(k + 1), &z), &smoother.rows, &mut finer);
@@ -120,7 +116,7 @@ impl<'a> Multilevel<'a> {
         let rows = self.rows(0);
         let functionals = free.iter().map(|functional| rows.coloured(functional)).collect();
         let kernel = NullSpace::new(on_coarsest.iter().map(mode).collect(), functionals);
-        let force = kernel.force(rows, self.stiffest);
+        let force = kernel.force(rows, self.largest_diagonal);
         if force <= RIGID { Ok(kernel) } else { Err(LinearError::NoModes { force }) }
     }
 
@@ -146,9 +142,7 @@ impl<'a> Multilevel<'a> {
         norms.push(norm(f));
         let Some(SmoothedLevel { smoother, transfer }) = self.levels.get(level) else {
             let (rows, factor) = &self.coarsest;
-            let mut x = rows.plain(f);
-            factor.apply_inverse(&mut x);
-            return rows.coloured(&x);
+            return rows.coloured(&factor.apply_inverse(&rows.plain(f)));
         };
         let (mut x, rest) = smoother.before(f);
         let (fine, coarse) = (&smoother.rows, self.rows(level + 1));
@@ -170,44 +164,27 @@ impl<'a> Multilevel<'a> {
         z
     }
 
-    fn iteration<'i>(
-        &'i self,
-        precondition: &'i dyn Fn(&[f64], &mut ConvergenceHistory) -> Vec<f64>,
-        multiply: &'i dyn Fn(&[f64], &mut [f64]),
-        tolerance: f64,
-    ) -> Iteration<'i> {
-        let goes_on = self.goes_on;
-        Iteration { multiply, precondition, goes_on, tolerance, most_steps: MOST_STEPS }
-    }
-
     /// x with K x = f in the order of the rows, and how it was found.
     fn iterate(
         &self,
         wanted: f64,
         f: &[f64],
     ) -> Result<(Vec<f64>, ConvergenceHistory), LinearError> {
-        let rows = self.rows(0);
-        let precondition = |r: &[f64], course: &mut ConvergenceHistory| {
-            let mut norms = Vec::new();
-            let z = self.precondition(r, &mut norms);
-            course.levels.push(norms);
-            z
-        };
-        let multiply = |x: &[f64], out: &mut [f64]| rows.multiply(x, out);
-        let (mut x, mut rest, mut all) =
-            (vec![0.0; f.len()], f.to_vec(), ConvergenceHistory::default());
-        let mut left = 1.0;
+        let (mut x, mut rest) = (vec![0.0; f.len()], f.to_vec());
+        let (mut all, mut left) = (ConvergenceHistory::default(), 1.0);
         for _ in 0..=RESTARTS {
-            let tolerance = wanted / left;
-            let (part, course, end) =
-                self.iteration(&precondition, &multiply, tolerance).run(&mut rest);
-            if end == IterationEnd::Stopped {
-                return Err(LinearError::Stopped);
-            }
+            let (part, history, is_reached) = conjugate_gradients(
+                &mut rest,
+                wanted / left,
+                |x, out| self.rows(0).multiply(x, out),
+                |r, norms| self.precondition(r, norms),
+                self.goes_on,
+            )?;
             x.iter_mut().zip(&part).for_each(|(x, part)| *x += part);
-            all.append(course, left);
+            all.append(history, left);
             rest = self.remainder(f, &x);
-            if end == IterationEnd::Reached && self.is_rounding(&rest, &x) {
+            // no method does better than rounding
+            if is_reached && norm(&rest) <= ROUNDING * self.largest_diagonal * norm(&x) {
                 return Ok((x, all));
             }
             let z = self.precondition(&rest, &mut Vec::new());
@@ -225,12 +202,6 @@ impl<'a> Multilevel<'a> {
         self.rows(0).multiply(x, &mut product);
         f.iter().zip(&product).map(|(f, product)| f - product).collect()
     }
-
-    /// True if a remainder is what rounding leaves of K x: no method does better.
-    fn is_rounding(&self, rest: &[f64], x: &[f64]) -> bool {
-        let [rest, x] = [rest, x].map(norm);
-        rest <= ROUNDING * self.stiffest * x
-    }
 }
 
 impl LinearSolver for Multilevel<'_> {
@@ -243,23 +214,8 @@ impl LinearSolver for Multilevel<'_> {
         loads.iter().map(|load| Ok(roughly(load)?.unknowns)).collect()
     }
 
-    /// As exact as [`LinearSolver::solve`] where that succeeds; else one cycle.
-    fn apply_inverse(&self, x: &mut [f64]) {
-        let rows = self.rows(0);
-        let mut f = rows.coloured(x);
-        self.kernel.balance(&mut f);
-        let solution = self.iterate(self.tolerance, &f).map(|(x, _)| x);
-        let solution = solution.unwrap_or_else(|_| self.cycle(0, &f, &mut Vec::new()));
-        x.copy_from_slice(&rows.plain(&solution));
-    }
-
     fn kernel(&self) -> Option<Vec<Vec<f64>>> {
         Some(self.kernel.modes.iter().map(|mode| self.rows(0).plain(mode)).collect())
-    }
-
-    /// None: conjugate gradients need to leave out nothing.
-    fn n_dependent(&self) -> usize {
-        0
     }
 
     fn bytes(&self) -> usize {
@@ -278,17 +234,12 @@ impl LinearSolver for Multilevel<'_> {
 impl Multilevel<'_> {
     fn solve_to(&self, tolerance: f64, load: &[f64]) -> Result<LinearSolution, LinearError> {
         let rows = self.rows(0);
-        assert_eq!(load.len(), rows.n_unknowns(), "one entry for each unknown");
-        if let Some(u) = load.iter().position(|x| !x.is_finite()) {
-            return Err(LinearError::LoadNotFinite { patch: rows.matrix.patch_of(u) });
-        }
+        check_load(&rows.matrix, load)?;
         let mut f = rows.coloured(load);
         self.kernel.balance(&mut f);
-        let (x, course) = self.iterate(tolerance, &f)?;
-        let rest = self.remainder(&f, &x);
-        let size = norm(&f);
-        let relative_residual = if size == 0.0 { 0.0 } else { norm(&rest) / size };
-        Ok(LinearSolution { unknowns: rows.plain(&x), relative_residual, course: Some(course) })
+        let (x, history) = self.iterate(tolerance, &f)?;
+        let relative_residual = relative(&self.remainder(&f, &x), &f);
+        Ok(LinearSolution { unknowns: rows.plain(&x), relative_residual, history: Some(history) })
     }
 }
 
@@ -370,7 +321,7 @@ mod tests {
         let level = |(k, n): (usize, usize)| {
             let mut matrix = line(n, is_held);
             let scale = factor * 0.5f64.powi(k as i32 + 1) - 1.0;
-            for (i, j, _) in line(n, is_held).stored_places() {
+            for (i, j) in line(n, is_held).pattern().pairs() {
                 let entry = matrix.block(i, j).expect("a stored block")[(0, 0)];
                 matrix.add_block(i, j, Mat::full(1, 1, scale * entry).as_ref());
             }
@@ -421,7 +372,7 @@ mod tests {
             for (x, y) in found.unknowns.iter().zip(&exact.unknowns) {
                 assert!((x - y).abs() < 1e-10 * largest, "{x}, not {y}");
             }
-            steps.push(found.course.expect("steps").residuals.len() - 1);
+            steps.push(found.history.expect("steps").residuals.len() - 1);
         };
         agree(&grid, Vec::new());
         [320, 1280, 5120].into_iter().for_each(|n| agree(&line(n, true), levels(n, true, 1.0)));

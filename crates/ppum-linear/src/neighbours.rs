@@ -1,6 +1,6 @@
 //! All blocks of the rows of a symmetric block matrix of which one half is stored.
 
-use super::block_matrix::BlockPattern;
+use super::block_matrix::{BlockPattern, running_sum};
 
 /// A block of a row.
 #[derive(Clone, Copy, Debug)]
@@ -20,14 +20,12 @@ pub(super) struct Neighbours {
 impl Neighbours {
     pub(super) fn new(pattern: &BlockPattern) -> Self {
         let n = pattern.len();
-        let mut starts = vec![0; n + 1];
+        let mut counts = vec![0; n];
         for (i, j) in pattern.pairs() {
-            starts[i + 1] += 1;
-            starts[j + 1] += usize::from(i != j);
+            counts[i] += 1;
+            counts[j] += usize::from(i != j);
         }
-        for i in 0..n {
-            starts[i + 1] += starts[i];
-        }
+        let starts = running_sum(counts.into_iter());
         let mut next = starts.clone();
         let mut blocks = vec![Neighbour { column: 0, stored: 0 }; starts[n]];
         let mut put = |row: usize, column: usize, stored: usize| {
@@ -35,14 +33,9 @@ impl Neighbours {
             next[row] += 1;
         };
         // rows ascend, so what is left of a diagonal comes before what is right of it
-        for (stored, (i, j)) in pattern.pairs().enumerate() {
-            if i != j {
-                put(j, i, stored);
-            }
-        }
-        for (stored, (i, j)) in pattern.pairs().enumerate() {
-            put(i, j, stored);
-        }
+        let pairs = || pattern.pairs().enumerate();
+        pairs().filter(|(_, (i, j))| i != j).for_each(|(stored, (i, j))| put(j, i, stored));
+        pairs().for_each(|(stored, (i, j))| put(i, j, stored));
         Self { starts, blocks }
     }
 

@@ -6,7 +6,7 @@ use faer::sparse::SymbolicSparseColMat;
 use faer::sparse::linalg::amd;
 
 /// The blocks by approximate minimum degree: always one next that is coupled to few.
-pub(super) fn by_degree(neighbours: &Neighbours) -> Vec<u32> {
+pub(super) fn minimum_degree_order(neighbours: &Neighbours) -> Vec<u32> {
     let n = neighbours.len();
     let (mut starts, mut rows) = (vec![0], Vec::new());
     for i in 0..n {

@@ -20,7 +20,7 @@ const LEFT_OUT_BELOW: f64 = 1e-10;
 /// Substitute for a vanishing pivot: its unknown becomes zero, and the rest does not see it.
 const LEFT_OUT: f64 = 1e40;
 
-/// Rows of a strip that a thread takes at a time.
+/// Rows of a panel that a thread takes at a time.
 const ROWS: usize = 256;
 
 /// The way to take pivots that vanish.
@@ -115,7 +115,7 @@ impl FrontPanel {
         Ok(())
     }
 
-    /// Takes what the elimination of an earlier strip leaves away from this one.
+    /// Takes what the elimination of an earlier panel leaves away from this one.
     pub(super) fn subtract(&mut self, earlier: &Self) {
         let below = earlier.matrix().subrows(self.first - earlier.first, self.height);
         let own = below.subrows(0, self.width).transpose();

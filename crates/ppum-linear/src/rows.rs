@@ -7,9 +7,10 @@
 //! time. Values of a block depend on its row alone, so that results have the same bits on any
 //! number of threads.
 
-use super::block_matrix::BlockMatrix;
+use super::block_matrix::{BlockMatrix, running_sum};
 use super::neighbours::Neighbours;
 use std::borrow::Cow;
+use std::cmp::Ordering;
 use std::ops::Range;
 
 /// Blocks that one thread takes at a time: enough to hide what it costs to hand work to a thread,
@@ -33,18 +34,9 @@ pub(crate) struct SymmetricRows<'a> {
     own: Vec<usize>,
 }
 
-/// The blocks of a row that a sum runs over.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum BlockSubset {
-    /// All.
-    All,
-    /// Those of earlier colours.
-    Before,
-    /// Those of later colours.
-    After,
-    /// All but that of the diagonal.
-    Others,
-}
+/// The blocks of a row that a sum runs over, by the order of their colours to that of the row,
+/// which is the colour of its own block alone.
+pub(super) type BlockSubset = fn(Ordering) -> bool;
 
 impl<'a> SymmetricRows<'a> {
     pub(crate) fn new(matrix: Cow<'a, BlockMatrix>) -> Self {
@@ -55,13 +47,9 @@ impl<'a> SymmetricRows<'a> {
         order.sort_by_key(|&block| colours[block as usize]);
         let first = |colour| order.partition_point(|&b| (colours[b as usize] as usize) < colour);
         let colour_starts = (0..=n_colours).map(first).collect();
-        let mut offsets = vec![0];
+        let offsets = running_sum(order.iter().map(|&b| matrix.unknowns(b as usize).len()));
         let mut own = vec![0; colours.len()];
-        for &block in &order {
-            let start = offsets[offsets.len() - 1];
-            own[block as usize] = start;
-            offsets.push(start + matrix.unknowns(block as usize).len());
-        }
+        order.iter().zip(&offsets).for_each(|(&block, &start)| own[block as usize] = start);
         Self { matrix, neighbours, order, colours, colour_starts, offsets, own }
     }
 
@@ -106,7 +94,7 @@ impl<'a> SymmetricRows<'a> {
     }
 
     /// The largest entry of the diagonal.
-    pub(super) fn stiffest(&self) -> f64 {
+    pub(super) fn largest_diagonal(&self) -> f64 {
         let of = |i| {
             let block = self.matrix.block(i, i).expect("a block is coupled to itself");
             (0..block.nrows()).map(|k| block[(k, k)]).fold(0.0, f64::max)
@@ -118,7 +106,7 @@ impl<'a> SymmetricRows<'a> {
     pub(crate) fn multiply(&self, x: &[f64], out: &mut [f64]) {
         self.for_all(out, &|block, out| {
             out.fill(0.0);
-            self.add_row(block, BlockSubset::All, &Vectors::whole(x), 1.0, out);
+            self.add_row(block, |_| true, &Vectors::whole(x), 1.0, out);
         });
     }
 
@@ -134,13 +122,7 @@ impl<'a> SymmetricRows<'a> {
         let colour = self.colours[i];
         for entry in self.neighbours.of(i) {
             let j = entry.column as usize;
-            let wanted = match subset {
-                BlockSubset::All => true,
-                BlockSubset::Before => self.colours[j] < colour,
-                BlockSubset::After => self.colours[j] > colour,
-                BlockSubset::Others => j != i,
-            };
-            if wanted {
+            if subset(self.colours[j].cmp(&colour)) {
                 let (block, x) =
                     (self.matrix.stored(entry.stored as usize), x.at(self.unknowns(j)));
                 if j < i {
@@ -161,7 +143,7 @@ impl<'a> SymmetricRows<'a> {
     pub(super) fn remainder(&self, i: usize, f: &[f64], x: &[f64], r: &mut [f64]) {
         let own = self.unknowns(i);
         r[own.clone()].copy_from_slice(&f[own.clone()]);
-        self.add_row(i, BlockSubset::All, &Vectors::whole(x), -1.0, &mut r[own]);
+        self.add_row(i, |_| true, &Vectors::whole(x), -1.0, &mut r[own]);
     }
 
     /// Calls `work` with each block and its part of `out`, on all threads.
@@ -284,7 +266,7 @@ mod tests {
         let matrix = grid_matrix(13, 9, &mut Random(5));
         let rows = SymmetricRows::new(Cow::Borrowed(&matrix));
         assert_eq!(rows.n_colours(), 4, "eight neighbours each");
-        for (i, j, _) in matrix.stored_places() {
+        for (i, j) in matrix.pattern().pairs() {
             assert!(i == j || rows.colours[i] != rows.colours[j]);
         }
         let mut random = Random(7);

@@ -1,6 +1,6 @@
 //! Linear systems that are ready for right-hand sides: the contract of all solvers.
 
-use super::conjugate::ConvergenceHistory;
+use super::block_matrix::BlockMatrix;
 
 /// A symmetric positive semi-definite system K u = f, prepared for any number of right-hand sides.
 pub trait LinearSolver {
@@ -27,16 +27,15 @@ pub trait LinearSolver {
     /// A right-hand side that is not finite, or that no u fits.
     fn solve_roughly(&self, loads: &[Vec<f64>]) -> Result<Vec<Vec<f64>>, LinearError>;
 
-    /// x ← K⁻¹ x, as it comes: without a look at the residual.
-    fn apply_inverse(&self, x: &mut [f64]);
-
     /// A basis of the solutions of K u = 0 where K is singular and the solver knows them.
     fn kernel(&self) -> Option<Vec<Vec<f64>>> {
         None
     }
 
     /// Number of unknowns that are left out, because they depend on others.
-    fn n_dependent(&self) -> usize;
+    fn n_dependent(&self) -> usize {
+        0
+    }
 
     /// Bytes that are held: matrices and factors.
     fn bytes(&self) -> usize;
@@ -48,6 +47,13 @@ pub trait LinearSolver {
     }
 }
 
+/// Asks whether a right-hand side is finite.
+pub(super) fn check_load(matrix: &BlockMatrix, load: &[f64]) -> Result<(), LinearError> {
+    assert_eq!(load.len(), matrix.n_unknowns(), "one entry for each unknown");
+    let place = load.iter().position(|x| !x.is_finite());
+    place.map_or(Ok(()), |u| Err(LinearError::LoadNotFinite { patch: matrix.patch_of(u) }))
+}
+
 /// A solution and how well it solves the system.
 #[derive(Clone, Debug)]
 pub struct LinearSolution {
@@ -56,7 +62,21 @@ pub struct LinearSolution {
     /// ‖f − K u‖ / ‖f‖ in the Euclidean norm; zero for f = 0.
     pub relative_residual: f64,
     /// How it was found, by iteration.
-    pub course: Option<ConvergenceHistory>,
+    pub history: Option<ConvergenceHistory>,
+}
+
+/// The way to a solution by conjugate gradients with a preconditioner M ≈ K⁻¹.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ConvergenceHistory {
+    /// (rᵀ M r)^½ before the first step.
+    pub size: f64,
+    /// The residual norms before the first step and after each, relative to the first.
+    pub residuals: Vec<f64>,
+    /// Condition of M K, a bound from below.
+    pub condition: f64,
+    /// For each step and each level, the finest first, the norm of the right-hand side relative to
+    /// that of the first step.
+    pub levels: Vec<Vec<f64>>,
 }
 
 /// A system that cannot be solved.
@@ -122,10 +142,7 @@ impl LinearError {
     pub fn patch(&self) -> Option<usize> {
         match *self {
             Self::NotPositiveDefinite { patch, .. } | Self::LoadNotFinite { patch } => Some(patch),
-            Self::OutOfMemory { .. }
-            | Self::NotConverged { .. }
-            | Self::NoModes { .. }
-            | Self::Stopped => None,
+            _ => None,
         }
     }
 }

@@ -6,10 +6,9 @@
 //! is a thousandth of θ (Parlett, "The Symmetric Eigenvalue Problem", 1980, chapter 13).
 
 use super::block_matrix::BlockMatrix;
+use super::cholesky::Cholesky;
 use super::conjugate::{dot, norm};
 use super::eigen::{EigenError, SymmetricEigen};
-use super::solver::LinearSolver;
-use faer::Mat;
 
 /// Relative accuracy of the eigenvalues.
 const ACCURACY: f64 = 1e-3;
@@ -39,18 +38,13 @@ impl Spectrum {
     /// That of `step`; entries that are not finite.
     pub fn new<E: From<EigenError>>(
         matrix: &BlockMatrix,
-        solver: &dyn LinearSolver,
+        solver: &Cholesky<'_>,
         step: &dyn Fn() -> Result<(), E>,
     ) -> Result<Self, E> {
         let n = matrix.n_unknowns();
-        let inverse = |x: &[f64]| -> Result<Vec<f64>, E> {
-            step()?;
-            let mut y = x.to_vec();
-            solver.apply_inverse(&mut y);
-            Ok(y)
-        };
         let largest = largest_eigenvalue(n, |x| step().map(|()| matrix.multiply(x)))?;
-        Ok(Self { largest, smallest: largest_eigenvalue(n, inverse)?.recip() })
+        let inverse = largest_eigenvalue(n, |x| step().map(|()| solver.apply_inverse(x)))?;
+        Ok(Self { largest, smallest: inverse.recip() })
     }
 
     /// The condition number, the quotient of the two.
@@ -76,25 +70,13 @@ fn largest_eigenvalue<E: From<EigenError>>(
         diagonal.push(dot(&next, &basis[step]));
         orthogonalise(&mut next, &basis);
         coupling.push(norm(&next));
-        let (value, last) = top(&diagonal, &coupling)?;
-        found = value;
-        if coupling[step + 1] * last.abs() <= ACCURACY * value {
+        let ritz = SymmetricEigen::tridiagonal(&diagonal, &coupling[1..])?;
+        found = ritz.values[0];
+        if coupling[step + 1] * ritz.vectors[(step, 0)].abs() <= ACCURACY * found {
             break;
         }
     }
     Ok(found)
-}
-
-/// Largest eigenvalue of the tridiagonal matrix, and the last entry of its vector.
-fn top(diagonal: &[f64], coupling: &[f64]) -> Result<(f64, f64), EigenError> {
-    let n = diagonal.len();
-    let matrix = Mat::from_fn(n, n, |i, j| match i.abs_diff(j) {
-        0 => diagonal[i],
-        1 => coupling[i.max(j)],
-        _ => 0.0,
-    });
-    let eigen = SymmetricEigen::new(matrix.as_ref())?;
-    Ok((eigen.values[0], eigen.vectors[(n - 1, 0)]))
 }
 
 /// Takes the parts along an orthonormal basis out of x; twice, so that rounding leaves none.
@@ -108,7 +90,8 @@ fn orthogonalise(x: &mut [f64], basis: &[Vec<f64>]) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BlockPattern, Cholesky};
+    use crate::BlockPattern;
+    use faer::Mat;
 
     /// Second differences on a line have the eigenvalues 2 − 2 cos(kπ/(n + 1)).
     #[test]

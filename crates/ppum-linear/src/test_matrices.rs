@@ -20,8 +20,8 @@ pub(crate) fn grid_matrix(n: usize, m: usize, random: &mut Random) -> BlockMatri
     }
     let sizes: Vec<usize> = (0..n * m).map(|k| 1 + k % 3).collect();
     let mut matrix = BlockMatrix::new(&sizes, BlockPattern::new(starts, columns));
-    let pairs: Vec<_> = matrix.stored_places().collect();
-    for (i, j, _) in pairs {
+    let pairs: Vec<_> = matrix.pattern().pairs().collect();
+    for (i, j) in pairs {
         let off = Mat::from_fn(sizes[i], sizes[j], |_, _| random.between(-1.0, 1.0));
         let block = match i == j {
             true => {

@@ -53,7 +53,8 @@ impl Transfer {
         to.for_all(x, &|i, x| {
             let Some(parent) = self.parents[i] else { return };
             let (y, repeat) = (&y[from.unknowns(parent as usize)], self.repeats[i].into());
-            for (x, y) in parts(x, repeat).zip(y.chunks(width(y.len(), repeat))) {
+            let own = x.chunks_mut(width(x.len(), repeat));
+            for (x, y) in own.zip(y.chunks(width(y.len(), repeat))) {
                 add_product(self.block(i), y, 1.0, x);
             }
         });
@@ -70,7 +71,8 @@ impl Transfer {
             for &child in &self.children[k] {
                 let i = child as usize;
                 let (r, repeat) = (&r[from.unknowns(i)], self.repeats[i].into());
-                for (r, y) in r.chunks(width(r.len(), repeat)).zip(parts(y, repeat)) {
+                let own = y.chunks_mut(width(y.len(), repeat));
+                for (r, y) in r.chunks(width(r.len(), repeat)).zip(own) {
                     add_transposed(self.block(i), r, 1.0, y);
                 }
             }
@@ -85,9 +87,4 @@ impl Transfer {
 
 fn width(len: usize, repeat: usize) -> usize {
     (len / repeat).max(1)
-}
-
-fn parts(x: &mut [f64], repeat: usize) -> impl Iterator<Item = &mut [f64]> {
-    let width = width(x.len(), repeat);
-    x.chunks_mut(width)
 }

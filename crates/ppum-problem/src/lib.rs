@@ -9,6 +9,17 @@
 //! with components of u (Dirichlet) or of the traction σ n, the flux κ ∂u/∂n (Neumann), given on
 //! parts of the boundary. `docs/problem-file.md` describes the file for users.
 //!
+//! | module | what is in it |
+//! |---|---|
+//! | `data` | the problem: [`Body`], [`BoundaryCondition`], forces, discretisation, steps; what follows from them, such as symmetries and the points of drawings |
+//! | [`geometry`] | lines, boxes, curves and cracks of bodies, whoever asks |
+//! | `file` | the text: [`keys`], its values with their places, the tables and points that it names |
+//! | `read` | from the text to the data, a table of the file a module |
+//! | `check` | rules that the data must obey, whether read or built in code |
+//!
+//! A boundary condition is its rows in `file/keys.rs`, what `read/boundary.rs` makes of them, and
+//! the values that `data/boundary.rs` gives to rules, loads and drawings alike.
+//!
 //! [`ProblemData`] are plain data, a [`Problem`] such as break no rule. Reading reports everything
 //! that is wrong at once, with places; for data from code [`Problem::new`] applies the same rules:
 //!
@@ -27,72 +38,16 @@
 //! assert!(Problem::new(plate).is_ok());
 //! ```
 
-mod adaptivity;
-mod body;
-mod boundary;
 mod check;
-mod contacts;
-mod cracks;
-mod csv;
-mod curve;
-mod discretization;
-mod document;
-mod enrichment;
-mod error;
-mod expression;
-mod force;
+mod data;
+mod file;
 pub mod geometry;
-mod growth;
-mod holes;
-mod key;
-mod key_kinds;
-pub mod keys;
-mod model;
-mod nearby;
-mod points;
-pub mod quantities;
 mod read;
-mod refinement;
-mod report;
-mod restraint;
-mod scopes;
-mod series;
-mod solver;
-mod stations;
-mod stiffness;
-mod straight;
-mod support;
-mod symmetry;
-mod table_file;
-mod temperature;
 #[cfg(test)]
 mod tests;
-mod words;
 
-pub use adaptivity::{AdaptKind, Adaptivity, StepsKept};
-pub use body::Body;
-pub use boundary::{
-    BoundaryCondition, BoundaryPart, BoundaryPiece, BoundaryRange, Condition, DomainEdge,
-    held_directions, in_plane,
-};
 pub use check::features::Feature;
-pub use cracks::{crack, cracks};
-pub use curve::arc_from;
-pub use discretization::{
-    BaseCells, Discretization, Enrichment, MOST_TERMS, OrderError, PolynomialOrder,
-};
-pub use document::MAX_LENGTH;
-pub use enrichment::{EnrichmentRegion, LocalEnrichment, Site};
-pub use error::{Diagnostic, ProblemError, ProblemLocation};
-pub use force::ForcePlace;
-pub use growth::{Criterion, GrowthRule, LoadControl, Paris};
-pub use model::{Problem, ProblemData, SolvedTemperature};
+pub use data::*;
+pub use file::{MAX_LENGTH, keys, read_table};
+pub use geometry::{arc_from, crack, cracks};
 pub use ppum::expression::Expression;
-pub use refinement::{DEEPEST, LocalRefinement, RefinementRegion, nine};
-pub use restraint::{restraint_center, restraint_words};
-pub use solver::{SolverKind, SolverSettings};
-pub use stations::BoundaryStation;
-pub use stiffness::{FREE_OF_LOCKING, STIFF, stiffness_ratio};
-pub use support::{Force, Support};
-pub use symmetry::Symmetry;
-pub use table_file::read_table;

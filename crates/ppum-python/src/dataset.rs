@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::errors::{unreadable, unwritable};
-use crate::facts;
+use crate::facts::{self, step_json};
 use crate::watch::{guard, long};
 
 /// A dataset, which never changes.
@@ -177,14 +177,15 @@ impl PyDataset {
         })?
     }
 
-    /// Returns the data that all steps have in common, as JSON.
-    fn about(&self) -> PyResult<String> {
-        guard(|| Ok(facts::about(self.head())))
+    /// Returns the data that all steps have in common.
+    fn about<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        guard(|| facts::about(py, self.head()))
     }
 
-    /// Returns the content of a step except for its fields, as JSON.
-    fn step(&self, py: Python<'_>, number: usize) -> PyResult<String> {
-        long(py, None, None, |_| Ok(facts::step_json(&*self.at(number)?, number)))?
+    /// Returns the content of a step except for its fields.
+    fn step<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyAny>> {
+        let json = long(py, None, None, |_| self.at(number).map(|data| step_json(&data, number)))??;
+        facts::parsed(py, &json)
     }
 
     /// The stored values of cells, by their names.

@@ -1,12 +1,12 @@
 //! The exceptions, which are classes of `ppum` so that they can be pickled, and what becomes them.
 
 use std::convert::Infallible;
+use std::fmt::Display;
 use std::io;
 use std::path::Path;
 
 use ppum::field::FieldError;
 use ppum::progress::Cancelled;
-use ppum::quantity::QuantityError as BadQuantity;
 use ppum_format::{ReadError, WriteError};
 use ppum_fracture::growth::GrowthError;
 use ppum_fracture::solve::SolveError as Unsolved;
@@ -14,7 +14,6 @@ use ppum_problem::{Diagnostic, ProblemError as Mistakes, ProblemLocation};
 use ppum_scene::layers::LayersError;
 use ppum_scene::place::PlaceError;
 use ppum_scene::profile::ProfileError;
-use ppum_scene::scene::{DisplayError, SubjectError};
 use ppum_scene::shot::ImageError;
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt, PyOSError};
 use pyo3::import_exception;
@@ -28,9 +27,13 @@ import_exception!(ppum, QuantityError);
 import_exception!(ppum, RenderError);
 import_exception!(ppum, SolveError);
 
+/// The number of the system's error for a file that is not there, the same on all systems.
+const NO_ENTRY: i32 = 2;
+
 /// `FileNotFoundError` and its like, with the file's name.
 fn file(path: &Path, error: &io::Error, message: String) -> PyErr {
-    let Some(number) = error.raw_os_error() else {
+    let missing = (error.kind() == io::ErrorKind::NotFound).then_some(NO_ENTRY);
+    let Some(number) = error.raw_os_error().or(missing) else {
         return io::Error::new(error.kind(), message).into();
     };
     // the words of the system, without the number that Rust adds and Python adds again
@@ -42,9 +45,7 @@ fn file(path: &Path, error: &io::Error, message: String) -> PyErr {
 /// A dataset that cannot be read; `of` is where it comes from.
 pub(crate) fn unreadable(of: &str, error: ReadError) -> PyErr {
     match error {
-        ReadError::Io { path, source } => {
-            file(&path, &source, format!("cannot read {}: {source}", path.display()))
-        }
+        ReadError::Io { ref path, ref source } => file(path, source, error.to_string()),
         error => FormatError::new_err(format!("{of}: {error}")),
     }
 }
@@ -61,42 +62,29 @@ pub(crate) fn unbuilt(errors: &[ReadError]) -> PyErr {
 /// A dataset that cannot be written.
 pub(crate) fn unwritable(error: WriteError) -> PyErr {
     match error {
-        WriteError::Io { path, source } => {
-            file(&path, &source, format!("cannot write {}: {source}", path.display()))
-        }
+        WriteError::Io { ref path, ref source } => file(path, source, error.to_string()),
         error => FormatError::new_err(error.to_string()),
     }
 }
 
 /// One error of a problem: file or key, line and column where they are known, what is wrong.
-#[derive(IntoPyObject)]
-pub(crate) struct ProblemFinding {
-    place: String,
-    line: Option<usize>,
-    column: Option<usize>,
-    message: String,
+pub(crate) type ProblemFinding = (String, Option<usize>, Option<usize>, String);
+
+fn finding(mistake: &Diagnostic) -> ProblemFinding {
+    let (place, line, column) = match &mistake.location {
+        ProblemLocation::File(place) | ProblemLocation::Key(place) => (place, None, None),
+        ProblemLocation::Text { file, line, column } => (file, Some(*line), Some(*column)),
+    };
+    (place.clone(), line, column, mistake.message.clone())
 }
 
-impl ProblemFinding {
-    fn new(mistake: &Diagnostic) -> Self {
-        let (place, line, column) = match &mistake.location {
-            ProblemLocation::File(file) => (file.clone(), None, None),
-            ProblemLocation::Text { file, line, column } => {
-                (file.clone(), Some(*line), Some(*column))
-            }
-            ProblemLocation::Key(key) => (key.clone(), None, None),
-        };
-        Self { place, line, column, message: mistake.message.clone() }
-    }
-
-    pub(crate) fn all(mistakes: &Mistakes) -> Vec<Self> {
-        mistakes.mistakes().iter().map(Self::new).collect()
-    }
+pub(crate) fn findings(mistakes: &Mistakes) -> Vec<ProblemFinding> {
+    mistakes.mistakes().iter().map(finding).collect()
 }
 
 /// A problem that cannot be read, with its findings.
 pub(crate) fn problem(mistakes: &Mistakes) -> PyErr {
-    ProblemError::new_err((mistakes.to_string(), ProblemFinding::all(mistakes)))
+    ProblemError::new_err((mistakes.to_string(), findings(mistakes)))
 }
 
 /// Work that was stopped: by nobody but Python, which raises its own exception then.
@@ -131,12 +119,13 @@ pub(crate) fn no_field(error: FieldError) -> PyErr {
 
 /// Converts the error of a text that is no quantity of a field, or no change that can be made in
 /// it.
-pub(crate) fn quantity(error: &BadQuantity) -> PyErr {
+pub(crate) fn quantity(error: impl Display) -> PyErr {
     QuantityError::new_err(error.to_string())
 }
 
-pub(crate) fn subject(error: &SubjectError) -> PyErr {
-    QuantityError::new_err(error.to_string())
+/// Converts an error of an image that needs no other class.
+pub(crate) fn render_error(error: impl Display) -> PyErr {
+    RenderError::new_err(error.to_string())
 }
 
 /// An image that cannot be drawn.
@@ -145,25 +134,21 @@ pub(crate) fn picture(error: ImageError) -> PyErr {
         ImageError::Render(error) => rendering(error),
         ImageError::Layers(layers) => match *layers {
             LayersError::Render(error) => rendering(*error),
-            error => RenderError::new_err(error.to_string()),
+            error => render_error(error),
         },
-        ImageError::Shown(error) => not_shown(&error),
+        ImageError::Shown(error) => quantity(error),
         ImageError::Place(error @ PlaceError::Tip { .. }) => {
             PyIndexError::new_err(error.to_string())
         }
-        error => RenderError::new_err(error.to_string()),
+        error => render_error(error),
     }
-}
-
-pub(crate) fn not_shown(error: &DisplayError) -> PyErr {
-    QuantityError::new_err(error.to_string())
 }
 
 pub(crate) fn rendering(error: ppum_render::RasterError) -> PyErr {
     match error {
         ppum_render::RasterError::Cancelled(error) => cancelled(error),
-        ppum_render::RasterError::Quantity(error) => quantity(&error),
-        error => RenderError::new_err(error.to_string()),
+        ppum_render::RasterError::Quantity(error) => quantity(error),
+        error => render_error(error),
     }
 }
 
@@ -174,6 +159,6 @@ pub(crate) fn no_profile(error: ProfileError) -> PyErr {
         ProfileError::Crack { .. } | ProfileError::Tip { .. } => {
             PyIndexError::new_err(error.to_string())
         }
-        error => QuantityError::new_err(error.to_string()),
+        error => quantity(error),
     }
 }

@@ -1,25 +1,25 @@
 //! Triangles and pages of fields, for programs and people that have no `ppum`.
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods as _};
+use std::path::PathBuf;
+
+use numpy::{PyArray1, PyArray2};
 use ppum::vec2::Vec2;
-use ppum_format::to_bytes;
+use ppum_format::{WriteError, to_bytes};
 use ppum_page::{LARGEST, PageStart, PageView, html};
 use ppum_scene::export::vtkhdf::{ExportedStep, MOST_BYTES, file};
 use ppum_scene::export::vtu::{FileNotes, write};
-use ppum_scene::export::{Accuracy, ExportError, PointArray, resolve};
+use ppum_scene::export::{
+    Accuracy, ExportError, ExportMesh, MeasuredAccuracy, PointArray, resolve,
+};
 use ppum_scene::request::Request;
 use ppum_scene::scene::Subject;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::dataset::PyDataset;
-use crate::errors::{RenderError, cancelled, quantity, unwritable};
+use crate::errors::{RenderError, cancelled, quantity, render_error, unwritable};
 use crate::field::PyField;
-use crate::picture::CenterAndWidth;
+use crate::picture::{PyView, rows};
 use crate::watch::long;
-
-/// Columns and rows that give the first view of a page its shape.
-const SHAPE: [u32; 2] = [1024, 768];
 
 /// Triangles on which values are polynomials.
 #[pyclass(frozen, module = "ppum._core")]
@@ -27,65 +27,50 @@ pub(crate) struct Triangles {
     step: ExportedStep,
 }
 
-/// How well an array is resolved.
-#[derive(IntoPyObject)]
-pub(crate) struct AccuracyFacts {
-    name: String,
-    range: f64,
-    allowed: f64,
-    largest: f64,
-    share: f64,
-    is_singular: bool,
-}
+/// The name of an array, its range, the allowed and the largest difference, the share of points
+/// within the tolerance, and whether the array is singular.
+type AccuracyFacts = (String, [f64; 4], bool);
+
+type TriangleArrays<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<u32>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<f64>>,
+    bool,
+);
 
 #[pymethods]
 impl Triangles {
-    fn points<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        rows(py, coordinates(&self.step.mesh.points), 2)
-    }
-
-    /// Points where arrays are infinite.
-    fn singular<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        rows(py, coordinates(&self.step.mesh.singular), 2)
-    }
-
-    /// The numbers of the points of each.
-    fn cells<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<u32>>> {
-        let mesh = &self.step.mesh;
-        rows(py, mesh.cells.clone(), mesh.cells.len() / mesh.triangles().len())
+    /// Points, cells, singular points, the radii about them within which the tolerance does not
+    /// hold, and whether the work was complete.
+    fn mesh<'py>(&self, py: Python<'py>) -> PyResult<TriangleArrays<'py>> {
+        let ExportMesh { points, cells, singular, radii, is_complete, .. } = &self.step.mesh;
+        let width = (cells.len() / self.step.mesh.triangles().len()) as u32;
+        Ok((
+            rows(py, coordinates(points), 2)?,
+            rows(py, cells.clone(), width)?,
+            rows(py, coordinates(singular), 2)?,
+            PyArray1::from_slice(py, radii),
+            *is_complete,
+        ))
     }
 
     /// The values of an array, a row of components for each point.
     fn values<'py>(&self, py: Python<'py>, number: usize) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let width = self.step.mesh.arrays[number].array.components.len();
-        rows(py, self.step.mesh.values_of(number), width)
+        rows(py, self.step.mesh.values_of(number), width as u32)
     }
 
     fn accuracy(&self) -> Vec<AccuracyFacts> {
-        let facts = |a: &ppum_scene::export::MeasuredAccuracy| AccuracyFacts {
-            name: a.array.name.clone(),
-            range: a.range,
-            allowed: a.allowed,
-            largest: a.largest,
-            share: a.share,
-            is_singular: a.is_singular,
+        let facts = |a: &MeasuredAccuracy| {
+            (a.array.name.clone(), [a.range, a.allowed, a.largest, a.share], a.is_singular)
         };
         self.step.mesh.arrays.iter().map(facts).collect()
     }
 
-    /// The radii about singular points within which the tolerance does not hold.
-    fn radii<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        PyArray1::from_slice(py, &self.step.mesh.radii)
-    }
-
-    /// In words that the tolerance is not kept, if it is not.
+    /// The message that the tolerance is not kept, if it is not.
     fn complaint(&self) -> Option<String> {
         self.step.mesh.complaint()
-    }
-
-    /// False if the limit of triangles ended the work.
-    fn is_complete(&self) -> bool {
-        self.step.mesh.is_complete
     }
 
     /// The bytes of a `.vtu` file.
@@ -127,10 +112,10 @@ pub(crate) fn triangles(
     hash: String,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Triangles> {
-    let (field, arrays) = (this.owned.field(), this.arrays(names)?);
+    let (field, arrays) = (this.field(), this.arrays(names)?);
     let accuracy = Accuracy { tolerance, radius, cells: most, order, average };
     let mesh = long(py, None, progress, |watcher| resolve(field, &arrays, &accuracy, watcher))?;
-    let about = FileNotes::of(this.owned.dataset(), field, hash);
+    let about = FileNotes::of(this.dataset(), field, hash);
     let mesh = mesh.map_err(unexported)?;
     Ok(Triangles { step: ExportedStep { load: field.step.load, mesh, about } })
 }
@@ -140,34 +125,47 @@ pub(crate) fn triangles(
 pub(crate) fn page(
     py: Python<'_>,
     this: &PyField,
-    dataset: &PyDataset,
-    request: &str,
-    at: Option<CenterAndWidth>,
+    request: &Bound<'_, PyAny>,
+    at: Option<PyView>,
     file: String,
 ) -> PyResult<String> {
     let Request { mut scene, .. } = this.request(request)?;
     // parts and replaced functions are in the dataset already
-    let (changed, step) = this.owned.place();
-    let whole = if changed.steps.len() > 1 { Some(dataset.whole()?) } else { None };
+    let (changed, step) = this.place();
+    let whole = if changed.steps.len() > 1 { Some(this.series.get().whole()?) } else { None };
     let dataset = whole.as_deref().unwrap_or(changed);
     scene.subject = Subject { step: Some(step), ..Subject::default() };
-    let view = at.map(|((x, y), width)| PageView { center: [x, y], width, pixels: SHAPE });
-    let start = PageStart::new(scene, this.source(), view, file);
-    let start = start.map_err(|error| RenderError::new_err(error.to_string()))?;
+    let view = at.map(|PyView { center, width, size: pixels }| PageView {
+        center: center.into(),
+        width,
+        pixels,
+    });
+    let start = PageStart::new(scene, this.source(), view, file).map_err(render_error)?;
     let bytes = long(py, None, None, |_| to_bytes(dataset))?.map_err(unwritable)?;
     if bytes.len() as u64 > LARGEST {
         let most = LARGEST >> 20;
         return Err(RenderError::new_err(format!("pages hold datasets of up to {most} MiB")));
     }
-    let page = long(py, None, None, |_| html(&bytes, start.title(dataset), &start))?;
-    page.map_err(|error| RenderError::new_err(error.to_string()))
+    long(py, None, None, |_| html(&bytes, start.title(dataset), &start))?.map_err(render_error)
+}
+
+/// Writes a file, completely or not at all.
+#[pyfunction]
+pub(crate) fn replace(py: Python<'_>, path: PathBuf, bytes: &[u8]) -> PyResult<()> {
+    let written = long(py, None, None, |_| ppum_file::replace(&path, |out| out.write_all(bytes)))?;
+    written.map_err(|source| unwritable(WriteError::Io { path, source }))
+}
+
+/// Raises if `replace` could not write a file.
+#[pyfunction]
+pub(crate) fn check_target(path: PathBuf) -> PyResult<()> {
+    ppum_file::check(&path).map_err(|source| unwritable(WriteError::Io { path, source }))
 }
 
 impl PyField {
     /// The arrays of these names: of those that suit, else scalars.
     fn arrays(&self, names: Option<Vec<String>>) -> PyResult<Vec<PointArray>> {
-        let suitable =
-            PointArray::defaults(self.owned.field()).map_err(|error| quantity(&error))?;
+        let suitable = PointArray::defaults(self.field()).map_err(quantity)?;
         let Some(names) = names else { return Ok(suitable) };
         let array = |name: String| match suitable.iter().find(|array| array.name == name) {
             Some(known) => Ok(known.clone()),
@@ -180,20 +178,10 @@ impl PyField {
 fn unexported(error: ExportError) -> PyErr {
     match error {
         ExportError::Cancelled(error) => cancelled(error),
-        error => RenderError::new_err(error.to_string()),
+        error => render_error(error),
     }
 }
 
 fn coordinates(points: &[Vec2]) -> Vec<f64> {
     points.iter().flat_map(|p| [p.x, p.y]).collect()
-}
-
-/// Numbers in rows of so many.
-fn rows<T: numpy::Element>(
-    py: Python<'_>,
-    numbers: Vec<T>,
-    width: usize,
-) -> PyResult<Bound<'_, PyArray2<T>>> {
-    let shape = [numbers.len() / width, width];
-    PyArray1::from_vec(py, numbers).reshape(shape)
 }

@@ -34,9 +34,23 @@ struct StepFacts<'d> {
     arcs: Vec<(JsonNumber, Vec<[f64; 2]>)>,
 }
 
-/// Returns the data that all steps of a dataset have in common, as JSON.
-pub(crate) fn about(dataset: &Dataset) -> String {
-    json(&DatasetFacts { about: CommonFacts::new(dataset), problem: dataset.problem.as_deref() })
+/// Returns the data that all steps of a dataset have in common.
+pub(crate) fn about<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<'py, PyAny>> {
+    let (about, problem) = (CommonFacts::new(dataset), dataset.problem.as_deref());
+    to_python(py, &DatasetFacts { about, problem })
+}
+
+/// Dictionaries, lists, texts and numbers of Python.
+pub(crate) fn to_python<'py>(
+    py: Python<'py>,
+    facts: &impl Serialize,
+) -> PyResult<Bound<'py, PyAny>> {
+    parsed(py, &json(facts))
+}
+
+/// Python's objects of a JSON text.
+pub(crate) fn parsed<'py>(py: Python<'py>, json: &str) -> PyResult<Bound<'py, PyAny>> {
+    py.import("json")?.call_method1("loads", (json,))
 }
 
 /// Returns the content of an existing step, as JSON.
@@ -64,27 +78,15 @@ fn json(facts: &impl Serialize) -> String {
 
 /// A quantity: its name, the symbol of labels, the unit, and the formula if it is one that the
 /// dataset names.
-#[derive(IntoPyObject)]
-pub(crate) struct QuantityFacts {
-    name: String,
-    symbol: String,
-    unit: String,
-    formula: Option<String>,
-}
+pub(crate) type QuantityFacts = (String, String, String, Option<String>);
 
-impl QuantityFacts {
-    /// All that the field has, by name.
-    pub(crate) fn all(field: &Field<'_>) -> Vec<Self> {
-        let of = |name: String| {
-            let quantity = Quantity::parse(&name, field).ok()?;
-            let named = field.quantities.iter().find(|named| named.name == name);
-            Some(Self {
-                symbol: quantity.symbol(&field.data.components),
-                unit: quantity.unit(field).to_owned(),
-                formula: named.map(|named| named.text.clone()),
-                name,
-            })
-        };
-        available(field).into_iter().filter_map(of).collect()
-    }
+/// All quantities that a field has, by name.
+pub(crate) fn quantities(field: &Field<'_>) -> Vec<QuantityFacts> {
+    let of = |name: String| {
+        let quantity = Quantity::parse(&name, field).ok()?;
+        let named = field.quantities.iter().find(|named| named.name == name);
+        let (symbol, unit) = (quantity.symbol(&field.data.components), quantity.unit(field));
+        Some((name, symbol, unit.to_owned(), named.map(|named| named.text.clone())))
+    };
+    available(field).into_iter().filter_map(of).collect()
 }

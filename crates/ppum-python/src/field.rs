@@ -3,9 +3,10 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use numpy::{PyArray1, PyArray2, PyArrayMethods as _, PyReadonlyArray1, PyReadwriteArray1};
+use numpy::{PyArray2, PyReadonlyArray1, PyReadwriteArray1};
 use ppum::crack::Side;
 use ppum::dataset::Dataset as Data;
+use ppum::field::Field;
 use ppum::quantity::{Quantity, QuantityGradient};
 use ppum::sample::SampledQuantity;
 use ppum::vec2::Vec2;
@@ -17,9 +18,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
 use crate::dataset::PyDataset;
-use crate::errors::{no_field, no_profile, quantity, subject};
-use crate::facts::QuantityFacts;
-use crate::owned::PyOwnedField;
+use crate::errors::{no_field, no_profile, quantity};
+use crate::facts::{QuantityFacts, quantities};
+use crate::owned::FieldInDataset;
+use crate::picture::rows;
 use crate::values::PointArrays;
 use crate::watch::{guard, long};
 
@@ -32,13 +34,29 @@ const KEPT: usize = 256;
 /// A field of one step, ready to be evaluated.
 #[pyclass(name = "Field", frozen, module = "ppum._core")]
 pub(crate) struct PyField {
-    pub(crate) owned: PyOwnedField,
+    pub(crate) owned: FieldInDataset,
+    /// The dataset, and the changes of its field.
+    pub(crate) series: Py<PyDataset>,
+    pub(crate) changes: Subject,
     /// The subject that titles name: its step, where the dataset has several, and the part.
-    pub(crate) told: Subject,
+    pub(crate) titled: Subject,
     quantities: Mutex<HashMap<String, Quantity>>,
 }
 
 impl PyField {
+    pub(crate) fn dataset(&self) -> &Data {
+        self.owned.borrow_owner()
+    }
+
+    pub(crate) fn field(&self) -> &Field<'_> {
+        &self.owned.borrow_dependent().field
+    }
+
+    /// The dataset, and the number of the step.
+    pub(crate) fn place(&self) -> (&Data, usize) {
+        (self.dataset(), self.owned.borrow_dependent().number)
+    }
+
     /// The quantity of a name, with `_` or `-`, or of a formula.
     pub(crate) fn quantity(&self, name: &str) -> PyResult<Quantity> {
         let mut known = self.quantities.lock().unwrap_or_else(PoisonError::into_inner);
@@ -54,16 +72,16 @@ impl PyField {
     }
 
     fn parsed(&self, name: &str) -> PyResult<Quantity> {
-        let field = self.owned.field();
+        let field = self.field();
         let found = Quantity::parse(&self.spelled(name), field);
-        let found = found.map_err(|error| quantity(&error))?;
-        found.check(field).map_err(|error| quantity(&error))?;
+        let found = found.map_err(quantity)?;
+        found.check(field).map_err(quantity)?;
         Ok(found)
     }
 
     /// The name of a quantity with `-` where Python has `_`; other texts as they are.
     pub(crate) fn spelled(&self, name: &str) -> String {
-        let field = self.owned.field();
+        let field = self.field();
         let is_known =
             |name: &str| Quantity::from_name(name, field.equation, &field.data.components).is_ok();
         let dashed = name.trim().replace('_', "-");
@@ -75,9 +93,9 @@ impl PyField {
     }
 
     fn slopes(&self, quantities: &[Quantity]) -> PyResult<Vec<QuantityGradient>> {
-        let slope = |of| QuantityGradient::new(of, self.owned.field());
+        let slope = |of| QuantityGradient::new(of, self.field());
         let all = || quantities.iter().map(slope).collect::<Result<_, _>>();
-        guard(|| all().map_err(|error| quantity(&error)))
+        guard(|| all().map_err(quantity))
     }
 
     fn fill(
@@ -87,7 +105,7 @@ impl PyField {
         wanted: SampledQuantity<'_>,
         rows: &mut [f64],
     ) -> PyResult<()> {
-        let seen = self.owned.seen();
+        let seen = self.owned.borrow_dependent();
         if points.x.len() <= FEW {
             return guard(|| {
                 rows.copy_from_slice(&points.few(seen, wanted));
@@ -103,69 +121,59 @@ fn side(is_below: bool) -> Side {
     if is_below { Side::Below } else { Side::Above }
 }
 
-/// The numbers of an array that lie one after the other; Python sees to that.
-fn slice<'a>(array: &'a PyReadonlyArray1<'_, f64>) -> PyResult<&'a [f64]> {
-    Ok(array.as_slice()?)
-}
-
 #[pymethods]
 impl PyField {
     /// The first field of a step, of a dataset that is changed as `subject` says.
     #[new]
-    fn new(py: Python<'_>, dataset: &PyDataset, step: usize, subject: &str) -> PyResult<Self> {
-        let subject = written::<Subject>(subject)?;
-        let owned = long(py, None, None, |_| changed(dataset.at(step)?, step, &subject))??;
+    fn new(
+        py: Python<'_>,
+        series: Py<PyDataset>,
+        step: usize,
+        subject: &Bound<'_, PyAny>,
+    ) -> PyResult<Self> {
+        let (dataset, changes) = (series.get(), read_data::<Subject>(subject)?);
+        let owned = long(py, None, None, |_| changed(dataset.at(step)?, step, &changes))??;
         // what is changed is a copy of one step
-        let step = subject.is_whole().then_some(step);
-        let told = Subject { step, part: subject.part, ..Subject::default() };
-        Ok(Self { owned, told, quantities: Mutex::default() })
+        let step = changes.is_whole().then_some(step);
+        let titled = Subject { step, part: changes.part.clone(), ..Subject::default() };
+        Ok(Self { owned, series, changes, titled, quantities: Mutex::default() })
     }
 
     /// A quantity at one point.
     fn value(&self, name: &str, x: f64, y: f64, is_below: bool) -> PyResult<f64> {
         let quantity = self.quantity(name)?;
         let points = PointArrays { x: &[x], y: &[y], anchor: None, side: side(is_below) };
-        guard(|| Ok(points.few(self.owned.seen(), SampledQuantity::Values(&[quantity]))[0]))
+        guard(|| {
+            Ok(points.few(self.owned.borrow_dependent(), SampledQuantity::Values(&[quantity]))[0])
+        })
     }
 
-    /// Quantities at points, or with their gradients, in rows; `out` takes them if it is given.
-    #[pyo3(signature = (names, x, y, is_below, anchor, gradient, out=None))]
+    /// Writes quantities at points, or with their gradients, in rows to `out`.
     #[expect(clippy::too_many_arguments, reason = "Python's layer names them")]
-    fn evaluate<'py>(
+    fn evaluate(
         &self,
-        py: Python<'py>,
+        py: Python<'_>,
         names: Vec<String>,
-        x: PyReadonlyArray1<'py, f64>,
-        y: PyReadonlyArray1<'py, f64>,
+        x: PyReadonlyArray1<'_, f64>,
+        y: PyReadonlyArray1<'_, f64>,
         is_below: bool,
         anchor: Option<(f64, f64)>,
         gradient: bool,
-        out: Option<PyReadwriteArray1<'py, f64>>,
-    ) -> PyResult<Option<Bound<'py, PyArray1<f64>>>> {
-        let (x, y) = (slice(&x)?, slice(&y)?);
-        if x.len() != y.len() {
-            return Err(PyValueError::new_err("x and y have different lengths"));
-        }
+        mut out: PyReadwriteArray1<'_, f64>,
+    ) -> PyResult<()> {
+        let (x, y, rows) = (x.as_slice()?, y.as_slice()?, out.as_slice_mut()?);
         let anchor = anchor.map(|(x, y)| Vec2 { x, y });
         let points = PointArrays { x, y, anchor, side: side(is_below) };
         let quantities = self.quantities(&names)?;
         let slopes = if gradient { self.slopes(&quantities)? } else { Vec::new() };
-        let wanted = if gradient {
-            SampledQuantity::Slopes(&slopes)
-        } else {
-            SampledQuantity::Values(&quantities)
+        let wanted = match gradient {
+            true => SampledQuantity::Slopes(&slopes),
+            false => SampledQuantity::Values(&quantities),
         };
-        if let Some(mut out) = out {
-            let rows = out.as_slice_mut()?;
-            if rows.len() != x.len() * wanted.width() {
-                return Err(PyValueError::new_err("`out` has not the length of the result"));
-            }
-            self.fill(py, points, wanted, rows)?;
-            return Ok(None);
+        if x.len() != y.len() || rows.len() != x.len() * wanted.width() {
+            return Err(PyValueError::new_err("x, y and `out` do not have lengths that fit"));
         }
-        let mut rows = vec![0.0; x.len() * wanted.width()];
-        self.fill(py, points, wanted, &mut rows)?;
-        Ok(Some(PyArray1::from_vec(py, rows)))
+        self.fill(py, points, wanted, rows)
     }
 
     /// Raises if a text is no quantity of the field.
@@ -175,28 +183,28 @@ impl PyField {
 
     /// All quantities that have a name.
     fn known(&self) -> PyResult<Vec<QuantityFacts>> {
-        guard(|| Ok(QuantityFacts::all(self.owned.field())))
+        guard(|| Ok(quantities(self.field())))
     }
 
     /// Symbol and unit of a quantity.
     fn words(&self, name: &str) -> PyResult<(String, String)> {
-        let (quantity, field) = (self.quantity(name)?, self.owned.field());
+        let (quantity, field) = (self.quantity(name)?, self.field());
         let symbol = quantity.symbol(&field.data.components);
         Ok((symbol, quantity.unit(field).to_owned()))
     }
 
     /// The quantity that is shown where nothing is said.
     fn default_quantity(&self) -> String {
-        default_quantity(self.owned.field()).to_owned()
+        default_quantity(self.field()).to_owned()
     }
 
     /// The warning about images in single precision, if they are wrong.
     fn single_precision_warning(&self) -> Option<String> {
-        single_precision_warning(self.owned.field().step)
+        single_precision_warning(self.field().step)
     }
 
     fn components(&self) -> Vec<String> {
-        self.owned.field().data.components.clone()
+        self.field().data.components.clone()
     }
 
     /// Quantities along a curve: names and units of the columns, and a row for each place.
@@ -204,27 +212,29 @@ impl PyField {
     fn table<'py>(
         &self,
         py: Python<'py>,
-        along: &str,
+        along: &Bound<'_, PyAny>,
         count: usize,
         names: Vec<String>,
     ) -> PyResult<(Vec<(String, String)>, Bound<'py, PyArray2<f64>>)> {
-        let along = written::<ProfileCurve>(along)?;
+        let along = read_data::<ProfileCurve>(along)?;
         let named: Vec<_> = names.iter().cloned().zip(self.quantities(&names)?).collect();
-        let field = self.owned.field();
+        let field = self.field();
         let profile = long(py, None, None, |watcher| along.table(field, &named, count, watcher))?
             .map_err(no_profile)?;
         let columns = profile.table.columns();
         let heads = columns.iter().map(|c| (c.name.clone(), c.unit.clone())).collect();
-        let rows: Vec<f64> = profile.table.rows().flatten().copied().collect();
-        let shape = [rows.len() / columns.len().max(1), columns.len()];
-        Ok((heads, PyArray1::from_vec(py, rows).reshape(shape)?))
+        let numbers = profile.table.rows().flatten().copied().collect();
+        Ok((heads, rows(py, numbers, columns.len() as u32)?))
     }
 }
 
-/// Parses JSON that the Python layer has written. Errors do not tell the place in that text, which
-/// nobody has seen.
-pub(crate) fn written<V: serde::de::DeserializeOwned>(text: &str) -> PyResult<V> {
-    serde_json::from_str(text).map_err(|error| {
+/// Reads data that Python's layer gives as dictionaries, lists, texts and numbers.
+///
+/// # Errors
+/// Data that the library does not take, without the place in a text that nobody has seen.
+pub(crate) fn read_data<T: serde::de::DeserializeOwned>(data: &Bound<'_, PyAny>) -> PyResult<T> {
+    let json = data.py().import("json")?.call_method1("dumps", (data,))?;
+    serde_json::from_str(&json.extract::<String>()?).map_err(|error| {
         let message = error.to_string();
         let place = format!(" at line {} column {}", error.line(), error.column());
         PyValueError::new_err(message.strip_suffix(&place).unwrap_or(&message).to_owned())
@@ -232,9 +242,9 @@ pub(crate) fn written<V: serde::de::DeserializeOwned>(text: &str) -> PyResult<V>
 }
 
 /// The field of a step, of a copy of it if something is changed.
-fn changed(data: Arc<Data>, step: usize, what: &Subject) -> PyResult<PyOwnedField> {
+fn changed(data: Arc<Data>, step: usize, what: &Subject) -> PyResult<FieldInDataset> {
     if what.is_whole() {
-        return PyOwnedField::new(data, step).map_err(no_field);
+        return FieldInDataset::compiled(data, step).map_err(no_field);
     }
     let mut copy = Data::new(data.domain.clone(), data.equation.clone());
     copy.title = of_step(&data, step);
@@ -242,6 +252,6 @@ fn changed(data: Arc<Data>, step: usize, what: &Subject) -> PyResult<PyOwnedFiel
     copy.quantities.clone_from(&data.quantities);
     copy.tables.clone_from(&data.tables);
     copy.steps.push(data.steps[step].clone());
-    what.apply(&mut copy).map_err(|error| subject(&error))?;
-    PyOwnedField::new(Arc::new(copy), 0).map_err(no_field)
+    what.apply(&mut copy).map_err(quantity)?;
+    FieldInDataset::compiled(Arc::new(copy), 0).map_err(no_field)
 }

@@ -3,37 +3,39 @@
 use ppum::crack::{TipId, tips};
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::Watcher;
-use ppum_fracture::diagnostics::{RecomputeError, recompute};
+use ppum_fracture::diagnostics::recompute;
 use ppum_fracture::intensity::{CircleError, TipResult, on_circle};
+use ppum_fracture::solve::SolveError as Unsolved;
 use ppum_problem::Problem;
 use ppum_scene::facts::Tip;
-use pyo3::exceptions::PyIndexError;
+use ppum_scene::place::numbered_tip;
 use pyo3::prelude::*;
 
-use crate::errors::{SolveError, cancelled, no_field};
+use crate::errors::{SolveError, cancelled, no_field, picture, unsolved};
+use crate::facts::to_python;
 use crate::field::PyField;
 use crate::watch::long;
 
-/// The tips as JSON with the names of their ends, and the messages of the diagnostics.
-type TipResults = (String, Vec<&'static str>, Vec<String>);
+/// The tips with the names of their ends, and the messages of the diagnostics.
+type TipResults<'py> = (Bound<'py, PyAny>, Vec<&'static str>, Vec<String>);
 
 /// The factors of one tip by the discs inside a circle of a radius, or those of all tips by the
 /// discs that the solver chooses.
 #[pyfunction]
-pub(crate) fn intensities(
+pub(crate) fn intensities<'py>(
     this: &PyField,
-    py: Python<'_>,
+    py: Python<'py>,
     on: Option<(usize, f64)>,
-    progress: Option<Bound<'_, PyAny>>,
-) -> PyResult<TipResults> {
-    let (dataset, step) = this.owned.place();
+    progress: Option<Bound<'py, PyAny>>,
+) -> PyResult<TipResults<'py>> {
+    let (dataset, step) = this.place();
     let problem = loads(dataset, step)?;
     let problem = problem.as_ref();
     let mut ids: Vec<TipId> = tips(&dataset.steps[step].cracks).collect();
     let progress = progress.as_ref();
     let (found, warnings) = match on {
         Some((tip, radius)) => {
-            let tip = *ids.get(tip).ok_or_else(|| no_tip(tip, ids.len()))?;
+            let tip = numbered_tip(this.field(), tip).map_err(|error| picture(error.into()))?;
             let found =
                 |watcher: &dyn Watcher| on_circle(dataset, step, tip, radius, problem, watcher);
             let factors = long(py, None, progress, found)?.map_err(unfound)?;
@@ -43,8 +45,7 @@ pub(crate) fn intensities(
         None => all(py, dataset, step, problem, progress)?,
     };
     let ends = ids.iter().map(|tip| tip.end.name()).collect();
-    let json = serde_json::to_string(&found).expect("facts have names as keys");
-    Ok((json, ends, warnings))
+    Ok((to_python(py, &found)?, ends, warnings))
 }
 
 fn all(
@@ -56,9 +57,8 @@ fn all(
 ) -> PyResult<(Vec<Tip>, Vec<String>)> {
     let found = |watcher: &dyn Watcher| recompute(dataset, step, problem, watcher);
     let (outcomes, warnings) = long(py, None, progress, found)?.map_err(|error| match error {
-        RecomputeError::Cancelled(error) => cancelled(error),
-        RecomputeError::Field(error) => no_field(error),
-        error => SolveError::new_err(error.to_string()),
+        Unsolved::Field(error) => no_field(error),
+        error => unsolved(error),
     })?;
     let tip = |outcome: &TipResult| {
         let unknown = || TipIntensity::new(outcome.tip, f64::NAN, f64::NAN);
@@ -84,10 +84,6 @@ fn loads(dataset: &Dataset, step: usize) -> PyResult<Option<Problem>> {
              found"
         ))
     })
-}
-
-fn no_tip(tip: usize, count: usize) -> PyErr {
-    PyIndexError::new_err(format!("there is no tip {tip}; the step has {count}, numbered from 0"))
 }
 
 fn unfound(error: CircleError) -> PyErr {

@@ -16,12 +16,12 @@ mod exporting;
 mod facts;
 mod field;
 mod intensities;
-mod material;
 mod moving;
 mod owned;
 mod picture;
 mod plot;
 mod pool;
+mod probe;
 mod problem;
 mod values;
 mod watch;
@@ -30,32 +30,23 @@ mod watch;
 #[pyo3::pymodule]
 mod _core {
     #[pymodule_export]
-    use crate::building::{build, scattered};
-    #[pymodule_export]
-    use crate::compare::{compare, resample};
-    #[pymodule_export]
-    use crate::dataset::{PyDataset, from_bytes, read};
-    #[pymodule_export]
-    use crate::exporting::{Triangles, page, triangles, vtkhdf};
-    #[pymodule_export]
-    use crate::field::PyField;
-    #[pymodule_export]
-    use crate::intensities::intensities;
-    #[pymodule_export]
-    use crate::material::material;
-    #[pymodule_export]
-    use crate::moving::animation;
-    #[pymodule_export]
-    use crate::picture::{
-        check_request, colormap, colormaps, default_request, extrema_in, figure, frame,
-        option_texts, render, rgba,
+    use crate::{
+        building::{build, scattered},
+        compare::{compare, resample},
+        dataset::{PyDataset, from_bytes, read},
+        exporting::{Triangles, check_target, page, replace, triangles, vtkhdf},
+        field::PyField,
+        intensities::intensities,
+        moving::animation,
+        picture::{
+            check_request, colormap, colormaps, default_request, extrema_in, figure, frame,
+            option_texts, render, rgba,
+        },
+        plot::{Curves, profiles, reports},
+        probe::probe,
+        problem::{check, solve},
+        watch::panic_for_tests,
     };
-    #[pymodule_export]
-    use crate::plot::{Curves, profiles, told};
-    #[pymodule_export]
-    use crate::problem::{check, solve};
-    #[pymodule_export]
-    use crate::watch::panic_for_tests;
 
     /// The version of the package, that of all crates.
     #[pymodule_export]

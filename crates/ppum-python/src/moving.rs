@@ -7,14 +7,12 @@ use ppum_scene::moving::{
     AnimationFormat, FrameSource, MovingError, SeriesAnimation, Work, with_subject,
 };
 use ppum_scene::request::Request;
-use ppum_scene::scene::Subject;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::dataset::PyDataset;
-use crate::errors::{RenderError, no_field, picture, subject};
-use crate::field::{PyField, written};
+use crate::errors::{no_field, picture, quantity, render_error};
+use crate::field::PyField;
 use crate::picture::made;
 use crate::watch::long;
 
@@ -26,26 +24,16 @@ struct SelectedSteps<'a> {
 }
 
 /// The reason why there is no animation: a step that cannot be read, or drawn.
-enum StepError {
-    Read(PyErr),
-    Drawn(MovingError),
-}
+struct StepError(PyErr);
 
 impl<E: Into<MovingError>> From<E> for StepError {
     fn from(error: E) -> Self {
-        Self::Drawn(error.into())
-    }
-}
-
-impl From<StepError> for PyErr {
-    fn from(error: StepError) -> Self {
-        match error {
-            StepError::Read(error) => error,
-            StepError::Drawn(MovingError::Field(error)) => no_field(error),
-            StepError::Drawn(MovingError::Subject(error)) => subject(&error),
-            StepError::Drawn(MovingError::Shot(error)) => picture(*error),
-            StepError::Drawn(error) => RenderError::new_err(error.to_string()),
-        }
+        Self(match error.into() {
+            MovingError::Field(error) => no_field(error),
+            MovingError::Subject(error) => quantity(error),
+            MovingError::Shot(error) => picture(*error),
+            error => render_error(error),
+        })
     }
 }
 
@@ -58,41 +46,31 @@ impl FrameSource for SelectedSteps<'_> {
 
     fn with(&self, number: usize, work: &mut Work<'_, StepError>) -> Result<(), StepError> {
         let step = self.steps[number];
-        let data = self.dataset.at(step).map_err(StepError::Read)?;
+        let data = self.dataset.at(step).map_err(StepError)?;
         with_subject(&data, &self.request.at_step(step), work)
     }
 }
 
 /// The bytes of an animation of some steps, `gif` or `apng`, each shown for some milliseconds.
-/// `this` is the field of one of them, changed as the others are by `changes`.
+/// `this` is the field of one of them, changed as the others are.
 #[pyfunction]
-#[expect(clippy::too_many_arguments, reason = "Python's layer names them")]
 pub(crate) fn animation<'py>(
     this: &PyField,
     py: Python<'py>,
-    dataset: &PyDataset,
-    changes: &str,
-    request: &str,
+    request: &Bound<'_, PyAny>,
     steps: Vec<usize>,
     milliseconds: u16,
     form: &str,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<(Bound<'py, PyBytes>, Vec<String>)> {
-    let form = match form {
-        "gif" => AnimationFormat::Gif,
-        "apng" => AnimationFormat::Apng,
-        other => {
-            let known = "moving pictures are gif or apng";
-            return Err(PyValueError::new_err(format!("`{other}` is no form: {known}")));
-        }
-    };
+    let form = if form == "apng" { AnimationFormat::Apng } else { AnimationFormat::Gif };
     let mut request = this.request(request)?;
-    request.panels.check_steps().map_err(|error| RenderError::new_err(error.to_string()))?;
-    request.scene.subject = written::<Subject>(changes)?;
-    let title = this.owned.dataset().title.clone();
-    #[expect(clippy::result_large_err, reason = "one for a whole film")]
+    request.panels.check_steps().map_err(render_error)?;
+    request.scene.subject = this.changes.clone();
+    let title = this.dataset().title.clone();
     let drawn = |engine: &Engine<'_>| -> Result<Vec<u8>, StepError> {
-        let mut frames = SelectedSteps { dataset, request: request.clone(), steps };
+        let mut frames =
+            SelectedSteps { dataset: this.series.get(), request: request.clone(), steps };
         frames.request = frames.settled(&request)?;
         let ImageSettings { placing, design } = ImageSettings::new(&frames, &request)?;
         let film = SeriesAnimation::new(&frames, &placing, design.as_ref(), engine)?;
@@ -102,7 +80,7 @@ pub(crate) fn animation<'py>(
         Ok(bytes)
     };
     let all = |watcher: &dyn Watcher| {
-        made(&request, watcher, |engine| drawn(engine).map_err(PyErr::from))
+        made(&request, watcher, |engine| drawn(engine).map_err(|StepError(error)| error))
     };
     let (bytes, told) = long(py, None, progress.as_ref(), all)??;
     Ok((PyBytes::new(py, &bytes), told))

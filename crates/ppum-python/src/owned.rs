@@ -11,51 +11,26 @@ use self_cell::self_cell;
 pub(crate) struct AnchoredField<'d> {
     pub(crate) field: Field<'d>,
     pub(crate) seats: AnchorMap<'d>,
-}
-
-impl<'d> AnchoredField<'d> {
-    fn new(dataset: &'d Dataset, step: usize) -> Result<Self, FieldError> {
-        let field = Field::new(dataset, step)?;
-        Ok(Self { seats: AnchorMap::new(&field), field })
-    }
+    /// The number of its step.
+    pub(crate) number: usize,
 }
 
 self_cell!(
-    struct FieldInDataset {
+    /// The first field of a step, with its dataset.
+    pub(crate) struct FieldInDataset {
         owner: Arc<Dataset>,
         #[covariant]
         dependent: AnchoredField,
     }
 );
 
-/// The first field of a step, with its dataset.
-pub(crate) struct PyOwnedField {
-    both: FieldInDataset,
-    step: usize,
-}
-
-impl PyOwnedField {
+impl FieldInDataset {
     /// # Errors
     /// No such step; functions that cannot be compiled.
-    pub(crate) fn new(dataset: Arc<Dataset>, step: usize) -> Result<Self, FieldError> {
-        let both = FieldInDataset::try_new(dataset, |dataset| AnchoredField::new(dataset, step))?;
-        Ok(Self { both, step })
-    }
-
-    pub(crate) fn dataset(&self) -> &Dataset {
-        self.both.borrow_owner()
-    }
-
-    /// The dataset, and the number of the step.
-    pub(crate) fn place(&self) -> (&Dataset, usize) {
-        (self.dataset(), self.step)
-    }
-
-    pub(crate) fn seen(&self) -> &AnchoredField<'_> {
-        self.both.borrow_dependent()
-    }
-
-    pub(crate) fn field(&self) -> &Field<'_> {
-        &self.seen().field
+    pub(crate) fn compiled(dataset: Arc<Dataset>, number: usize) -> Result<Self, FieldError> {
+        Self::try_new(dataset, |dataset| {
+            let field = Field::new(dataset, number)?;
+            Ok(AnchoredField { seats: AnchorMap::new(&field), field, number })
+        })
     }
 }

@@ -1,9 +1,9 @@
 //! Images: values at pixels, colours, figures, extreme values.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
-use numpy::{IntoPyArray as _, PyArray1, PyArray3, PyArrayMethods as _};
-use ppum::crack::Side;
+use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods as _};
 use ppum::progress::Watcher;
 use ppum::vec2::Vec2;
 use ppum_figure::canvas::Canvas;
@@ -13,7 +13,7 @@ use ppum_figure::ticks;
 use ppum_render::colormap::{Colormap, NAMES};
 use ppum_render::extrema::{BodyRegion, Extremum, ExtremumSite, extrema};
 use ppum_render::png::{TextChunk, encode_quickly};
-use ppum_render::raster::{Raster, RasterValue};
+use ppum_render::scatter;
 use ppum_render::view::View;
 use ppum_scene::drawing::{DisplayedQuantity, PixelValues, RasterValues};
 use ppum_scene::engine::Engine;
@@ -24,16 +24,13 @@ use ppum_scene::panels::{PanelImages, datasets, draw};
 use ppum_scene::request::Request;
 use ppum_scene::scene::{Subject, shown};
 use ppum_scene::shot::{FieldSource, RenderedImage, shot};
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::errors::{RenderError, no_field, not_shown, picture, rendering, subject};
-use crate::field::{PyField, written};
+use crate::errors::{RenderError, no_field, picture, quantity, render_error, rendering};
+use crate::facts::to_python;
+use crate::field::{PyField, read_data};
 use crate::watch::{guard, long};
-
-/// Centre and width of a view.
-pub(crate) type CenterAndWidth = ((f64, f64), f64);
 
 /// Names of the built-in colour maps.
 #[pyfunction]
@@ -44,7 +41,7 @@ pub(crate) fn colormaps() -> Vec<&'static str> {
 /// Red, green and blue of each of the colours of a built-in map, the lowest first.
 #[pyfunction]
 pub(crate) fn colormap(name: &str) -> PyResult<Vec<(u8, u8, u8)>> {
-    let map = Colormap::named(name).map_err(|error| RenderError::new_err(error.to_string()))?;
+    let map = Colormap::named(name).map_err(render_error)?;
     Ok(map.palette(BAR).into_iter().map(|[r, g, b, _]| (r, g, b)).collect())
 }
 
@@ -56,94 +53,80 @@ pub(crate) fn option_texts() -> BTreeMap<&'static str, &'static str> {
 
 /// A request that asks for nothing, with all that could be asked for.
 #[pyfunction]
-pub(crate) fn default_request() -> PyResult<String> {
-    let request = serde_json::to_string(&Request::default());
-    request.map_err(|error| PyValueError::new_err(error.to_string()))
+pub(crate) fn default_request(py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
+    to_python(py, &Request::default())
 }
 
 /// Raises what `figure` and `rgba` would raise of a request before they draw.
 #[pyfunction]
-pub(crate) fn check_request(this: &PyField, request: &str) -> PyResult<()> {
+pub(crate) fn check_request(this: &PyField, request: &Bound<'_, PyAny>) -> PyResult<()> {
     let Request { scene, panels, .. } = this.request(request)?;
     for name in scene.quantity.iter().chain(&panels.quantities) {
         guard(|| this.shown(name).map(drop))?;
     }
-    panels.check(&scene).map_err(|error| RenderError::new_err(error.to_string()))?;
-    let map = scene.colors.map(None);
-    map.map(drop).map_err(|error| RenderError::new_err(error.to_string()))
+    panels.check(&scene).map_err(render_error)?;
+    scene.colors.map(None).map(drop).map_err(render_error)
 }
 
-pub(crate) fn view(((x, y), width): CenterAndWidth, size: [u32; 2]) -> PyResult<View> {
-    View::new(Vec2 { x, y }, width, size).map_err(|error| RenderError::new_err(error.to_string()))
+/// A `ppum.View`.
+#[derive(FromPyObject)]
+pub(crate) struct PyView {
+    pub(crate) center: (f64, f64),
+    pub(crate) width: f64,
+    pub(crate) size: [u32; 2],
 }
 
-/// One extreme value.
-#[derive(IntoPyObject)]
-pub(crate) struct ExtremumFacts {
-    value: f64,
-    xy: (f64, f64),
-    offset: (f64, f64),
-    on: &'static str,
-    side: Option<&'static str>,
-}
-
-impl ExtremumFacts {
-    fn new(found: Extremum, center: Vec2) -> Self {
-        let (at, offset) = (center + found.offset, found.offset);
-        let side = match found.on {
-            ExtremumSite::Face(_, Side::Above) => Some("above"),
-            ExtremumSite::Face(_, Side::Below) => Some("below"),
-            _ => None,
-        };
-        let on = found.on.name();
-        Self { value: found.value, xy: (at.x, at.y), offset: (offset.x, offset.y), on, side }
+impl PyView {
+    /// The view that can be drawn.
+    ///
+    /// # Errors
+    /// A view without pixels, or one that is too small.
+    pub(crate) fn checked(&self) -> PyResult<View> {
+        let (x, y) = self.center;
+        View::new(Vec2 { x, y }, self.width, self.size).map_err(render_error)
     }
+}
+
+/// An extreme value, its place, that as an offset from the middle of the view, what it lies on, and
+/// the side of a face.
+type ExtremumFacts = (f64, (f64, f64), (f64, f64), &'static str, Option<&'static str>);
+
+fn extremum(found: &Extremum, center: Vec2) -> ExtremumFacts {
+    let side = match found.on {
+        ExtremumSite::Face(_, side) => Some(side.name()),
+        _ => None,
+    };
+    let [at, offset] = [center + found.offset, found.offset].map(|p| (p.x, p.y));
+    (found.value, at, offset, found.on.name(), side)
 }
 
 impl PyField {
     pub(crate) fn shown(&self, name: &str) -> PyResult<DisplayedQuantity> {
-        shown(&self.spelled(name), self.owned.field()).map_err(|error| not_shown(&error))
+        shown(&self.spelled(name), self.field()).map_err(quantity)
+    }
+
+    /// Returns the displayed quantity of a name, found without Python's lock.
+    pub(crate) fn displayed(&self, py: Python<'_>, name: &str) -> PyResult<DisplayedQuantity> {
+        long(py, None, None, |_| self.shown(name))?
     }
 
     /// A request of Python's layer, its quantity spelled as the libraries do.
-    pub(crate) fn request(&self, text: &str) -> PyResult<Request> {
-        let mut request = written::<Request>(text)?;
+    pub(crate) fn request(&self, data: &Bound<'_, PyAny>) -> PyResult<Request> {
+        let mut request = read_data::<Request>(data)?;
         let Request { scene, panels, .. } = &mut request;
         let names = scene.quantity.iter_mut().chain(&mut panels.quantities);
         names.for_each(|name| *name = self.spelled(name));
-        scene.subject = self.told.clone();
+        scene.subject = self.titled.clone();
         Ok(request)
     }
 
     pub(crate) fn source(&self) -> FieldSource<'_> {
-        FieldSource::of(self.owned.dataset(), self.owned.field())
-    }
-
-    fn raster<T: RasterValue>(
-        &self,
-        py: Python<'_>,
-        what: &DisplayedQuantity,
-        view: &View,
-        progress: Option<&Bound<'_, PyAny>>,
-    ) -> PyResult<RasterValues>
-    where
-        RasterValues: From<Raster<T>>,
-    {
-        let field = self.owned.field();
-        match what {
-            DisplayedQuantity::Cells(_, values) => {
-                long(py, None, progress, |_| PixelValues::of_cells(values, field, view).values)
-            }
-            DisplayedQuantity::Quantity(quantity) => {
-                let drawn = |watcher: &dyn Watcher| T::render(field, view, quantity, watcher);
-                Ok(long(py, None, progress, drawn)?.map_err(rendering)?.into())
-            }
-        }
+        FieldSource::of(self.dataset(), self.field())
     }
 
     /// The page of a figure, and the texts of its file.
     fn page(&self, request: &Request, engine: &Engine<'_>) -> PyResult<(Canvas, Vec<TextChunk>)> {
-        let title = &self.owned.dataset().title;
+        let title = &self.dataset().title;
         if request.panels.are_given() {
             let drawn = self.panels(request, engine)?;
             let texts = [drawn.texts(title), drawn.shots[0].notes()].concat();
@@ -159,9 +142,9 @@ impl PyField {
         if request.panels.parts.is_empty() {
             return draw(&[self.source()], request, engine).map_err(picture);
         }
-        let (dataset, step) = self.owned.place();
+        let (dataset, step) = self.place();
         let of = Subject { step: Some(step), ..Subject::default() };
-        let datasets = datasets(dataset, &of, &request.panels.parts).map_err(|e| subject(&e))?;
+        let datasets = datasets(dataset, &of, &request.panels.parts).map_err(quantity)?;
         let fields = datasets.iter().map(|dataset| ppum::field::Field::new(dataset, step));
         let fields = fields.collect::<Result<Vec<_>, _>>().map_err(no_field)?;
         let sources = datasets.iter().zip(&fields).map(|(d, f)| FieldSource::of(d, f));
@@ -187,21 +170,39 @@ pub(crate) fn render<'py>(
     this: &PyField,
     py: Python<'py>,
     name: &str,
-    spot: CenterAndWidth,
-    size: [u32; 2],
+    view: PyView,
     single: bool,
     progress: Option<Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    let (what, view) = (long(py, None, None, |_| this.shown(name))??, view(spot, size)?);
-    let values = match single {
-        true => this.raster::<f32>(py, &what, &view, progress.as_ref())?,
-        false => this.raster::<f64>(py, &what, &view, progress.as_ref())?,
+    let (what, view) = (this.displayed(py, name)?, view.checked()?);
+    let field = this.field();
+    let drawn = |watcher: &dyn Watcher| {
+        Ok(match (&what, single) {
+            (DisplayedQuantity::Cells(_, values), _) => {
+                PixelValues::of_cells(values, field, &view).values
+            }
+            (DisplayedQuantity::Quantity(quantity), true) => {
+                scatter::render::<f32>(field, &view, quantity, watcher)?.into()
+            }
+            (DisplayedQuantity::Quantity(quantity), false) => {
+                scatter::render::<f64>(field, &view, quantity, watcher)?.into()
+            }
+        })
     };
-    let shape = [size[1] as usize, size[0] as usize];
-    Ok(match values {
-        RasterValues::Double(raster) => raster.values.into_pyarray(py).reshape(shape)?.into_any(),
-        RasterValues::Single(raster) => raster.values.into_pyarray(py).reshape(shape)?.into_any(),
+    Ok(match long(py, None, progress.as_ref(), drawn)?.map_err(rendering)? {
+        RasterValues::Double(raster) => rows(py, raster.values, view.pixels[0])?.into_any(),
+        RasterValues::Single(raster) => rows(py, raster.values, view.pixels[0])?.into_any(),
     })
+}
+
+/// Numbers in rows of so many.
+pub(crate) fn rows<T: numpy::Element>(
+    py: Python<'_>,
+    numbers: Vec<T>,
+    width: u32,
+) -> PyResult<Bound<'_, PyArray2<T>>> {
+    let shape = [numbers.len() / width as usize, width as usize];
+    PyArray1::from_vec(py, numbers).reshape(shape)
 }
 
 /// The colours of a request, with what lies over them: rows from the top; red, green, blue, alpha;
@@ -210,18 +211,18 @@ pub(crate) fn render<'py>(
 pub(crate) fn rgba<'py>(
     this: &PyField,
     py: Python<'py>,
-    request: &str,
-    spot: CenterAndWidth,
-    size: [u32; 2],
+    request: &Bound<'_, PyAny>,
+    view: PyView,
 ) -> PyResult<(Bound<'py, PyArray3<u8>>, Vec<String>)> {
-    let (request, view) = (this.request(request)?, view(spot, size)?);
+    let (request, view) = (this.request(request)?, view.checked()?);
     let drawn = |engine: &Engine<'_>| {
         let shot = shot(this.source(), &request, &view, None, engine).map_err(picture)?;
         let page = shot.page(Labels::default(), None, engine);
         Ok(page.map_err(|error| picture(error.into()))?.image())
     };
     let (image, told) = long(py, None, None, |watcher| made(&request, watcher, drawn))??;
-    let shape = [size[1] as usize, size[0] as usize, 4];
+    let [columns, rows] = view.pixels.map(|n| n as usize);
+    let shape = [rows, columns, 4];
     Ok((PyArray1::from_vec(py, image.rgba).reshape(shape)?, told))
 }
 
@@ -250,7 +251,7 @@ const LABELS: usize = 7;
 
 impl BarFacts {
     fn new(shot: &RenderedImage, field: &PyField) -> Self {
-        let (picture, field) = (&shot.picture, field.owned.field());
+        let (picture, field) = (&shot.picture, field.field());
         let norm = &picture.normalization;
         let place = |k: usize| (k as f64 + 0.5) / BAR as f64;
         let colors = (0..BAR).flat_map(|k| {
@@ -277,45 +278,35 @@ impl BarFacts {
 pub(crate) fn frame<'py>(
     this: &PyField,
     py: Python<'py>,
-    request: &str,
-    spot: CenterAndWidth,
-    size: [u32; 2],
+    request: &Bound<'_, PyAny>,
+    view: PyView,
 ) -> PyResult<(Bound<'py, PyBytes>, BarFacts)> {
-    let (request, view) = (this.request(request)?, view(spot, size)?);
+    let (request, view) = (this.request(request)?, view.checked()?);
     let drawn = |engine: &Engine<'_>| {
         let mut shot = shot(this.source(), &request, &view, None, engine).map_err(picture)?;
         let layers = std::mem::take(&mut shot.layers.items);
         let bytes = encode_quickly(&bare(&shot.picture, layers).image());
-        let bytes = bytes.map_err(|error| RenderError::new_err(error.to_string()))?;
+        let bytes = bytes.map_err(render_error)?;
         Ok((bytes, BarFacts::new(&shot, this)))
     };
     let ((bytes, bar), _) = long(py, None, None, |watcher| made(&request, watcher, drawn))??;
     Ok((PyBytes::new(py, &bytes), bar))
 }
 
-/// The form of figures that a name's end says.
-pub(crate) fn form(name: &str) -> PyResult<PageFormat> {
-    match name {
-        "png" => Ok(PageFormat::Png),
-        "svg" => Ok(PageFormat::Svg),
-        "pdf" => Ok(PageFormat::Pdf),
-        other => {
-            let known = "figures are png, svg or pdf";
-            Err(PyValueError::new_err(format!("`{other}` is no form: {known}")))
-        }
-    }
+/// The format of pages that a name's end says.
+pub(crate) fn page_format(end: &str) -> PageFormat {
+    PageFormat::of(&Path::new("page").with_extension(end))
 }
 
-/// The bytes of a figure's file, of the form that its name's end says: `png`, `svg` or `pdf`; and
-/// what is to be said of it.
+/// The bytes of a figure's file, `png`, `svg` or `pdf`, and its notices.
 #[pyfunction]
 pub(crate) fn figure<'py>(
     this: &PyField,
     py: Python<'py>,
-    request: &str,
+    request: &Bound<'_, PyAny>,
     form: &str,
 ) -> PyResult<(Bound<'py, PyBytes>, Vec<String>)> {
-    let (request, form) = (this.request(request)?, self::form(form)?);
+    let (request, form) = (this.request(request)?, page_format(form));
     let drawn = |engine: &Engine<'_>| {
         let made = this.page(&request, engine)?;
         Notice::of_glyphs(&made.0, form).into_iter().for_each(|notice| engine.tell(notice));
@@ -334,17 +325,16 @@ pub(crate) fn extrema_in(
     this: &PyField,
     py: Python<'_>,
     name: &str,
-    spot: CenterAndWidth,
-    size: [u32; 2],
+    view: PyView,
 ) -> PyResult<Option<(ExtremumFacts, ExtremumFacts)>> {
-    let (what, view) = (long(py, None, None, |_| this.shown(name))??, view(spot, size)?);
+    let (what, view) = (this.displayed(py, name)?, view.checked()?);
     let DisplayedQuantity::Quantity(quantity) = what else {
         return Err(RenderError::new_err(format!("`{name}` is a value of cells: look at them")));
     };
-    let field = this.owned.field();
+    let field = this.field();
     let Some(region) = BodyRegion::seen(field, &view) else { return Ok(None) };
     let found = |watcher: &dyn Watcher| extrema(field, &region, &quantity, watcher);
     let found = long(py, None, None, found)?.map_err(rendering)?;
-    let facts = |of| ExtremumFacts::new(of, region.anchor);
-    Ok(found.map(|found| (facts(found.min), facts(found.max))))
+    let facts = |found: &Extremum| extremum(found, region.anchor);
+    Ok(found.map(|found| (facts(&found.min), facts(&found.max))))
 }

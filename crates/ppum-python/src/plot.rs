@@ -9,14 +9,14 @@ use ppum_scene::plots::{
     self, NamedDataset, PlotError, Profiles, SeriesAxis, SeriesNumber, SolverWork,
 };
 use ppum_scene::profile::ProfileCurve;
-use pyo3::exceptions::{PyIndexError, PyValueError};
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::dataset::PyDataset;
-use crate::errors::{RenderError, no_profile};
-use crate::field::{PyField, written};
-use crate::picture::form;
+use crate::errors::{RenderError, no_profile, render_error};
+use crate::field::{PyField, read_data};
+use crate::picture::page_format;
 use crate::watch::long;
 
 /// Curves over axes, ready to be drawn.
@@ -32,14 +32,14 @@ type LabeledCurve = (String, Vec<[f64; 2]>);
 
 #[pymethods]
 impl Curves {
-    /// The bytes of a file: `png`, `svg` or `pdf`.
+    /// The bytes of a file, `png`, `svg` or `pdf`.
     fn bytes<'py>(
         &self,
         py: Python<'py>,
         size: [u32; 2],
-        name: &str,
+        form: &str,
     ) -> PyResult<Bound<'py, PyBytes>> {
-        let (form, [least, lowest]) = (form(name)?, LEAST);
+        let (form, [least, lowest]) = (page_format(form), LEAST);
         if size[0] < least || size[1] < lowest {
             let [width, height] = size;
             return Err(RenderError::new_err(format!(
@@ -66,16 +66,10 @@ impl Curves {
 
 /// Makes logarithmic the axes whose letters are given, and looks for what cannot be seen.
 fn finished(mut plot: Plot, names: Vec<String>, log: &str) -> PyResult<Curves> {
-    for letter in log.chars() {
-        let axis = match letter {
-            'x' => &mut plot.x,
-            'y' => &mut plot.y,
-            other => {
-                let known = "there are x, y, xy";
-                return Err(PyValueError::new_err(format!("log: `{other}` is no axis; {known}")));
-            }
-        };
-        *axis = std::mem::take(axis).logarithmic();
+    for (letter, axis) in [('x', &mut plot.x), ('y', &mut plot.y)] {
+        if log.contains(letter) {
+            *axis = std::mem::take(axis).logarithmic();
+        }
     }
     let warnings = plots::check(&plot).map_err(unplotted)?;
     Ok(Curves { plot, names, warnings })
@@ -85,7 +79,7 @@ fn finished(mut plot: Plot, names: Vec<String>, log: &str) -> PyResult<Curves> {
 fn unplotted(error: PlotError) -> PyErr {
     match error {
         PlotError::Step { .. } => PyIndexError::new_err(error.to_string()),
-        error => RenderError::new_err(error.to_string()),
+        error => render_error(error),
     }
 }
 
@@ -94,16 +88,16 @@ fn unplotted(error: PlotError) -> PyErr {
 pub(crate) fn profiles(
     py: Python<'_>,
     named: Vec<(String, Py<PyField>)>,
-    along: &str,
+    along: &Bound<'_, PyAny>,
     count: usize,
     quantities: Option<Vec<String>>,
     log: &str,
 ) -> PyResult<Curves> {
-    let along = written::<ProfileCurve>(along)?;
+    let along = read_data::<ProfileCurve>(along)?;
     let jumps = quantities.is_none() && matches!(along, ProfileCurve::Crack { .. });
     let mut all = Profiles::new(along.variable(), jumps, named.len() > 1);
     for (name, field) in &named {
-        let (this, field) = (field.get(), field.get().owned.field());
+        let (this, field) = (field.get(), field.get().field());
         let wanted = match (&quantities, jumps) {
             (Some(wanted), _) => wanted.clone(),
             (None, true) => Vec::new(),
@@ -113,7 +107,7 @@ pub(crate) fn profiles(
             wanted.iter().map(|name| this.spelled(name)).zip(this.quantities(&wanted)?).collect();
         let drawn = |watcher: &dyn Watcher| along.drawn(field, &wanted, count, watcher);
         let profile = long(py, None, None, drawn)?.map_err(no_profile)?;
-        let dataset = this.owned.dataset();
+        let dataset = this.dataset();
         all.add(NamedDataset { name, dataset }, field, &wanted, &profile.table);
     }
     let plot = all.plot();
@@ -125,43 +119,19 @@ pub(crate) fn profiles(
 #[serde(rename_all = "snake_case", deny_unknown_fields)]
 enum PlotKind {
     Convergence { step: Option<usize> },
-    History { what: String, step: Option<usize> },
-    Series { numbers: Vec<String>, over: String },
+    History { what: SolverWork, step: Option<usize> },
+    Series { numbers: Vec<String>, over: SeriesAxis },
 }
-
-/// A word of a list, or a `ValueError` that tells them all.
-fn word<T: Copy>(what: &str, name: &str, known: &[(&str, T)]) -> PyResult<T> {
-    let found = known.iter().find(|(word, _)| *word == name).map(|(_, value)| *value);
-    found.ok_or_else(|| {
-        let known: Vec<&str> = known.iter().map(|(word, _)| *word).collect();
-        PyValueError::new_err(format!("{what}: `{name}` is none; there are {}", known.join(", ")))
-    })
-}
-
-const WORK: [(&str, SolverWork); 4] = [
-    ("seconds", SolverWork::Seconds),
-    ("bytes", SolverWork::Bytes),
-    ("residuals", SolverWork::Residuals),
-    ("levels", SolverWork::Levels),
-];
-
-const OVER: [(&str, SeriesAxis); 5] = [
-    ("step", SeriesAxis::Step),
-    ("load", SeriesAxis::Load),
-    ("length", SeriesAxis::Length),
-    ("extension", SeriesAxis::Extension),
-    ("cycles", SeriesAxis::Cycles),
-];
 
 /// Plots data of the solver and of the steps of datasets.
 #[pyfunction]
-pub(crate) fn told(
+pub(crate) fn reports(
     py: Python<'_>,
     named: Vec<(String, Py<PyDataset>)>,
-    kind: &str,
+    kind: &Bound<'_, PyAny>,
     log: &str,
 ) -> PyResult<Curves> {
-    let kind = written::<PlotKind>(kind)?;
+    let kind = read_data::<PlotKind>(kind)?;
     // errors follow from the fields, all else from what the solver tells
     let is_whole = matches!(kind, PlotKind::Convergence { .. });
     let data = |dataset: &PyDataset| if is_whole { dataset.whole() } else { dataset.results() };
@@ -174,12 +144,9 @@ pub(crate) fn told(
         PlotKind::Convergence { step } => {
             long(py, None, None, |_| plots::convergence(&named, step))?
         }
-        PlotKind::History { what, step } => {
-            plots::history(&named, word("what", &what, &WORK)?, step)
-        }
+        PlotKind::History { what, step } => plots::history(&named, what, step),
         PlotKind::Series { numbers, over } => {
             let numbers: Result<Vec<SeriesNumber>, _> = numbers.iter().map(|n| n.parse()).collect();
-            let over = word("over", &over, &OVER)?;
             numbers.and_then(|numbers| plots::series(&named, &numbers, over))
         }
     };

@@ -9,7 +9,7 @@ use ppum_problem::Problem;
 use pyo3::prelude::*;
 
 use crate::dataset::PyDataset;
-use crate::errors::{ProblemFinding, problem, ungrown, unsolved};
+use crate::errors::{ProblemFinding, findings, problem, ungrown, unsolved};
 use crate::watch::long;
 
 /// Everything that is wrong in the text of a problem; nothing if it can be read.
@@ -21,7 +21,7 @@ pub(crate) fn check(
     folder: PathBuf,
 ) -> PyResult<Vec<ProblemFinding>> {
     let read = long(py, None, None, |_| Problem::parse(text, name, &folder))?;
-    Ok(read.err().map_or_else(Vec::new, |mistakes| ProblemFinding::all(&mistakes)))
+    Ok(read.err().map_or_else(Vec::new, |mistakes| findings(&mistakes)))
 }
 
 /// Solves the problem of a text; files that it names are looked for in the folder. A problem with

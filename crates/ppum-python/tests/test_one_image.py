@@ -92,7 +92,7 @@ def test_one_request_has_one_image(ds, program, window, tmp_path):
         command, notices = window(tmp_path / "plate.h5", tmp_path / "request.json", names[0])
         assert command[:4] == ["ppum", "render", str(tmp_path / "plate.h5"), "-o"]
         program(*command[1:4], names[1], *command[5:], "--backend=cpu")
-        ours, told = _core.figure(field._core, json.dumps({**request, "backend": "cpu"}), form)
+        ours, told = _core.figure(field._core, {**request, "backend": "cpu"}, form)
         window_s, theirs = (name.read_bytes() for name in names)
         what = shlex.join(command)
         if form == "png":

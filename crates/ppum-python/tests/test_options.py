@@ -2,7 +2,6 @@
 
 import inspect
 import io
-import json
 import os
 import pathlib
 import re
@@ -191,12 +190,12 @@ def test_empty_rows_of_a_layout_are_told(f):
 
 def test_one_end_of_a_range(f):
     """The other one is that of an automatic range."""
-    facts = _core.frame(f._core, styles.to_json(styles.request(f, "ux", {}, None)), ((0.0, 0.0), 4.0), (64, 64))[1]
+    facts = _core.frame(f._core, styles.request(f, "ux", {}, None), ppum.View((0.0, 0.0), 4.0, (64, 64)))[1]
     low, high = facts["range"]
     view = ppum.View((0, 0), 4.0, (64, 64))
     assert not np.array_equal(f.draw.image("ux", view=view), f.draw.image("ux", view=view, vmin=0.0))
     assert np.array_equal(f.draw.image("ux", view=view, vmin=low, vmax=0.1), f.draw.image("ux", view=view, clim=(low, 0.1)))
-    made = styles.request(f, "ux", {"vmin": 0.0}, ((0.0, 0.0), 4.0))
+    made = styles.request(f, "ux", {"vmin": 0.0}, ppum.View((0.0, 0.0), 4.0))
     assert made["colors"]["range"].startswith("0.0,")
     assert float(made["colors"]["range"].split(",")[1]) == pytest.approx(high, rel=1e-2)
     for options in ({"vmin": 0, "clim": (0, 1)}, {"vmax": 0, "clim": "full"}):
@@ -248,7 +247,7 @@ def test_options_are_the_keys_of_problem_files(head, kind):
         box = "[domain]\nmin = [0, 0]\nmax = [1, 1]\n" + text
         box += "" if "discretization" in head else "[discretization]\nlevel = 2\n"
         found = _core.check(f"{box}{head}qqqq = 1\n", "text", pathlib.Path())
-        texts = [f["message"] for f in found if "unknown key `qqqq`" in f["message"] and "known are" in f["message"]]
+        texts = [text for *_, text in found if "unknown key `qqqq`" in text and "known are" in text]
         known |= {key for message in texts for key in re.split(r", | and ", message.split("known are ")[1])}
     of_methods = {"points"} if kind is sections.CrackOptions else {"on"} if "boundary" in head else {"steps"} if "growth" in head else set()
     assert known - of_methods == set(options_of(kind)) and known
@@ -269,8 +268,8 @@ def test_figures_have_all_options_of_requests(f):
     given |= dict(precision="f64", dpi=100, font_size=9, colorbar="right", labels={"title": "t"})
     panels, alone = dict(parts=["all", "jump"], layout=(2, 1), size=(900, 600)), dict(deformed=2.0, inches=4)
     made = [{**given, **panels, "center": (0, 0), "width": 1.0}, {**given, **alone, "tip": 0, "zoom": 4.0}]
-    asked = set().union(*(paths(json.loads(f.draw.figure("ux", **options)._made_of[1])) for options in made))
-    every = paths(json.loads(_core.default_request()))
+    asked = set().union(*(paths(f.draw.figure("ux", **options)._made_of[1]) for options in made))
+    every = paths(_core.default_request())
     elsewhere = {path for path in every if path.startswith("subject.")} | {"place.view", "backend", "look.cm"}
     assert every - asked == elsewhere
     # a colour that is not given stands nowhere in a request
@@ -280,7 +279,7 @@ def test_figures_have_all_options_of_requests(f):
 def test_overlays_are_those_of_the_libraries(f):
     scene = {"overlays": {"shown": ["clouds"]}}
     with pytest.raises(ValueError) as info:
-        _core.rgba(f._core, json.dumps(scene), ((0.0, 0.0), 1.0), (2, 2))
+        _core.rgba(f._core, scene, ppum.View((0.0, 0.0), 1.0, (2, 2)))
     assert set(re.findall(r"`(\w+)`", str(info.value))) - {"clouds"} == set(get_args(styles.Overlay))
     for norm in get_args(styles.Norm):
         f.draw.figure("von_mises", norm=norm)

@@ -120,7 +120,7 @@ def test_plots_that_cannot_be_are_refused(ds, f, potential):
         (lambda: plots.crack(f, 7), IndexError, "numbered from 0"),
         (lambda: plots.series(ds), ppum.RenderError, "there is one alone"),
         (lambda: plots.series(ds, ["k3"]), ppum.RenderError, "k1, k2, load, length and extension, not of `k3`"),
-        (lambda: plots.history(ds, "minutes"), ValueError, "what: `minutes` is none; there are seconds"),
+        (lambda: plots.history(ds, "minutes"), ValueError, "what: .minutes. is not one of .seconds."),
         (lambda: plots.history(ds, step=4), IndexError, "no step 4"),
         (lambda: plots.convergence([ds]), ppum.RenderError, "three datasets or more"),
         (lambda: plots.convergence([ds, ds, ds]), ppum.RenderError, "three different numbers"),

@@ -18,32 +18,22 @@ pub trait RasterValue: LaneNumber + Into<f64> {
     /// of a linear system too, since a field that is constant except for that should look so.
     const SAME: f64;
 
-    /// [`render`](crate::scatter::render) for this type. Implemented for each, so that the
-    /// renderer's kernels are compiled once, here, and not in every crate that draws.
-    ///
-    /// # Errors
-    /// See there.
-    fn render(
-        field: &Field<'_>,
-        view: &View,
-        quantity: &Quantity,
-        watcher: &dyn Watcher,
-    ) -> Result<Raster<Self>, RasterError>;
-
     /// The values as a slice of f64 or of f32: code that matches on it is compiled once for both
     /// types, and not in every crate that draws.
     fn sample_slice(values: &[Self]) -> SampleSlice<'_>;
 
-    /// [`render_strips`](crate::scatter::render_strips) for this type, by a summation.
+    /// [`render_batches`](crate::scatter::render_batches) for this type, by a summation.
+    /// Implemented for each, so that the renderer's kernels are compiled once, here, and not in
+    /// every crate that draws.
     ///
     /// # Errors
     /// See there.
-    fn render_strips(
+    fn render_batches(
         field: &Field<'_>,
         view: &View,
         quantity: &Quantity,
         summation: Summation,
-        strips: RowBatches,
+        batches: RowBatches,
         watcher: &dyn Watcher,
         take: &mut dyn FnMut(Vec<Self>),
     ) -> Result<(), RasterError>;

@@ -12,7 +12,7 @@ pub const BAND: u32 = 32;
 pub struct RowBatches {
     /// The rows; the first is a multiple of [`BAND`].
     rows: Range<u32>,
-    /// Rows of a strip, rounded up to whole bands.
+    /// Rows of a batch, rounded up to whole bands.
     height: u32,
 }
 
@@ -27,7 +27,7 @@ impl RowBatches {
         Self { rows: 0..view.pixels[1], height }
     }
 
-    /// The strips, each a range of rows.
+    /// The batches, each a range of rows.
     pub(crate) fn each(&self) -> impl Iterator<Item = Range<usize>> + use<> {
         let (first, end) = (self.rows.start as usize, self.rows.end as usize);
         let band = BAND as usize;

@@ -139,8 +139,8 @@ impl View {
 
     /// Returns the window with `n` × `n` pixels in place of each: the centre of pixel (n i + a, n
     /// j + b) lies at ((a + 1/2)/n, (b + 1/2)/n) of pixel (i, j), as exactly as centres lie
-    /// anywhere. It may have more than [`MAX_PIXELS`], and is then drawn in strips
-    /// ([`render_strips`](crate::scatter::render_strips)).
+    /// anywhere. It may have more than [`MAX_PIXELS`], and is then drawn in batches
+    /// ([`render_batches`](crate::scatter::render_batches)).
     ///
     /// # Errors
     /// More columns or rows than can be counted, pixels finer than f64 has normal numbers for.

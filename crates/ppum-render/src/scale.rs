@@ -35,25 +35,25 @@ pub enum Scale {
 #[error("`{0}` is no scale{hint}; write linear, log or symlog", hint = hint(.0, ["linear", "log", "symlog"]))]
 pub struct UnknownScale(String);
 
+const SCALES: [Scale; 3] = [Scale::Linear, Scale::Log, Scale::SymLog];
+
+impl Scale {
+    fn name(self) -> &'static str {
+        ["linear", "log", "symlog"][self as usize]
+    }
+}
+
 impl FromStr for Scale {
     type Err = UnknownScale;
     fn from_str(text: &str) -> Result<Self, UnknownScale> {
-        match text {
-            "linear" => Ok(Self::Linear),
-            "log" => Ok(Self::Log),
-            "symlog" => Ok(Self::SymLog),
-            _ => Err(UnknownScale(text.to_owned())),
-        }
+        let known = SCALES.into_iter().find(|scale| scale.name() == text);
+        known.ok_or_else(|| UnknownScale(text.to_owned()))
     }
 }
 
 impl fmt::Display for Scale {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Linear => "linear",
-            Self::Log => "log",
-            Self::SymLog => "symlog",
-        })
+        f.write_str(self.name())
     }
 }
 

@@ -166,11 +166,11 @@ impl<T: TableKey> Ramp<T> {
     #[inline(always)]
     fn entries<R: Real<Scalar = T>>(&self, v: R, beyond: &mut [bool; 2]) -> R {
         let lit = |number: usize| v.broadcast(number as f64);
-        let splat = |number: T| v.broadcast(number.to_f64());
-        let [least, greatest] = self.range.map(splat);
-        let [start, rest] = self.start.map(splat);
+        let all = |number: T| v.broadcast(number.to_f64());
+        let [least, greatest] = self.range.map(all);
+        let [start, rest] = self.start.map(all);
         // not fused, so that colours are the same on all processors
-        let entry = (v - start - rest) * splat(self.slope) + v.broadcast(0.5);
+        let entry = (v - start - rest) * all(self.slope) + v.broadcast(0.5);
         let inside = entry.floor().max(lit(0)).min(lit(PALETTE - 1));
         let (below, above) = (least.gt(v), v.gt(greatest));
         *beyond = [beyond[0] | R::any(below), beyond[1] | R::any(above)];

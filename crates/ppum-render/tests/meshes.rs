@@ -307,7 +307,7 @@ fn elements_come_apart_and_overlap() {
         }
         // every edge has come apart nearly everywhere
         let length = |path: &[Vec2]| path.windows(2).map(|p| (p[1] - p[0]).length()).sum::<f64>();
-        let outline: f64 = points.view.outline().iter().map(|path| length(path)).sum();
+        let outline: f64 = points.view.outline([None; 2]).iter().map(|path| length(path)).sum();
         let edges: f64 = points.view.element_edges().iter().map(|path| length(path)).sum();
         let closed = |p: &Vec<Vec2>| length(p) + (p[0] - p[p.len() - 1]).length();
         let exact: f64 = polygons.iter().map(closed).sum();
@@ -346,7 +346,7 @@ fn the_outline_is_the_border_alone() {
     // u = (0.1, 0.1 + x/2): a parallelogram
     let seen = Deformation::new(&field, 0.5).unwrap().seen(&view);
     let length = |path: &Vec<Vec2>| path.windows(2).map(|p| (p[1] - p[0]).length()).sum::<f64>();
-    let outline = seen.outline();
+    let outline = seen.outline([None; 2]);
     let total: f64 = outline.iter().map(length).sum();
     // no edge begins at the border
     let shortest = outline.iter().map(length).fold(f64::INFINITY, f64::min);

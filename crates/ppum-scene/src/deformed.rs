@@ -85,7 +85,7 @@ fn moved_box(field: &Field<'_>, factor: f64) -> Result<Rect, DeformError> {
         view = View::fit(grown(elements.union(&whole), BEYOND), [256, 256])?;
     }
     let seen = deformation.seen(&view);
-    let lines = [seen.outline(), seen.cut_faces()];
+    let lines = [seen.outline([None; 2]), seen.cut_faces()];
     let place = |offset: &Vec2| view.center + *offset;
     let all = lines.iter().flatten().flatten().map(place).map(|p| Rect::new(p, p));
     Ok(all.reduce(|a, b| a.union(&b)).unwrap_or(whole))

@@ -16,7 +16,7 @@
 //!
 //! ```text
 //! adapt           hierarchy                        estimated error, cells to divide; coarser levels of a system
-//! assembly        norms                            cells and border → K u = f; energies, errors
+//! assembly        norms                            cells and boundary → K u = f; energies, errors
 //! basis                                            stable basis
 //! space                                            local spaces of a cover, enriched
 //! refine          triangulation                    covers; triangles between segments

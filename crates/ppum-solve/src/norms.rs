@@ -5,7 +5,7 @@ use crate::space::TrialSpace;
 use ppum::crack::Side;
 use ppum::field::Field;
 use ppum::jet::Jet;
-use ppum::vec2::{Vec2, vec2};
+use ppum::vec2::Vec2;
 use rayon::prelude::*;
 
 /// More Gauss points than the system was assembled with.
@@ -29,14 +29,18 @@ impl DomainNorms {
 }
 
 /// A field given by a function: value and gradient of each component at `anchor + offset`.
-pub type Exact<'a> = &'a (dyn Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync);
+pub type ReferenceField<'a> = &'a (dyn Fn(Vec2, Vec2) -> [Jet<f64>; 2] + Sync);
 
 /// The norms of a field, of an exact field and of their difference, in this order.
 ///
 /// # Panics
 /// If the field is not of the step of `space`.
 #[must_use]
-pub fn norms(field: &Field<'_>, space: &TrialSpace<'_>, exact: Exact<'_>) -> [DomainNorms; 3] {
+pub fn norms(
+    field: &Field<'_>,
+    space: &TrialSpace<'_>,
+    exact: ReferenceField<'_>,
+) -> [DomainNorms; 3] {
     let parts = over_cells(
         field,
         space,
@@ -84,15 +88,15 @@ pub fn energy_of(field: &Field<'_>, space: &TrialSpace<'_>, cells: &[usize]) -> 
 /// If the field is not of the step of `space`.
 #[must_use]
 pub fn fluctuation(field: &Field<'_>, space: &TrialSpace<'_>) -> f64 {
-    let add = |sum: &mut Volume, at: &QuadraturePoint, u: &[Jet<f64>; 2], weight| {
+    let add = |sum: &mut VolumeSums, at: &QuadraturePoint, u: &[Jet<f64>; 2], weight| {
         sum.norms.add(&at.law, u, weight);
-        let (lambda, d) = (weight * at.law.lambda(), u[0].x + u[1].y);
+        let (lambda, d) = (weight * at.law.lambda(), at.law.strain(u).trace());
         sum.lambda += lambda;
         sum.mean += lambda * d;
         sum.square += lambda * d * d;
     };
     let parts = over_cells(field, space, &all_cells(space), 0, add);
-    let of_cell = |v: &Volume| match v.lambda {
+    let of_cell = |v: &VolumeSums| match v.lambda {
         0.0 => 0.0,
         lambda => (v.square - v.mean * v.mean / lambda).max(0.0),
     };
@@ -101,7 +105,7 @@ pub fn fluctuation(field: &Field<'_>, space: &TrialSpace<'_>) -> f64 {
 
 /// Sums over a cell of λ, λ div u and λ (div u)².
 #[derive(Default)]
-struct Volume {
+struct VolumeSums {
     norms: DomainNorms,
     lambda: f64,
     mean: f64,
@@ -130,7 +134,7 @@ fn over_cells<S: Default + Send>(
     let (law, quadrature) = (Law::new(field.equation), space.quadrature(extra));
     let rules = |c: usize| match extra {
         0 => space.rules(&quadrature, c),
-        _ => quadrature.cell(&space.partition().cell[c], &space.covering_patches[c]).into(),
+        _ => quadrature.cell(space.cell(c)).into(),
     };
     let cell = |&c: &usize| {
         let mut sum = S::default();
@@ -151,11 +155,11 @@ fn over_cells<S: Default + Send>(
 
 impl DomainNorms {
     fn add(&mut self, law: &LawAt, u: &[Jet<f64>; 2], weight: f64) {
-        let g = u.map(|jet| vec2(jet.x, jet.y));
-        let s = law.linear_stress(&g);
-        for i in 0..law.components() {
-            self.energy += weight * (s[i][0] * g[i].x + s[i][1] * g[i].y);
-            self.l2 += weight * u[i].v * u[i].v;
+        let strain = law.strain(u);
+        let stress = law.linear_stress(&strain);
+        for (i, u) in u.iter().enumerate().take(law.components()) {
+            self.energy += weight * stress.row_work(&strain, i);
+            self.l2 += weight * u.v * u.v;
         }
     }
 }

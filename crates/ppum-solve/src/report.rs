@@ -3,9 +3,6 @@
 //! It is kept in a dataset as the named records of a step's history. Names and order are in one
 //! table here; nothing else knows them.
 
-mod places;
-
-use places::{ITERATION, LEVEL, course_place, level_place};
 use ppum::dataset::{Record, Step};
 use ppum::progress::Phase;
 use ppum::vec2::Vec2;
@@ -84,6 +81,8 @@ pub struct SolverReport {
     /// Before each step, the residual that reaches each level, the finest first, as a part of that
     /// of the first step.
     pub level_residuals: Vec<Vec<f64>>,
+    /// Integrands that quadrature does not resolve; a history has no records of them.
+    pub unresolved: Vec<UnresolvedIntegrand>,
 }
 
 /// The size of a level of the multilevel solver.
@@ -111,58 +110,6 @@ impl LevelSize {
         ("values", |l| &mut l.values),
         (BYTE, |l| &mut l.bytes),
     ];
-}
-
-/// A solver of linear systems; in a dataset's history it is a number, from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LinearKind {
-    /// Sparse Cholesky factorisation.
-    Direct = 1,
-    /// Conjugate gradients with coarser levels.
-    Multilevel,
-}
-
-impl LinearKind {
-    /// Its word in problem files.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Direct => "direct",
-            Self::Multilevel => "multilevel",
-        }
-    }
-}
-
-/// The reason why an adaptation ended; in a dataset's history it is a number, from 1.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum StopReason {
-    /// The estimated error is as small as wanted.
-    Tolerance = 1,
-    /// As many steps were made as wanted.
-    Steps,
-    /// The next step would have more unknowns than wanted.
-    Unknowns,
-    /// The memory does not hold the next step.
-    Memory,
-    /// No cell that is to be improved can be divided, and no order raised.
-    Limits,
-    /// The segments that stand for a curved crack err by more than is wanted.
-    Segments,
-}
-
-impl StopReason {
-    /// A word for it, in JSON the key of the problem file where there is one.
-    #[must_use]
-    pub fn word(self) -> &'static str {
-        match self {
-            Self::Tolerance => "tolerance",
-            Self::Steps => "steps",
-            Self::Unknowns => "max_unknowns",
-            Self::Memory => "memory",
-            Self::Limits => "limits",
-            Self::Segments => "segments",
-        }
-    }
 }
 
 /// A value of the report as the number of a record.
@@ -204,24 +151,59 @@ impl HistoryNumber for bool {
     }
 }
 
-macro_rules! recorded {
-    ($($kind:ty: $($value:ident),*;)*) => {
-        $(impl HistoryNumber for Option<$kind> {
+macro_rules! coded {
+    ($($(#[$doc:meta])* $kind:ident { $($(#[$of:meta])* $value:ident $word:literal,)* })*) => {$(
+        $(#[$doc])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        pub enum $kind { $($(#[$of])* $value,)* }
+
+        impl $kind {
+            const WORDS: &[(Self, &'static str)] = &[$((Self::$value, $word)),*];
+
+            /// A word for it, that of problem files where they have one.
+            #[must_use]
+            pub fn word(self) -> &'static str {
+                Self::WORDS[self as usize].1
+            }
+        }
+
+        impl HistoryNumber for Option<$kind> {
             fn number(&self) -> Option<f64> {
-                self.map(|kind| f64::from(kind as u8))
+                self.map(|kind| f64::from(kind as u8 + 1))
             }
 
             fn take_up(&mut self, number: f64) {
-                let all = [$(<$kind>::$value),*].into_iter();
-                *self = self.or_else(|| all.map(Some).find(|kind| kind.number() == Some(number))?);
+                let mut all = $kind::WORDS.iter().map(|(kind, _)| Some(*kind));
+                *self = self.or_else(|| all.find(|kind| kind.number() == Some(number))?);
             }
-        })*
-    };
+        }
+    )*};
 }
 
-recorded! {
-    LinearKind: Direct, Multilevel;
-    StopReason: Tolerance, Steps, Unknowns, Memory, Limits, Segments;
+coded! {
+    /// A solver of linear systems; in a dataset's history it is a number, from 1.
+    LinearKind {
+        /// Sparse Cholesky factorisation.
+        Direct "direct",
+        /// Conjugate gradients with coarser levels.
+        Multilevel "multilevel",
+    }
+
+    /// The reason why an adaptation ended; in a dataset's history it is a number, from 1.
+    StopReason {
+        /// The estimated error is as small as wanted.
+        Tolerance "tolerance",
+        /// As many steps were made as wanted.
+        Steps "steps",
+        /// The next step would have more unknowns than wanted.
+        Unknowns "max_unknowns",
+        /// The memory does not hold the next step.
+        Memory "memory",
+        /// No cell that is to be improved can be divided, and no order raised.
+        Limits "limits",
+        /// The segments that stand for a curved crack err by more than is wanted.
+        Segments "segments",
+    }
 }
 
 /// A number of the report by its name in files: its value, and how it is taken up if it is the
@@ -281,6 +263,26 @@ const STOP: &str = "adaptation stop";
 /// The record with the unit `B`.
 const BYTES: &str = "solver memory";
 
+/// The prefix of records of the iterations' residuals: `iteration 7`, `iteration 7 level 2`.
+const ITERATION: &str = "iteration ";
+
+/// The prefix of records of levels: `level 2`.
+const LEVEL: &str = "level ";
+
+/// The iteration that a name tells, and the level if it tells one.
+fn iteration_of(name: &str) -> Option<(usize, Option<usize>)> {
+    let place = name.strip_prefix(ITERATION)?;
+    match place.split_once(" level ") {
+        Some((step, level)) => Some((step.parse().ok()?, Some(level.parse().ok()?))),
+        None => Some((place.parse().ok()?, None)),
+    }
+}
+
+/// The level that a name tells.
+fn level_of(name: &str) -> Option<usize> {
+    name.strip_prefix(LEVEL)?.parse().ok()
+}
+
 /// Units of records of phases and levels.
 const SECOND: &str = "s";
 const BYTE: &str = "B";
@@ -289,17 +291,17 @@ const UNKNOWNS: &str = "unknowns";
 /// The attribute with the seconds that one core took for the cell of each patch in the assembly.
 pub const ASSEMBLY_SECONDS: &str = "assembly-seconds";
 
-/// True for names of records of the course of iterations, of which there are many.
+/// True for names of records of the convergence history, of which there are many.
 #[must_use]
 pub fn is_convergence_record(name: &str) -> bool {
-    course_place(name).is_some()
+    iteration_of(name).is_some()
 }
 
 /// True for records of the sizes of levels.
 #[must_use]
 pub fn is_of_level(record: &Record) -> bool {
     let units = LevelSize::NUMBERS.map(|(unit, _)| unit);
-    level_place(&record.name).is_some() && units.contains(&record.unit.as_str())
+    level_of(&record.name).is_some() && units.contains(&record.unit.as_str())
 }
 
 /// True for records of a phase: its seconds, bytes and unknowns.
@@ -354,8 +356,8 @@ impl SolverReport {
                 report.of_phases(&record.unit).push((phase, record.value));
             } else if is_of_level(record) {
                 report.add_level(record);
-            } else if let Some(place) = course_place(&record.name) {
-                report.add_course(place, record.value);
+            } else if let Some(place) = iteration_of(&record.name) {
+                report.add_residual(place, record.value);
             } else if let Some((.., take)) = ENTRIES.iter().find(|(name, ..)| *name == record.name)
             {
                 take(&mut report, record.value);
@@ -404,7 +406,7 @@ impl SolverReport {
 
     /// Takes a number of a level up if it is one of the last level or the first one of the next.
     fn add_level(&mut self, record: &Record) {
-        let level = level_place(&record.name);
+        let level = level_of(&record.name);
         if level == Some(self.levels.len()) && record.unit == LevelSize::NUMBERS[0].0 {
             self.levels.push(LevelSize::default());
         }
@@ -416,7 +418,7 @@ impl SolverReport {
     }
 
     /// Takes a residual of the course up if it is the next one.
-    fn add_course(&mut self, (step, level): (usize, Option<usize>), value: f64) {
+    fn add_residual(&mut self, (step, level): (usize, Option<usize>), value: f64) {
         match level {
             None if step == self.residuals.len() => self.residuals.push(value),
             None => {}

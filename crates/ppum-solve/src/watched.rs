@@ -11,14 +11,14 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 
 /// A watcher for one step, which adds the number of the step to all progress.
-pub struct CycleWatcher<'w> {
+pub struct StepWatcher<'w> {
     /// Called with the progress.
     pub watcher: &'w dyn Watcher,
     /// The number of the step.
     pub step: usize,
 }
 
-impl Watcher for CycleWatcher<'_> {
+impl Watcher for StepWatcher<'_> {
     fn on_progress(&self, progress: Progress) -> Verdict {
         self.watcher.on_progress(progress.in_step(self.step))
     }

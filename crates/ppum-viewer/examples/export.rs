@@ -10,7 +10,7 @@ use ppum::progress::unwatched;
 use ppum::vec2::Vec2;
 use ppum_render::view::View;
 use ppum_scene::request::Request;
-use ppum_viewer::export::{ExportKind, ImageExport, PageSize};
+use ppum_viewer::export::{ExportChoice, ImageExport, Motion, PageSize};
 use ppum_viewer::field::OwnedField;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -31,7 +31,8 @@ fn main() -> Result<(), Box<dyn Error>> {
         scene: request.scene,
         view: View::new(center, width, size)?,
         page: PageSize::pixels(size),
-        kind: if request.figure { ExportKind::Figure } else { ExportKind::Picture },
+        choice: if request.figure { ExportChoice::Figure } else { ExportChoice::Image },
+        motion: Motion::default(),
     };
     let (bytes, notices) = order.bytes(&output, unwatched(), &AtomicUsize::new(0))?;
     std::fs::write(&output, bytes)?;

@@ -3,8 +3,10 @@
 
 use egui::{Event, Key, KeyboardShortcut, Modifiers, RawInput};
 
+use self::Action::*;
+use self::Need::*;
 use crate::export::ExportChoice;
-use crate::reading::tool::Tool;
+use crate::measure::tool::Tool;
 use crate::session::DrawerPage;
 
 /// Something a person can do.
@@ -124,207 +126,178 @@ pub enum Action {
     Quit,
 }
 
-/// An action with its name and key.
+/// The need of an action, without which it does nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// Nothing.
+    Nothing,
+    /// A dataset in the active view.
+    Dataset,
+    /// A crack tip of the step.
+    Tips,
+    /// More steps than one.
+    Series,
+    /// Displacements.
+    Displacements,
+    /// The text of a problem.
+    Text,
+    /// A solution that is being computed.
+    Solution,
+}
+
+/// An action with its key, its name, and other words that people look for it by.
 #[derive(Clone, Copy, Debug)]
 pub struct ActionEntry {
     /// The action.
     pub action: Action,
+    /// Its key as [`shortcut`](Self::shortcut) reads it; empty if it has none.
+    key: &'static str,
     /// Its name in menus and the palette.
     pub name: &'static str,
-    /// Its key, if it has one.
-    pub key: Option<KeyboardShortcut>,
-    /// The heading that it stands below on the help sheet.
-    pub group: &'static str,
+    /// Its need.
+    pub need: Need,
+    /// Other words for it.
+    pub synonyms: &'static str,
 }
 
-const fn entry(
+const fn row(
     action: Action,
+    key: &'static str,
     name: &'static str,
-    key: Option<KeyboardShortcut>,
-    group: &'static str,
+    need: Need,
+    synonyms: &'static str,
 ) -> ActionEntry {
-    ActionEntry { action, name, key, group }
+    ActionEntry { action, key, name, need, synonyms }
 }
 
-const fn key(key: Key) -> Option<KeyboardShortcut> {
-    Some(KeyboardShortcut::new(Modifiers::NONE, key))
-}
-
-const fn shift(key: Key) -> Option<KeyboardShortcut> {
-    Some(KeyboardShortcut::new(Modifiers::SHIFT, key))
-}
-
-const fn control(key: Key) -> Option<KeyboardShortcut> {
-    Some(KeyboardShortcut::new(Modifiers::COMMAND, key))
-}
-
-const fn control_shift(key: Key) -> Option<KeyboardShortcut> {
-    Some(KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), key))
-}
-
-/// Other words that people look for an action by.
-#[must_use]
-pub fn synonyms(action: Action) -> &'static str {
-    match action {
-        Action::Fit => "home reset fit zoom all",
-        Action::ZoomIn => "enlarge magnify larger",
-        Action::ZoomOut => "reduce smaller",
-        Action::Tip(_) | Action::NextTip => "go to zoom crack",
-        Action::Quantity => {
-            "variable stress strain displacement von mises formula error field component"
-        }
-        Action::NextScale => "log scale",
-        Action::AutomaticRange | Action::FreezeRange => "limits minimum maximum clim",
-        Action::NextMap | Action::ReverseMap => "colormap cmap palette colour bar",
-        Action::Overlays => "mesh cells patches cracks outline elements grid",
-        Action::Isolines => "contour level lines",
-        Action::Deform => "deformation warp displacement opening",
-        Action::Quit => "exit leave close window",
-        Action::Interface(_) => "zoom scale font size letters larger smaller interface",
-        Action::Swing => "animate warp movie",
-        Action::Mirror => "mirror symmetry reflect",
-        Action::Compare => "interpolation error sampling",
-        Action::Probe | Action::Draw(Tool::Probe) => "value pick point query marker",
-        Action::CircleForK => "sif stress intensity factor k1 k2 j integral energy release",
-        Action::Draw(_) => "profile path section cut",
-        Action::Extrema => "minimum maximum peak",
-        Action::Drawer(DrawerPage::Plot) => "profile line graph chart sliding jump path csv",
-        Action::Drawer(DrawerPage::Tips) => {
-            "sif stress intensity factors k1 k2 t g energy release error"
-        }
-        Action::Drawer(DrawerPage::Series) => "history steps growth k over time",
-        Action::Drawer(DrawerPage::Solver) => {
-            "error estimate warnings convergence unknowns condition"
-        }
-        Action::Drawer(DrawerPage::Problem) => "toml input edit loads material mesh cover",
-        Action::Save(ExportChoice::Picture) => "export image png screenshot",
-        Action::Save(ExportChoice::Figure) => "export pdf svg png paper print image",
-        Action::Save(_) => "export gif movie film video apng",
-        Action::CopyCommand => "export script shell",
-        Action::Step(_) | Action::Play => "time animation movie film",
-        Action::Split => "compare side window",
-        Action::Minus => "compare subtract error",
-        Action::Panels => "sidebar controls full screen",
-        Action::Theme => "theme dark mode appearance colours",
-        Action::Help => "shortcuts keyboard manual font",
-        Action::Palette => "search command",
-        Action::SaveDataset => "export h5 hdf5 result",
-        Action::ExportPage => "save html web internet share",
-        Action::Open | Action::OpenBeside => "load import file",
-        Action::Solve => "run compute calculate",
-        Action::CancelSolving => "stop abort",
-        _ => "",
+impl ActionEntry {
+    /// Its key, if it has one: a name of egui's after `Ctrl+` and `Shift+`.
+    #[must_use]
+    pub fn shortcut(&self) -> Option<KeyboardShortcut> {
+        let (rest, control) =
+            self.key.strip_prefix("Ctrl+").map_or((self.key, false), |k| (k, true));
+        let (rest, shift) = rest.strip_prefix("Shift+").map_or((rest, false), |k| (k, true));
+        let mut modifiers = if control { Modifiers::COMMAND } else { Modifiers::NONE };
+        modifiers.shift = shift;
+        Some(KeyboardShortcut::new(modifiers, Key::from_name(rest)?))
     }
 }
 
-/// Headings of the help sheet, in their order.
-pub const GROUPS: [&str; 6] =
-    ["Moving", "Colours", "Over the picture", "Reading", "Files and problems", "Window"];
-
-/// All actions, in the order of the help sheet. The keys for the interface's size are egui's own.
-pub const ALL: &[ActionEntry] = &[
-    entry(Action::Fit, "Show the whole plate", key(Key::F), "Moving"),
-    entry(Action::NextTip, "Fly to the next tip", key(Key::N), "Moving"),
-    entry(Action::Tip(0), "Fly to tip 0", key(Key::Num1), "Moving"),
-    entry(Action::Tip(1), "Fly to tip 1", key(Key::Num2), "Moving"),
-    entry(Action::Tip(2), "Fly to tip 2", key(Key::Num3), "Moving"),
-    entry(Action::Tip(3), "Fly to tip 3", key(Key::Num4), "Moving"),
-    entry(Action::Tip(4), "Fly to tip 4", key(Key::Num5), "Moving"),
-    entry(Action::Tip(5), "Fly to tip 5", key(Key::Num6), "Moving"),
-    entry(Action::Tip(6), "Fly to tip 6", key(Key::Num7), "Moving"),
-    entry(Action::Tip(7), "Fly to tip 7", key(Key::Num8), "Moving"),
-    entry(Action::Tip(8), "Fly to tip 8", key(Key::Num9), "Moving"),
-    entry(Action::ZoomIn, "Zoom in", key(Key::Plus), "Moving"),
-    entry(Action::ZoomOut, "Zoom out", key(Key::Minus), "Moving"),
-    entry(Action::Pan(-1, 0), "Move left", key(Key::ArrowLeft), "Moving"),
-    entry(Action::Pan(1, 0), "Move right", key(Key::ArrowRight), "Moving"),
-    entry(Action::Pan(0, 1), "Move up", key(Key::ArrowUp), "Moving"),
-    entry(Action::Pan(0, -1), "Move down", key(Key::ArrowDown), "Moving"),
-    entry(Action::Back, "Back to the view before", key(Key::Backspace), "Moving"),
-    entry(Action::Forward, "Forward to the view after", shift(Key::Backspace), "Moving"),
-    entry(Action::Quantity, "Choose a quantity", key(Key::Q), "Colours"),
-    entry(Action::NextScale, "Linear, logarithmic, symlog", key(Key::L), "Colours"),
-    entry(Action::AutomaticRange, "Automatic range", key(Key::R), "Colours"),
-    entry(Action::NextMap, "Next colour map", key(Key::M), "Colours"),
-    entry(Action::ReverseMap, "Reverse the colour map", shift(Key::M), "Colours"),
-    entry(Action::FreezeRange, "Freeze the range", shift(Key::R), "Colours"),
-    entry(Action::Overlays, "All overlays", key(Key::O), "Over the picture"),
-    entry(Action::Isolines, "Isolines", key(Key::I), "Over the picture"),
-    entry(Action::Deform, "Deformed plate", key(Key::D), "Over the picture"),
-    entry(Action::Swing, "Play the deformation", shift(Key::D), "Over the picture"),
-    entry(Action::Mirror, "Whole of a half or quarter model", None, "Over the picture"),
-    entry(Action::Compare, "Direct against resampled", key(Key::C), "Over the picture"),
-    entry(Action::Probe, "Pin a probe at the pointer", key(Key::P), "Reading"),
-    entry(Action::CircleForK, "Circle around the nearest tip, for K", key(Key::K), "Reading"),
-    entry(Action::Draw(Tool::Probe), "Pin probes by clicks, or stop that", None, "Reading"),
-    entry(Action::Draw(Tool::Line), "Draw a line (or drag with Shift)", None, "Reading"),
-    entry(Action::Draw(Tool::Circle), "Draw a circle (or drag with Ctrl)", None, "Reading"),
-    entry(Action::Draw(Tool::Ray), "Draw a ray from a tip", None, "Reading"),
-    entry(Action::Draw(Tool::Crack), "Choose a crack by a click", None, "Reading"),
-    entry(Action::Extrema, "Mark the extrema of the view", None, "Reading"),
-    entry(
-        Action::Drawer(DrawerPage::Plot),
-        "Plot along a curve, or opening of a crack",
-        key(Key::X),
-        "Reading",
-    ),
-    entry(Action::Drawer(DrawerPage::Tips), "Table of the tips", key(Key::T), "Reading"),
-    entry(Action::Drawer(DrawerPage::Series), "Values over the steps", None, "Reading"),
-    entry(Action::Drawer(DrawerPage::Solver), "The solver's report", None, "Reading"),
-    entry(Action::Drawer(DrawerPage::Problem), "The problem's text", None, "Reading"),
-    entry(Action::Save(ExportChoice::Picture), "Save an image", key(Key::S), "Reading"),
-    entry(Action::Save(ExportChoice::Figure), "Save a figure", shift(Key::S), "Reading"),
-    entry(Action::Save(ExportChoice::Steps), "Save an animation of the steps", None, "Reading"),
-    entry(
-        Action::Save(ExportChoice::Deformation),
-        "Save an animation of the deformation",
-        None,
-        "Reading",
-    ),
-    entry(
-        Action::CopyCommand,
-        "Copy the command that draws this",
-        control_shift(Key::C),
-        "Reading",
-    ),
-    entry(Action::Step(-1), "Step before", key(Key::OpenBracket), "Reading"),
-    entry(Action::Step(1), "Step after", key(Key::CloseBracket), "Reading"),
-    entry(Action::Play, "Play the steps, or stop", key(Key::Space), "Reading"),
-    entry(Action::Open, "Open a file", control(Key::O), "Files and problems"),
-    entry(Action::OpenBeside, "Open a file beside", control_shift(Key::O), "Files and problems"),
-    entry(Action::Close, "Close the dataset", control(Key::W), "Files and problems"),
-    entry(Action::SaveSession, "Save the session", control(Key::S), "Files and problems"),
-    entry(
-        Action::SaveSessionAs,
-        "Save the session as another file",
-        control_shift(Key::S),
-        "Files and problems",
-    ),
-    entry(Action::SaveDataset, "Save the dataset", None, "Files and problems"),
-    entry(Action::ExportPage, "Export a page for browsers", None, "Files and problems"),
-    entry(Action::Solve, "Solve the problem", control(Key::Enter), "Files and problems"),
-    entry(Action::CancelSolving, "Cancel the solution", None, "Files and problems"),
-    entry(Action::SaveProblem, "Save the problem's text", None, "Files and problems"),
-    entry(
-        Action::SaveProblemAs,
-        "Save the problem's text as another file",
-        None,
-        "Files and problems",
-    ),
-    entry(Action::CloseProblem, "Close the problem's text", None, "Files and problems"),
-    entry(Action::Split, "Two views side by side", key(Key::V), "Window"),
-    entry(Action::Minus, "Difference of the two views", shift(Key::V), "Window"),
-    entry(Action::Undo, "Undo", control(Key::Z), "Window"),
-    entry(Action::Redo, "Redo", control_shift(Key::Z), "Window"),
-    entry(Action::Panels, "Show or hide the panels", key(Key::Tab), "Window"),
-    entry(Action::Theme, "Light or dark", None, "Window"),
-    entry(Action::Interface(1), "Enlarge the interface", control(Key::Plus), "Window"),
-    entry(Action::Interface(-1), "Reduce the interface", control(Key::Minus), "Window"),
-    entry(Action::Interface(0), "Interface in its usual size", control(Key::Num0), "Window"),
-    entry(Action::Help, "Keys", key(Key::H), "Window"),
-    entry(Action::Palette, "Find an action", control(Key::K), "Window"),
-    entry(Action::Quit, "Quit", control(Key::Q), "Window"),
+/// All actions below their headings, in the order of the help sheet. The keys for the interface's
+/// size are egui's own.
+#[rustfmt::skip]
+pub const GROUPS: &[(&str, &[ActionEntry])] = &[
+    ("Moving", &[
+        row(Fit, "F", "Show the whole plate", Dataset, "home reset fit zoom all"),
+        row(NextTip, "N", "Fly to the next tip", Tips, "go to zoom crack"),
+        row(Tip(0), "1", "Fly to tip 0", Tips, "go to zoom crack"),
+        row(Tip(1), "2", "Fly to tip 1", Tips, "go to zoom crack"),
+        row(Tip(2), "3", "Fly to tip 2", Tips, "go to zoom crack"),
+        row(Tip(3), "4", "Fly to tip 3", Tips, "go to zoom crack"),
+        row(Tip(4), "5", "Fly to tip 4", Tips, "go to zoom crack"),
+        row(Tip(5), "6", "Fly to tip 5", Tips, "go to zoom crack"),
+        row(Tip(6), "7", "Fly to tip 6", Tips, "go to zoom crack"),
+        row(Tip(7), "8", "Fly to tip 7", Tips, "go to zoom crack"),
+        row(Tip(8), "9", "Fly to tip 8", Tips, "go to zoom crack"),
+        row(ZoomIn, "Plus", "Zoom in", Dataset, "enlarge magnify larger"),
+        row(ZoomOut, "Minus", "Zoom out", Dataset, "reduce smaller"),
+        row(Pan(-1, 0), "Left", "Move left", Dataset, ""),
+        row(Pan(1, 0), "Right", "Move right", Dataset, ""),
+        row(Pan(0, 1), "Up", "Move up", Dataset, ""),
+        row(Pan(0, -1), "Down", "Move down", Dataset, ""),
+        row(Back, "Backspace", "Back to the view before", Dataset, ""),
+        row(Forward, "Shift+Backspace", "Forward to the view after", Dataset, ""),
+    ]),
+    ("Colours", &[
+        row(Quantity, "Q", "Choose a quantity", Dataset,
+            "variable stress strain displacement von mises formula error field component"),
+        row(NextScale, "L", "Linear, logarithmic, symlog", Dataset, "log scale"),
+        row(AutomaticRange, "R", "Automatic range", Dataset, "limits minimum maximum clim"),
+        row(NextMap, "M", "Next colour map", Dataset, "colormap cmap palette colour bar"),
+        row(ReverseMap, "Shift+M", "Reverse the colour map", Dataset,
+            "colormap cmap palette colour bar"),
+        row(FreezeRange, "Shift+R", "Freeze the range", Dataset, "limits minimum maximum clim"),
+    ]),
+    ("Over the image", &[
+        row(Overlays, "O", "All overlays", Dataset, "mesh cells patches cracks outline elements grid"),
+        row(Isolines, "I", "Isolines", Dataset, "contour level lines"),
+        row(Deform, "D", "Deformed plate", Displacements, "deformation warp displacement opening"),
+        row(Swing, "Shift+D", "Play the deformation", Displacements, "animate warp movie"),
+        row(Mirror, "", "Whole of a half or quarter model", Dataset, "mirror symmetry reflect"),
+        row(Compare, "C", "Direct against resampled", Dataset, "interpolation error sampling"),
+    ]),
+    ("Reading", &[
+        row(Probe, "P", "Pin a probe at the pointer", Dataset, "value pick point query marker"),
+        row(CircleForK, "K", "Circle around the nearest tip, for K", Tips,
+            "sif stress intensity factor k1 k2 j integral energy release"),
+        row(Draw(Tool::Probe), "", "Pin probes by clicks, or stop that", Dataset,
+            "value pick point query marker"),
+        row(Draw(Tool::Line), "", "Draw a line (or drag with Shift)", Dataset,
+            "profile path section cut"),
+        row(Draw(Tool::Circle), "", "Draw a circle (or drag with Ctrl)", Dataset,
+            "profile path section cut"),
+        row(Draw(Tool::Ray), "", "Draw a ray from a tip", Tips, "profile path section cut"),
+        row(Draw(Tool::Crack), "", "Choose a crack by a click", Dataset, "profile path section cut"),
+        row(Extrema, "", "Mark the extrema of the view", Dataset, "minimum maximum peak"),
+        row(Drawer(DrawerPage::Plot), "X", "Plot along a curve, or opening of a crack", Nothing,
+            "profile line graph chart sliding jump path csv"),
+        row(Drawer(DrawerPage::Tips), "T", "Table of the tips", Nothing,
+            "sif stress intensity factors k1 k2 t g energy release error"),
+        row(Drawer(DrawerPage::Series), "", "Values over the steps", Series,
+            "history steps growth k over time"),
+        row(Drawer(DrawerPage::Solver), "", "The solver's report", Nothing,
+            "error estimate warnings convergence unknowns condition"),
+        row(Drawer(DrawerPage::Problem), "", "The problem's text", Nothing,
+            "toml input edit loads material mesh cover"),
+        row(Save(ExportChoice::Image), "S", "Save an image", Dataset, "export image png screenshot"),
+        row(Save(ExportChoice::Figure), "Shift+S", "Save a figure", Dataset,
+            "export pdf svg png paper print image"),
+        row(Save(ExportChoice::Steps), "", "Save an animation of the steps", Series,
+            "export gif movie film video apng"),
+        row(Save(ExportChoice::Deformation), "", "Save an animation of the deformation", Displacements,
+            "export gif movie film video apng"),
+        row(CopyCommand, "Ctrl+Shift+C", "Copy the command that draws this", Dataset,
+            "export script shell"),
+        row(Step(-1), "OpenBracket", "Step before", Series, "time animation movie film"),
+        row(Step(1), "CloseBracket", "Step after", Series, "time animation movie film"),
+        row(Play, "Space", "Play the steps, or stop", Series, "time animation movie film"),
+    ]),
+    ("Files and problems", &[
+        row(Open, "Ctrl+O", "Open a file", Nothing, "load import file"),
+        row(OpenBeside, "Ctrl+Shift+O", "Open a file beside", Dataset, "load import file"),
+        row(Close, "Ctrl+W", "Close the dataset", Dataset, ""),
+        row(SaveSession, "Ctrl+S", "Save the session", Nothing, ""),
+        row(SaveSessionAs, "Ctrl+Shift+S", "Save the session as another file", Nothing, ""),
+        row(SaveDataset, "", "Save the dataset", Dataset, "export h5 hdf5 result"),
+        row(ExportPage, "", "Export a page for browsers", Dataset, "save html web internet share"),
+        row(Solve, "Ctrl+Enter", "Solve the problem", Text, "run compute calculate"),
+        row(CancelSolving, "", "Cancel the solution", Solution, "stop abort"),
+        row(SaveProblem, "", "Save the problem's text", Text, ""),
+        row(SaveProblemAs, "", "Save the problem's text as another file", Text, ""),
+        row(CloseProblem, "", "Close the problem's text", Text, ""),
+    ]),
+    ("Window", &[
+        row(Split, "V", "Two views side by side", Dataset, "compare side window"),
+        row(Minus, "Shift+V", "Difference of the two views", Dataset, "compare subtract error"),
+        row(Undo, "Ctrl+Z", "Undo", Nothing, ""),
+        row(Redo, "Ctrl+Shift+Z", "Redo", Nothing, ""),
+        row(Panels, "Tab", "Show or hide the panels", Nothing, "sidebar controls full screen"),
+        row(Theme, "", "Light or dark", Nothing, "theme dark mode appearance colours"),
+        row(Interface(1), "Ctrl+Plus", "Enlarge the interface", Nothing, SCALE),
+        row(Interface(-1), "Ctrl+Minus", "Reduce the interface", Nothing, SCALE),
+        row(Interface(0), "Ctrl+0", "Interface in its usual size", Nothing, SCALE),
+        row(Help, "H", "Keys", Nothing, "shortcuts keyboard manual font"),
+        row(Palette, "Ctrl+K", "Find an action", Nothing, "search command"),
+        row(Quit, "Ctrl+Q", "Quit", Nothing, "exit leave close window"),
+    ]),
 ];
+
+const SCALE: &str = "zoom scale font size letters larger smaller interface";
+
+/// All actions, in the order of the help sheet.
+pub fn all() -> impl Iterator<Item = &'static ActionEntry> + Clone {
+    GROUPS.iter().flat_map(|(_, entries)| *entries)
+}
 
 /// The gestures of the mouse, and keys that are no actions: what is done by hand, what comes of it,
 /// and the heading that it stands below on the help sheet.
@@ -346,8 +319,7 @@ pub const GESTURES: &[(&str, &str, &str)] = &[
 ];
 
 /// A shortcut as people write it: with the signs of keys that have one.
-#[must_use]
-pub fn spelled(ctx: &egui::Context, key: &KeyboardShortcut) -> String {
+pub(crate) fn spelled(ctx: &egui::Context, key: &KeyboardShortcut) -> String {
     const SIGNS: [(&str, &str); 4] =
         [("OpenBracket", "["), ("CloseBracket", "]"), ("Plus", "+"), ("Minus", "−")];
     let text = ctx.format_shortcut(key);
@@ -388,23 +360,19 @@ pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
 
 fn by_shortcuts(ctx: &egui::Context) -> Vec<Action> {
     let is_writing = ctx.egui_wants_keyboard_input() || egui::Popup::is_any_open(ctx);
-    let mut all: Vec<&ActionEntry> = ALL.iter().collect();
+    let mut keys: Vec<_> =
+        all().filter_map(|entry| Some((entry.shortcut()?, entry.action))).collect();
     // the more keys of a shortcut, the sooner it is asked, so that Ctrl+Z does not
     // take Ctrl+Shift+Z
-    all.sort_by_key(|entry| {
-        entry.key.map_or(0, |k| -i32::from(k.modifiers.shift) - i32::from(k.modifiers.command))
-    });
+    keys.sort_by_key(|(key, _)| -i32::from(key.modifiers.shift) - i32::from(key.modifiers.command));
     ctx.input_mut(|input| {
-        let is_pressed = |entry: &&&ActionEntry| {
-            let Some(key) = entry.key.filter(|_| entry.action != Action::Panels) else {
-                return false;
-            };
+        let is_pressed = |(key, action): &(KeyboardShortcut, Action)| {
             // a text takes back its own changes
-            let is_of_texts = matches!(entry.action, Action::Undo | Action::Redo);
+            let is_of_texts = matches!(action, Undo | Redo);
             let is_free = !is_writing || (key.modifiers.command && !is_of_texts);
-            is_free && input.consume_shortcut(&key)
+            *action != Panels && is_free && input.consume_shortcut(key)
         };
-        all.iter().filter(is_pressed).map(|entry| entry.action).collect()
+        keys.into_iter().filter(is_pressed).map(|(_, action)| action).collect()
     })
 }
 
@@ -417,14 +385,17 @@ mod tests {
     #[test]
     fn no_key_has_two_meanings_and_no_two_actions_one_name() {
         let keys: Vec<String> =
-            ALL.iter().filter_map(|entry| entry.key).map(|key| format!("{key:?}")).collect();
+            all().filter_map(ActionEntry::shortcut).map(|key| format!("{key:?}")).collect();
         assert_eq!(keys.iter().collect::<BTreeSet<_>>().len(), keys.len());
-        let names: BTreeSet<_> = ALL.iter().map(|entry| entry.name).collect();
-        assert_eq!(names.len(), ALL.len());
+        let names: BTreeSet<_> = all().map(|entry| entry.name).collect();
+        assert_eq!(names.len(), all().count());
     }
 
+    /// A key that is misspelt would do nothing.
     #[test]
-    fn every_action_stands_below_a_heading() {
-        assert!(ALL.iter().all(|entry| GROUPS.contains(&entry.group)));
+    fn every_key_and_gesture_is_understood() {
+        assert!(all().all(|entry| entry.key.is_empty() == entry.shortcut().is_none()));
+        let has_heading = |group: &&str| GROUPS.iter().any(|(heading, _)| heading == group);
+        assert!(GESTURES.iter().all(|(.., group)| has_heading(group)));
     }
 }

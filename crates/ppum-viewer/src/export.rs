@@ -1,5 +1,6 @@
 //! Exports from the window: images, figures, animations, and the command that draws them.
 
+use std::error::Error;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -7,10 +8,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use ppum::progress::Watcher;
 use ppum_figure::figure::{BarPlace, FigureStyle, hugging, plot_area};
 use ppum_figure::form::PageFormat;
-use ppum_render::view::View;
+use ppum_render::view::{View, ViewError};
 use ppum_scene::command;
-use ppum_scene::difference::DifferenceSide;
-use ppum_scene::drawing::DisplayedQuantity;
+use ppum_scene::deformed::Magnification;
 use ppum_scene::engine::Engine;
 use ppum_scene::moving::{
     AnimationFormat as Animation, FrameSource, InMemory, MotionKind, SeriesAnimation, Work,
@@ -24,23 +24,13 @@ use ppum_scene::scene::SceneRequest;
 use ppum_scene::shot::{FieldSource, page, reshaped, title, view_in};
 
 use crate::field::OwnedField;
-
-/// An image, a figure or an animation to export.
-#[derive(Clone, Debug, PartialEq)]
-pub enum ExportKind {
-    /// The image alone, as it is seen.
-    Picture,
-    /// With axes, colour bar and title.
-    Figure,
-    /// Several, one after the other, so many a second.
-    Moving(MotionKind, f64),
-}
+use crate::frames::Subtrahend;
 
 /// The kinds of files that can be chosen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ExportChoice {
     /// The image alone.
-    Picture,
+    Image,
     /// With axes, colour bar and title.
     Figure,
     /// The steps of a series.
@@ -51,26 +41,49 @@ pub enum ExportChoice {
 
 impl ExportChoice {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Picture, Self::Figure, Self::Steps, Self::Deformation];
+    pub const ALL: [Self; 4] = [Self::Image, Self::Figure, Self::Steps, Self::Deformation];
 
     /// Its name.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
-            Self::Picture => "Image",
+            Self::Image => "Image",
             Self::Figure => "Figure",
             Self::Steps => "Animation of the steps",
             Self::Deformation => "Animation of the deformation",
         }
     }
 
+    /// True for animations.
+    pub(crate) fn is_moving(self) -> bool {
+        matches!(self, Self::Steps | Self::Deformation)
+    }
+
     /// Returns the endings of its file names, the usual one first.
     #[must_use]
     pub fn ends(self) -> &'static [&'static str] {
         match self {
-            Self::Picture | Self::Figure => &["png", "svg", "pdf"],
+            Self::Image | Self::Figure => &["png", "svg", "pdf"],
             Self::Steps | Self::Deformation => &["gif", "apng", "png"],
         }
+    }
+}
+
+/// How an animation moves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Motion {
+    /// Images a second.
+    pub rate: f64,
+    /// Images of the deformation's coming and going.
+    pub count: usize,
+    /// How many times its displacement the body is drawn with at most; automatic if it is not
+    /// given.
+    pub factor: Option<f64>,
+}
+
+impl Default for Motion {
+    fn default() -> Self {
+        Self { rate: 12.0, count: 36, factor: None }
     }
 }
 
@@ -131,8 +144,7 @@ impl PageSize {
     }
 
     /// Returns the page in another unit.
-    #[must_use]
-    pub fn in_unit(self, unit: LengthUnit) -> Self {
+    pub(crate) fn in_unit(self, unit: LengthUnit) -> Self {
         let factor = unit.words().1 / self.unit.words().1;
         let round = |length: f64| match unit {
             LengthUnit::Pixel => length.round(),
@@ -161,7 +173,7 @@ pub struct ImageExport {
     /// The file of its dataset.
     pub file: Option<PathBuf>,
     /// The subtrahend: a field, and what is shown of it.
-    pub left: Option<(Arc<OwnedField>, Arc<DisplayedQuantity>)>,
+    pub left: Option<Subtrahend>,
     /// The shown scene.
     pub scene: SceneRequest,
     /// Where.
@@ -169,27 +181,31 @@ pub struct ImageExport {
     /// The page.
     pub page: PageSize,
     /// The kind of the file.
-    pub kind: ExportKind,
+    pub choice: ExportChoice,
+    /// The motion of an animation.
+    pub motion: Motion,
 }
+
+type Failure = Box<dyn Error>;
 
 /// Why there is no animation of a difference.
 const NOT_MOVING: &str =
-    "an animation is of one view; save pictures of the difference, or switch it off (Shift+V)";
+    "an animation is of one view; save images of the difference, or switch it off (Shift+V)";
 /// Why there is no command of a difference.
 pub const NO_COMMAND: &str = "no command draws the difference of two views; a session does: ppum view --session … --screenshot …";
 
 impl ImageExport {
     /// The look of a figure, none of a bare image; in words why there is none.
-    fn design(&self, request: &Request) -> Result<Option<FigureStyle>, String> {
-        if self.kind == ExportKind::Picture {
+    fn design(&self, request: &Request) -> Result<Option<FigureStyle>, Failure> {
+        if self.choice == ExportChoice::Image {
             return Ok(None);
         }
         let design = self.page.design();
         if self.page.height.is_some() || self.page.unit == LengthUnit::Pixel {
             return Ok(Some(design));
         }
-        let title = title(self.source(), request).map_err(|e| e.to_string())?;
-        let room = |design: &FigureStyle| plot_area(&title, design).map_err(|e| e.to_string());
+        let title = title(self.source(), request)?;
+        let room = |design: &FigureStyle| Ok(plot_area(&title, design)?);
         let aspect = self.view.width / self.view.height();
         hugging(&design, aspect, [1, 1], &BarPlace::ANYWHERE, room).map(Some)
     }
@@ -207,42 +223,40 @@ impl ImageExport {
         done: &AtomicUsize,
     ) -> Result<(Vec<u8>, Vec<Notice>), String> {
         let engine = Engine::processor(watcher);
-        let bytes = match &self.kind {
-            ExportKind::Moving(..) if self.left.is_some() => Err(NOT_MOVING.into()),
-            ExportKind::Moving(moving, rate) => self.moving((moving, *rate), path, &engine, done),
-            _ => self.still(path, &engine),
+        let bytes = match self.choice {
+            ExportChoice::Image | ExportChoice::Figure => self.still(path, &engine),
+            _ if self.left.is_some() => Err(NOT_MOVING.into()),
+            ExportChoice::Steps | ExportChoice::Deformation => self.moving(path, &engine, done),
         };
-        Ok((bytes?, engine.into_notices()))
+        Ok((bytes.map_err(|error| error.to_string())?, engine.into_notices()))
     }
 
     /// The view on the pixels of the page; that of a figure gets the shape of its plot later.
-    fn shaped(&self, design: Option<&FigureStyle>) -> Result<View, String> {
+    fn shaped(&self, design: Option<&FigureStyle>) -> Result<View, ViewError> {
         match design {
             Some(_) => Ok(self.view),
-            None => reshaped(&self.view, self.page.design().size).map_err(|e| e.to_string()),
+            None => reshaped(&self.view, self.page.design().size),
         }
     }
 
     fn source(&self) -> FieldSource<'_> {
-        let left = self.left.as_ref();
-        let left = left.map(|(field, shown)| DifferenceSide { field: field.field(), shown });
+        let left = self.left.as_ref().map(Subtrahend::side);
         FieldSource { dataset: self.field.dataset(), field: self.field.field(), left }
     }
 
     /// Returns the request of the image; a page shows the cracks where the window does.
     fn request(&self) -> Request {
         let mut scene = self.scene.clone();
-        let is_page = self.kind != ExportKind::Picture;
+        let is_page = self.choice != ExportChoice::Image;
         scene.overlays.no_cracks = is_page && !scene.overlays.shown.contains(&Overlay::Cracks);
         Request::from(scene)
     }
 
-    fn still(&self, path: &Path, engine: &Engine<'_>) -> Result<Vec<u8>, String> {
+    fn still(&self, path: &Path, engine: &Engine<'_>) -> Result<Vec<u8>, Failure> {
         let (source, request) = (self.source(), self.request());
         let design = self.design(&request)?;
         let view = self.shaped(design.as_ref())?;
-        let made = page(source, &request, &view, design.as_ref(), engine);
-        let (page, shot) = made.map_err(|e| e.to_string())?;
+        let (page, shot) = page(source, &request, &view, design.as_ref(), engine)?;
         // files that are passed on do not say in which folder they were made
         let names = [self.file.as_deref(), Some(path)].map(|path| path.and_then(Path::file_name));
         let [file, output] =
@@ -257,31 +271,44 @@ impl ImageExport {
         let form = PageFormat::of(path);
         Notice::of_glyphs(&page, form).into_iter().for_each(|notice| engine.tell(notice));
         let dpi = design.filter(|_| self.page.unit != LengthUnit::Pixel).map(|design| design.dpi);
-        form.bytes(&page, dpi, &texts).map_err(|e| e.to_string())
+        Ok(form.bytes(&page, dpi, &texts)?)
+    }
+
+    /// The number of images of an animation.
+    pub(crate) fn count(&self) -> usize {
+        match self.choice {
+            ExportChoice::Steps => self.field.dataset().steps.len(),
+            _ => self.motion.count,
+        }
     }
 
     fn moving(
         &self,
-        (moving, rate): (&MotionKind, f64),
         path: &Path,
         engine: &Engine<'_>,
         done: &AtomicUsize,
-    ) -> Result<Vec<u8>, String> {
+    ) -> Result<Vec<u8>, Failure> {
         let (source, request) = (self.source(), self.request());
-        let frames = InMemory::new(source.dataset, &request, moving).map_err(|e| e.to_string())?;
-        let frames = CountedFrames { frames, done };
+        let automatic = || Magnification::Auto.number(&[source.field]).unwrap_or(1.0);
+        let moving = match self.choice {
+            ExportChoice::Steps => MotionKind::Steps((0..self.count()).collect()),
+            _ => MotionKind::Factor(self.motion.factor.unwrap_or_else(automatic), self.count()),
+        };
+        let frames =
+            CountedFrames { frames: InMemory::new(source.dataset, &request, &moving)?, done };
         let design = self.design(&request)?;
         let view = self.shaped(design.as_ref())?;
-        let room = |design| frames.room(design).map_err(|e| e.to_string());
-        let room = design.as_ref().map_or(Ok(view.pixels), room)?;
-        let view = reshaped(&view, room).map_err(|e| e.to_string())?;
+        let room = match &design {
+            Some(design) => frames.room(design)?,
+            None => view.pixels,
+        };
+        let view = reshaped(&view, room)?;
         done.store(0, Ordering::Relaxed);
-        let film = SeriesAnimation::new(&frames, &view, design.as_ref(), engine)
-            .map_err(|e| e.to_string())?;
-        let milliseconds = (1000.0 / rate).round().clamp(10.0, 60_000.0) as u16;
+        let animation = SeriesAnimation::new(&frames, &view, design.as_ref(), engine)?;
+        let milliseconds = (1000.0 / self.motion.rate).round().clamp(10.0, 60_000.0) as u16;
         let is_gif = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("gif"));
         let (form, mut bytes) = (if is_gif { Animation::Gif } else { Animation::Apng }, Vec::new());
-        film.write(form, milliseconds, &|_| Vec::new(), &mut bytes).map_err(|e| e.to_string())?;
+        animation.write(form, milliseconds, &|_| Vec::new(), &mut bytes)?;
         Ok(bytes)
     }
 
@@ -291,10 +318,10 @@ impl ImageExport {
     /// A size without room for a figure, a difference, which no command draws; in words.
     pub fn command(&self, output: &Path) -> Result<String, String> {
         let file = self.file.as_deref().map_or(NAMELESS.into(), Path::to_string_lossy);
-        self.command_of(&file, &output.to_string_lossy())
+        self.command_of(&file, &output.to_string_lossy()).map_err(|error| error.to_string())
     }
 
-    fn command_of(&self, file: &str, output: &str) -> Result<String, String> {
+    fn command_of(&self, file: &str, output: &str) -> Result<String, Failure> {
         if self.left.is_some() {
             return Err(NO_COMMAND.into());
         }
@@ -303,14 +330,14 @@ impl ImageExport {
         let mut view = self.shaped(design.as_ref())?;
         request.look.size = Some(view.pixels);
         if let Some(design) = &design {
-            view = view_in(source, &request, &view, design).map_err(|e| e.to_string())?;
+            view = view_in(source, &request, &view, design)?;
             (request.figure, request.look) = (true, PageStyle::of(design));
         }
         request.place = ViewRegion::of(&view);
         let mut words = command::render(&request, file, output);
-        if let ExportKind::Moving(MotionKind::Steps(_), rate) = self.kind {
+        if self.choice == ExportChoice::Steps {
             words.retain(|word| !word.starts_with("--step="));
-            words.extend(["--steps=all".to_owned(), format!("--fps={rate:?}")]);
+            words.extend(["--steps=all".to_owned(), format!("--fps={:?}", self.motion.rate)]);
         }
         Ok(command::line(&words))
     }

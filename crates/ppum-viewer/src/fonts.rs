@@ -8,8 +8,7 @@ const TEXT: &[u8] = include_bytes!("../data/DejaVuSans-window.ttf");
 const FIXED: &[u8] = include_bytes!("../data/DejaVuSansMono-window.ttf");
 
 /// DejaVu Sans, and DejaVu Sans Mono for texts that are edited.
-#[must_use]
-pub fn fonts() -> FontDefinitions {
+pub(crate) fn fonts() -> FontDefinitions {
     let mut fonts = FontDefinitions::empty();
     let mut add = |name: &str, file: &'static [u8]| {
         fonts.font_data.insert(name.to_owned(), Arc::new(FontData::from_static(file)));

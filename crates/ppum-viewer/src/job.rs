@@ -21,8 +21,7 @@ pub struct CancelToken(Arc<AtomicBool>);
 
 impl CancelToken {
     /// True if nobody wants the work any more.
-    #[must_use]
-    pub fn is_set(&self) -> bool {
+    pub(crate) fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }
@@ -58,8 +57,16 @@ impl<T: Send + 'static> BackgroundJob<T> {
         match self.receiver.try_recv() {
             Ok(outcome) => Some(outcome),
             Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err("the work has ended early".into())),
+            Err(TryRecvError::Disconnected) => Some(Err(ENDED.into())),
         }
+    }
+
+    /// Waits for the result.
+    ///
+    /// # Errors
+    /// A panic of the work.
+    pub fn wait(&self) -> Result<T, String> {
+        self.receiver.recv().unwrap_or_else(|_| Err(ENDED.into()))
     }
 
     /// Asks the work to stop; its result still comes.
@@ -68,8 +75,7 @@ impl<T: Send + 'static> BackgroundJob<T> {
     }
 
     /// True once it was asked to stop.
-    #[must_use]
-    pub fn is_cancelled(&self) -> bool {
+    pub(crate) fn is_cancelled(&self) -> bool {
         self.stop.is_set()
     }
 }
@@ -80,11 +86,13 @@ impl<T> Drop for BackgroundJob<T> {
     }
 }
 
+const ENDED: &str = "the work has ended early";
+
 /// Returns the message of a panic.
 fn words(panic: &(dyn Any + Send)) -> String {
     let said = panic.downcast_ref::<&str>().copied();
     let said = said.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
-    format!("a mistake of ppum itself, please report it: {}", said.unwrap_or("no words"))
+    format!("internal error, please report it: {}", said.unwrap_or("no words"))
 }
 
 #[cfg(test)]

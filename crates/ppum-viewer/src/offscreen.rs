@@ -29,7 +29,7 @@ pub enum ScreenshotError {
     #[error("the window was not complete after {0} s")]
     Late(u64),
     /// The device has failed.
-    #[error("the picture of the window cannot be read back from the graphics device: {0}")]
+    #[error("the image of the window cannot be read back from the graphics device: {0}")]
     Device(String),
     /// More pixels than the device draws.
     #[error("the window has {0} × {1} pixels, and the graphics device draws at most {2} × {2}")]
@@ -86,7 +86,7 @@ fn at_rest(
             return Err(ScreenshotError::File(note.text.clone()));
         }
         if rest > SETTLED {
-            let failure = viewer.stages.iter().find_map(|stage| stage.frames.failure());
+            let failure = viewer.viewports.iter().find_map(|viewport| viewport.frames.failure());
             return match failure {
                 Some(failure) => Err(ScreenshotError::Picture(failure.message.clone())),
                 None => Ok(output),
@@ -160,7 +160,7 @@ mod tests {
     use ppum_testkit::skipped::skipped;
 
     use super::*;
-    use crate::stage::pixels;
+    use crate::viewport::pixels;
 
     const PIXELS: [u32; 2] = [420, 300];
 

@@ -5,48 +5,51 @@ use std::sync::Arc;
 
 use ppum::dataset::Dataset;
 use ppum_page::{LARGEST, PageStart, PageView, html};
+use ppum_render::view::View;
 use ppum_scene::overlays::Overlay;
-use ppum_scene::scene::Subject;
+use ppum_scene::scene::{SceneRequest, Subject};
 use ppum_scene::shot::FieldSource;
 
-use crate::files::window_state::replace;
-use crate::session::Pane;
-use crate::stage::ViewPane;
+use crate::frames::RenderedFrame;
+use crate::save_target::replace;
 
 /// A page that is to be written: the same as `ppum export` writes.
-pub(crate) struct PageOrder {
+#[derive(Debug)]
+pub struct PageOrder {
     dataset: Arc<Dataset>,
     start: PageStart,
 }
 
-const NO_PICTURE: &str = "there is no picture yet";
+const NO_IMAGE: &str = "there is no image yet";
 const NO_DIFFERENCE: &str = "a page is of one view: switch the difference off (Shift+V)";
 const NO_SUBJECT: &str =
     "a page shows the whole field with the functions of its file: choose these";
 
 impl PageOrder {
-    /// The page of what a pane shows.
+    /// The page of an image of a dataset's file, of the whole body if it has no view.
     ///
     /// # Errors
     /// The features, in words, that pages do not have.
-    pub(crate) fn new(pane: &Pane, stage: &ViewPane) -> Result<Self, String> {
-        let frame = stage.frame().ok_or(NO_PICTURE)?;
-        if frame.left().is_some() {
+    pub(crate) fn new(
+        frame: Option<&Arc<RenderedFrame>>,
+        mut scene: SceneRequest,
+        view: Option<View>,
+        file: Option<&Path>,
+    ) -> Result<Self, String> {
+        let frame = frame.ok_or(NO_IMAGE)?;
+        if frame.left.is_some() {
             return Err(NO_DIFFERENCE.into());
         }
-        let mut scene = pane.scene.clone();
         if (Subject { step: scene.subject.step, ..Subject::default() }) != scene.subject {
             return Err(NO_SUBJECT.into());
         }
         scene.overlays.no_cracks = !scene.overlays.shown.contains(&Overlay::Cracks);
-        let view = stage.view.filter(|_| pane.place.is_some());
-        let view = view.map(PageView::from);
-        let path = stage.opened.as_ref().and_then(|opened| opened.path.as_deref());
-        let file = path.map_or("dataset.h5".to_owned(), crate::files::name);
+        let name = file.and_then(Path::file_name);
+        let name = name.map_or("dataset.h5".into(), |name| name.display().to_string());
         let source = FieldSource::of(frame.field.dataset(), frame.field.field());
-        let start = PageStart::new(scene, source, view, file);
+        let start = PageStart::new(scene, source, view.map(PageView::from), name);
         let start = start.map_err(|error| error.to_string())?;
-        Ok(Self { dataset: Arc::clone(&frame.wanted.dataset), start })
+        Ok(Self { dataset: Arc::clone(&frame.request.dataset), start })
     }
 
     /// Writes it.
@@ -60,6 +63,6 @@ impl PageOrder {
         }
         let page = html(&bytes, self.start.title(&self.dataset), &self.start);
         let page = page.map_err(|error| error.to_string())?;
-        replace(path, &page).map_err(|error| error.to_string())
+        replace(path, page.as_bytes()).map_err(|error| error.to_string())
     }
 }

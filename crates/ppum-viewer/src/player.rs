@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use ppum::dataset::Dataset;
 
 use crate::session::Pane;
-use crate::stage::ViewPane;
+use crate::viewport::ViewState;
 
 /// The player of the steps.
 #[derive(Clone, Debug)]
@@ -40,10 +40,10 @@ impl Player {
     }
 
     /// Goes on to the next step when it is time, and the one before was seen.
-    pub fn advance(&mut self, ctx: &egui::Context, pane: &mut Pane, stage: &ViewPane) {
-        let Some(opened) = stage.opened.as_ref().filter(|_| self.is_playing) else { return };
+    pub fn advance(&mut self, ctx: &egui::Context, pane: &mut Pane, viewport: &ViewState) {
+        let Some(opened) = viewport.opened.as_ref().filter(|_| self.is_playing) else { return };
         // an image that is ready wakes the window
-        if stage.frames.is_working() {
+        if viewport.frames.is_working() {
             return;
         }
         let pause = Duration::from_secs_f64(1.0 / self.speed);

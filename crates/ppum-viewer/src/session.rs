@@ -63,8 +63,7 @@ pub struct ProblemDraft {
 
 impl ProblemDraft {
     /// The text of an example or a dataset, which nobody has changed yet.
-    #[must_use]
-    pub fn unchanged(text: String) -> Self {
+    pub(crate) fn unchanged(text: String) -> Self {
         Self { original: Some(text.clone()), text, ..Self::default() }
     }
 
@@ -276,8 +275,7 @@ impl Session {
     }
 
     /// Without places, files and the problem's text.
-    #[must_use]
-    pub fn settings(&self) -> Self {
+    pub(crate) fn settings(&self) -> Self {
         let draft = None;
         let mut settings = Self { draft, ..self.clone() };
         for pane in &mut settings.panes {
@@ -287,8 +285,7 @@ impl Session {
     }
 
     /// A session of the same looks in which nothing is open.
-    #[must_use]
-    pub fn look(&self) -> Self {
+    pub(crate) fn look(&self) -> Self {
         Self { panels: self.panels, linked: self.linked, theme: self.theme, ..Self::default() }
     }
 
@@ -306,8 +303,7 @@ impl Session {
 
 impl VisibleRegion {
     /// The place of a view.
-    #[must_use]
-    pub fn of(view: &View) -> Self {
+    pub(crate) fn of(view: &View) -> Self {
         Self { center: view.center.into(), width: view.width }
     }
 
@@ -320,8 +316,7 @@ impl VisibleRegion {
     }
 
     /// The middle.
-    #[must_use]
-    pub fn center(&self) -> Vec2 {
+    pub(crate) fn center(&self) -> Vec2 {
         vec2(self.center[0], self.center[1])
     }
 }

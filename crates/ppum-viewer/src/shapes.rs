@@ -23,8 +23,7 @@ impl ImagePlacement {
     }
 
     /// A position in pixels of the image.
-    #[must_use]
-    pub fn at(&self, point: ppum::vec2::Vec2) -> Pos2 {
+    pub(crate) fn at(&self, point: ppum::vec2::Vec2) -> Pos2 {
         self.corner + vec2(point.x as f32, point.y as f32) * self.scale
     }
 
@@ -108,8 +107,7 @@ fn picture(painter: &egui::Painter, placed: ImagePlacement, image: &Image, corne
 }
 
 /// A colour of figures.
-#[must_use]
-pub fn color([r, g, b, a]: Rgba) -> Color32 {
+pub(crate) fn color([r, g, b, a]: Rgba) -> Color32 {
     Color32::from_rgba_unmultiplied(r, g, b, a)
 }
 

@@ -8,7 +8,7 @@ use egui::{ClippedPrimitive, Context, FullOutput, TexturesDelta};
 use pollster::block_on;
 use std::time::Duration;
 
-use crate::stage::pixels;
+use crate::viewport::pixels;
 
 /// A texture of the window's size, and the device that draws on it: a graphics card, or software.
 pub struct Surface {

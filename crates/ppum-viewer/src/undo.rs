@@ -17,11 +17,6 @@ impl<T: Clone + PartialEq> Undo<T> {
         Self { past: Vec::new(), now, future: Vec::new() }
     }
 
-    /// The state that was noted last.
-    pub fn now(&self) -> &T {
-        &self.now
-    }
-
     /// Notes a state if it is another one; what was undone is forgotten then.
     pub fn note(&mut self, state: &T) {
         if *state == self.now {
@@ -40,23 +35,14 @@ impl<T: Clone + PartialEq> Undo<T> {
         if back { self.past.last() } else { self.future.last() }
     }
 
-    /// The state before, if there is one.
-    pub fn back(&mut self) -> Option<&T> {
-        let before = self.past.pop()?;
-        self.future.push(std::mem::replace(&mut self.now, before));
+    /// The state before, or that which was undone last, if there is one.
+    pub fn go(&mut self, back: bool) -> Option<&T> {
+        let (from, to) = match back {
+            true => (&mut self.past, &mut self.future),
+            false => (&mut self.future, &mut self.past),
+        };
+        to.push(std::mem::replace(&mut self.now, from.pop()?));
         Some(&self.now)
-    }
-
-    /// The state that was undone last, if there is one.
-    pub fn forward(&mut self) -> Option<&T> {
-        let after = self.future.pop()?;
-        self.past.push(std::mem::replace(&mut self.now, after));
-        Some(&self.now)
-    }
-
-    /// True if there is a state before, and one after.
-    pub fn has(&self) -> [bool; 2] {
-        [!self.past.is_empty(), !self.future.is_empty()]
     }
 }
 
@@ -99,14 +85,14 @@ mod tests {
         for state in [1, 1, 2, 3] {
             undo.note(&state);
         }
-        assert_eq!(undo.back().copied(), Some(2));
-        assert_eq!(undo.back().copied(), Some(1));
-        assert_eq!(undo.forward().copied(), Some(2));
+        assert_eq!(undo.go(true).copied(), Some(2));
+        assert_eq!(undo.go(true).copied(), Some(1));
+        assert_eq!(undo.go(false).copied(), Some(2));
         undo.note(&7);
-        assert_eq!(undo.forward(), None);
-        assert_eq!([undo.back().copied(), undo.back().copied()], [Some(2), Some(1)]);
-        assert_eq!([undo.back().copied(), undo.back().copied()], [Some(0), None]);
-        assert_eq!(undo.has(), [false, true]);
+        assert_eq!(undo.go(false), None);
+        assert_eq!([undo.go(true).copied(), undo.go(true).copied()], [Some(2), Some(1)]);
+        assert_eq!([undo.go(true).copied(), undo.go(true).copied()], [Some(0), None]);
+        assert_eq!([true, false].map(|back| undo.next(back).is_some()), [false, true]);
     }
 
     #[test]
@@ -122,6 +108,6 @@ mod tests {
     fn a_long_history_is_bounded() {
         let mut undo = Undo::new(0);
         (1..2000).for_each(|state| undo.note(&state));
-        assert_eq!(std::iter::from_fn(|| undo.back().copied()).count(), MOST);
+        assert_eq!(std::iter::from_fn(|| undo.go(true).copied()).count(), MOST);
     }
 }

@@ -12,7 +12,7 @@ use crate::app::{Viewer, closing};
 use crate::files::{WindowFiles, window_state};
 use crate::frames::Backend;
 use crate::session::Session;
-use crate::stage::pixels;
+use crate::viewport::pixels;
 
 /// How the window begins.
 #[derive(Debug, Default)]

@@ -99,8 +99,7 @@ impl Domain {
     }
 
     fn edge_lines(&self) -> impl Iterator<Item = BorderLine> + use<> {
-        let corners = self.bounds.corners();
-        (0..4).map(move |k| BorderLine { ends: [corners[k], corners[(k + 1) % 4]], hole: None })
+        self.bounds.sides().into_iter().map(|ends| BorderLine { ends, hole: None })
     }
 
     /// The straight line of the boundary that holds all points of a crack.

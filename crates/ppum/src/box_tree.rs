@@ -8,7 +8,7 @@
 use std::ops::Range;
 
 use crate::morton::morton;
-use crate::vec2::{Rect, Vec2, vec2};
+use crate::vec2::{Rect, Vec2};
 
 /// Boxes of a group: a query tests some more than with 4, and passes half as many levels.
 const GROUP: usize = 8;
@@ -99,7 +99,7 @@ impl From<Vec<Rect>> for BoxTree {
         assert!(u32::try_from(boxes.len()).is_ok(), "at most 2^32 - 1 boxes");
         for b in &mut boxes {
             if !is_a_box(b) {
-                *b = NOWHERE;
+                *b = Rect::EMPTY;
             }
         }
         let levels = levels(boxes);
@@ -111,12 +111,6 @@ impl From<Vec<Rect>> for BoxTree {
         Self { levels: self::levels(sorted), order: Some(order) }
     }
 }
-
-/// Contains no point and overlaps nothing; bounds with others are those of the others.
-const NOWHERE: Rect = Rect {
-    min: vec2(f64::INFINITY, f64::INFINITY),
-    max: vec2(f64::NEG_INFINITY, f64::NEG_INFINITY),
-};
 
 /// False for boxes with bounds in the wrong order, or undefined.
 fn is_a_box(b: &Rect) -> bool {
@@ -135,7 +129,7 @@ fn levels(boxes: Vec<Rect>) -> Vec<Vec<Rect>> {
 
 /// The box around some.
 fn bounds(boxes: &[Rect]) -> Rect {
-    boxes.iter().fold(NOWHERE, |all, b| all.union(b))
+    boxes.iter().fold(Rect::EMPTY, |all, b| all.union(b))
 }
 
 /// True if the perimeters of all groups together are no longer than those of the boxes. Those of n
@@ -164,6 +158,7 @@ fn morton_order(levels: &[Vec<Rect>]) -> Vec<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::vec2::vec2;
     use ppum_testkit::random::Random;
 
     /// Problems that are wrong have holes of negative radii; their boxes harm nobody.

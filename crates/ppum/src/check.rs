@@ -50,9 +50,9 @@ impl Dataset {
         let has_formulas = formulas::check(self, &mut errors);
         if has_domain
             && has_formulas
-            && let Some((name, mistake)) = self.equation.mistake(&self.domain)
+            && let Some((name, message)) = self.equation.invalid_constant(&self.domain)
         {
-            errors.add(fail(&format!("equation.{name}"), mistake));
+            errors.add(fail(&format!("equation.{name}"), message));
         }
         errors.add(require(!self.steps.is_empty(), "steps", || {
             "a dataset needs at least one step".into()
@@ -145,7 +145,7 @@ mod tests {
     use crate::crack::{Crack, CrackEnd, End, SegmentId, TipId};
     use crate::dataset::{Attribute, BoxPartition, FieldData, Ring, TipIntensity};
     use crate::equation::{Material, StressState};
-    use crate::function::{Cut, CutSide, Frame, FunctionKind};
+    use crate::function::{Cut, CutBranch, Frame, FunctionKind};
     use crate::vec2::{Rect, vec2};
     use crate::weight::WeightFunction;
 
@@ -269,17 +269,17 @@ mod tests {
                 place_after(|d| d.steps[0].functions[1].kind = FunctionKind::Component { cuts });
             full.strip_prefix("steps[0].functions[1].").expect("inside the function").to_owned()
         };
-        let (inside, outside) = (CutSide::Inside, CutSide::Outside);
+        let (inside, outside) = (CutBranch::Inside, CutBranch::Outside);
         assert_eq!(place(vec![]), "cuts");
         let other = SegmentId { crack: 1, segment: 0 };
         assert_eq!(place(vec![Cut { segment: other, ..cut(0, inside, outside) }]), "cuts[0].crack");
         assert_eq!(place(vec![cut(1, inside, outside)]), "cuts[0].segment");
-        assert_eq!(place(vec![cut(0, CutSide::Cut(1), outside)]), "cuts[0].left");
-        assert_eq!(place(vec![cut(0, inside, CutSide::Cut(0))]), "cuts[0].right");
-        let back = vec![cut(0, CutSide::Cut(1), inside), cut(0, outside, CutSide::Cut(0))];
+        assert_eq!(place(vec![cut(0, CutBranch::Cut(1), outside)]), "cuts[0].left");
+        assert_eq!(place(vec![cut(0, inside, CutBranch::Cut(0))]), "cuts[0].right");
+        let back = vec![cut(0, CutBranch::Cut(1), inside), cut(0, outside, CutBranch::Cut(0))];
         assert_eq!(place(back), "cuts[1].right");
         let mut good = dataset();
-        let cuts = vec![cut(0, CutSide::Cut(1), CutSide::Cut(1)), cut(0, outside, inside)];
+        let cuts = vec![cut(0, CutBranch::Cut(1), CutBranch::Cut(1)), cut(0, outside, inside)];
         good.steps[0].functions[1].kind = FunctionKind::Component { cuts };
         assert_eq!(good.check(), Ok(()));
     }

@@ -4,7 +4,7 @@ use crate::vec2::Vec2;
 use ppum_formula::real::Real;
 
 /// A number as the sum of a rounded value and its rounding error.
-pub(crate) type RoundedSum = (f64, f64);
+pub(crate) type SumWithError = (f64, f64);
 
 /// a − b.
 #[inline(always)]
@@ -29,18 +29,18 @@ fn halves<R: Real>(u: R) -> (R, R) {
 }
 
 /// u v.
-pub(crate) fn product(u: RoundedSum, v: RoundedSum) -> RoundedSum {
+pub(crate) fn product(u: SumWithError, v: SumWithError) -> SumWithError {
     let (high, low) = exact_product(u.0, v.0);
     (high, low + (u.0 * v.1 + u.1 * v.0))
 }
 
 /// a + b of pairs.
-pub(crate) fn plus(a: RoundedSum, b: RoundedSum) -> RoundedSum {
+pub(crate) fn plus(a: SumWithError, b: SumWithError) -> SumWithError {
     minus(a, (-b.0, -b.1))
 }
 
 /// a − b of pairs.
-pub(crate) fn minus(a: RoundedSum, b: RoundedSum) -> RoundedSum {
+pub(crate) fn minus(a: SumWithError, b: SumWithError) -> SumWithError {
     let (high, low) = difference(a.0, b.0);
     (high, low + (a.1 - b.1))
 }

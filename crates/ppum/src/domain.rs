@@ -137,11 +137,7 @@ impl Hole {
         match self {
             Self::Circle { center, radius } => Rect::around(*center, vec2(*radius, *radius)),
             Self::Polygon { points, .. } => {
-                let empty = Rect::new(
-                    vec2(f64::INFINITY, f64::INFINITY),
-                    vec2(f64::NEG_INFINITY, f64::NEG_INFINITY),
-                );
-                points.iter().fold(empty, |all, &p| all.union(&Rect::new(p, p)))
+                points.iter().fold(Rect::EMPTY, |all, &p| all.union(&Rect::new(p, p)))
             }
         }
     }
@@ -175,10 +171,9 @@ impl Hole {
     pub fn rim_distance(&self, p: Vec2) -> f64 {
         match self {
             Self::Circle { center, radius } => ((p - *center).length() - radius).abs(),
-            Self::Polygon { .. } => self
-                .sides()
-                .map(|[a, b]| segment::distance([a, b], p))
-                .fold(f64::INFINITY, f64::min),
+            Self::Polygon { .. } => {
+                self.sides().map(|side| segment::distance(side, p)).fold(f64::INFINITY, f64::min)
+            }
         }
     }
 }

@@ -188,9 +188,9 @@ impl Equation {
     /// The error in the constants, if there is one: the name of the first impossible one, and the
     /// reason. Constants are checked once, formulas at the points of a grid that lie in the domain.
     #[must_use]
-    pub fn mistake(&self, domain: &Domain) -> Option<(&'static str, String)> {
+    pub fn invalid_constant(&self, domain: &Domain) -> Option<(&'static str, String)> {
         if self.is_uniform() {
-            return self.mistake_at(domain.bounds.center());
+            return self.invalid_constant_at(domain.bounds.center());
         }
         let at = |k: u32| f64::from(k) / f64::from(LOOKS);
         let (corner, size) = (domain.bounds.min, domain.bounds.size());
@@ -198,11 +198,11 @@ impl Equation {
         let points = (0..=LOOKS).flat_map(|j| (0..=LOOKS).map(move |i| point(j, i)));
         points.filter(|&p| domain.contains(p)).find_map(|p| {
             let place = format!(" at [{}, {}]", p.x, p.y);
-            self.mistake_at(p).map(|(name, message)| (name, message + &place))
+            self.invalid_constant_at(p).map(|(name, message)| (name, message + &place))
         })
     }
 
-    fn mistake_at(&self, p: Vec2) -> Option<(&'static str, String)> {
+    fn invalid_constant_at(&self, p: Vec2) -> Option<(&'static str, String)> {
         let expansion = self.expansion().map(|expansion| (EXPANSION, expansion));
         let given = self.eigenstrains().chain(expansion);
         let values = given.map(|(name, expression)| (name, expression.value(p)));
@@ -270,9 +270,9 @@ impl Equation {
             Self::Poisson { conductivity } => {
                 let zero = offset[0].broadcast(0.0);
                 let conductivity = conductivity.values(anchor, offset);
-                Moduli { conductivity, ..Moduli::zero(zero) }
+                Moduli { conductivity, ..Moduli::all(zero) }
             }
-            Self::None => Moduli::zero(offset[0].broadcast(0.0)),
+            Self::None => Moduli::all(offset[0].broadcast(0.0)),
         }
     }
 }
@@ -301,6 +301,24 @@ pub struct Moduli<R> {
     pub expansion_out: R,
 }
 
+impl<R: Copy> Moduli<R> {
+    /// The same value of all.
+    #[inline(always)]
+    pub(crate) fn all(value: R) -> Self {
+        Self {
+            young: value,
+            poisson: value,
+            lambda: value,
+            mu: value,
+            out_of_plane: value,
+            conductivity: value,
+            eigenstrain: [value; 4],
+            expansion: value,
+            expansion_out: value,
+        }
+    }
+}
+
 impl<R: Real> Moduli<R> {
     /// The moduli of an elastic material.
     #[inline(always)]
@@ -315,22 +333,7 @@ impl<R: Real> Moduli<R> {
             StressState::PlaneStress => (one - poisson * poisson, zero),
         };
         let lambda = young * poisson / denominator;
-        Self { young, poisson, lambda, mu, out_of_plane, ..Self::zero(zero) }
-    }
-
-    #[inline(always)]
-    fn zero(zero: R) -> Self {
-        Self {
-            young: zero,
-            poisson: zero,
-            lambda: zero,
-            mu: zero,
-            out_of_plane: zero,
-            conductivity: zero,
-            eigenstrain: [zero; 4],
-            expansion: zero,
-            expansion_out: zero,
-        }
+        Self { young, poisson, lambda, mu, out_of_plane, ..Self::all(zero) }
     }
 
     #[inline(always)]

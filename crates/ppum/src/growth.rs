@@ -50,17 +50,7 @@ impl TipIncrement {
     /// A tip that stays where it is, of which nothing else is known.
     #[must_use]
     pub fn staying(tip: TipId, fate: TipStatus) -> Self {
-        Self {
-            tip,
-            fate,
-            k_eq: f64::NAN,
-            direction: 0.0,
-            curvature: 0.0,
-            path: Vec::new(),
-            length: 0.0,
-            due: 0.0,
-            extension: 0.0,
-        }
+        Self { tip, fate, k_eq: f64::NAN, ..Self::default() }
     }
 }
 
@@ -71,7 +61,7 @@ pub enum TipStatus {
     /// It goes on, and is a tip again.
     Grows,
     /// It goes on to the boundary of the body, where it ends.
-    LeavesPlate,
+    LeavesBody,
     /// It goes on to the rim of a hole, where it ends.
     MeetsHole(u32),
     /// It goes on to another crack, where it ends.
@@ -95,7 +85,7 @@ impl TipStatus {
     /// True if the tip goes on.
     #[must_use]
     pub fn goes_on(self) -> bool {
-        matches!(self, Self::Grows | Self::LeavesPlate | Self::MeetsHole(_) | Self::MeetsCrack(_))
+        matches!(self, Self::Grows | Self::LeavesBody | Self::MeetsHole(_) | Self::MeetsCrack(_))
     }
 
     /// In words, e.g. `meets crack 3`.
@@ -103,7 +93,7 @@ impl TipStatus {
     pub fn words(self) -> String {
         match self {
             Self::Grows => "grows".into(),
-            Self::LeavesPlate => "leaves the plate".into(),
+            Self::LeavesBody => "leaves the plate".into(),
             Self::MeetsHole(k) => format!("meets hole {k}"),
             Self::MeetsCrack(k) => format!("meets crack {k}"),
             Self::Waits => "waits".into(),

@@ -55,8 +55,8 @@ const BATCH: usize = 4 * BLOCK;
 /// Groups of consecutive places that can be evaluated at once, in their order. They are non-empty,
 /// no longer than some thousand places, and together they are all of them.
 pub fn batches(places: &[SidedPoint]) -> impl Iterator<Item = &[SidedPoint]> {
-    let seat = |place: &SidedPoint| (place.anchor, place.on, place.side);
-    places.chunk_by(move |a, b| seat(a) == seat(b)).flat_map(|run| run.chunks(BATCH))
+    let origin = |place: &SidedPoint| (place.anchor, place.on, place.side);
+    places.chunk_by(move |a, b| origin(a) == origin(b)).flat_map(|run| run.chunks(BATCH))
 }
 
 /// The quantities at the places of one of the [`batches`], one row for each place; NaN outside the
@@ -280,8 +280,8 @@ fn sided(segments: &Segments<'_>, points: &[Vec2]) -> impl Iterator<Item = Vec<S
 /// The places of a point; seen from the anchor unless it lies on a crack.
 fn places(segments: &Segments<'_>, anchor: Vec2, point: Vec2) -> Vec<SidedPoint> {
     let mut places = SidedPoint::sides(segments, point, Vec2::ZERO);
-    if let [SidedPoint { on: None, anchor: seat, offset, .. }] = &mut places[..] {
-        (*seat, *offset) = (anchor, point - anchor);
+    if let [SidedPoint { on: None, anchor: own, offset, .. }] = &mut places[..] {
+        (*own, *offset) = (anchor, point - anchor);
     }
     places
 }
@@ -333,7 +333,7 @@ impl SamplePoints {
     /// The places above at all points, then those below.
     #[must_use]
     pub fn places(&self) -> Vec<SidedPoint> {
-        let on = |side| self.0.iter().map(move |station| station.place(side));
+        let on = |side| self.0.iter().map(move |point| point.place(side));
         on(Side::Above).chain(on(Side::Below)).collect()
     }
 }

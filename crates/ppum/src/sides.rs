@@ -22,7 +22,7 @@ use crate::crack::{Crack, CrackEnd, SegmentId};
 use crate::vec2::{Rect, Vec2, vec2};
 
 /// Rounding of a point's coordinates and of its distance from a line, in parts of their size.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
+pub(crate) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The segments of cracks in a search tree, to be asked which of them a point lies on.
 #[derive(Clone, Debug)]
@@ -45,7 +45,7 @@ impl<'c> Segments<'c> {
                 let (min, max) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
                 all.push(SegmentId { crack: index, segment });
                 boxes.push(Rect::new(min, max));
-                size = [min.x, min.y, max.x, max.y].into_iter().fold(size, largest);
+                size = size.max(min.max_norm()).max(max.max_norm());
             }
         }
         Self { cracks, all, tree: BoxTree::new(&boxes), size }
@@ -56,7 +56,7 @@ impl<'c> Segments<'c> {
     #[must_use]
     pub fn at(&self, anchor: Vec2, offset: Vec2) -> Option<SegmentId> {
         let point = anchor + offset;
-        let size = [anchor.x, anchor.y, point.x, point.y].into_iter().fold(self.size, largest);
+        let size = self.size.max(anchor.max_norm()).max(point.max_norm());
         // more than the rounding that counts as on a segment
         let reach = (8.0 * ROUNDING * size).max(f64::MIN_POSITIVE);
         let mut near = Vec::new();
@@ -78,8 +78,8 @@ fn touches_segment(crack: &Crack, segment: u32, anchor: Vec2, offset: Vec2) -> b
 
 /// True if `anchor + offset` lies on a segment, up to rounding.
 fn touches([a, b]: [Vec2; 2], is_tip: [bool; 2], anchor: Vec2, offset: Vec2) -> bool {
-    let size = [anchor.x, anchor.y, a.x, a.y, b.x, b.y].into_iter().fold(0.0, largest);
-    let rounding = ROUNDING * if offset == Vec2::ZERO { size } else { largest(offset.x, offset.y) };
+    let size = anchor.max_norm().max(a.max_norm()).max(b.max_norm());
+    let rounding = ROUNDING * if offset == Vec2::ZERO { size } else { offset.max_norm() };
     let near = if (anchor - a).length() < (anchor - b).length() { a } else { b };
     let tangent = (b - a).unit();
     let from_near = (anchor - near) + offset;
@@ -92,10 +92,6 @@ fn touches([a, b]: [Vec2; 2], is_tip: [bool; 2], anchor: Vec2, offset: Vec2) -> 
         .zip(is_tip)
         .any(|(rest, is_tip)| if is_tip { rest <= rounding } else { rest < -rounding });
     tangent.cross(from_near).abs() <= rounding && !ends_beyond
-}
-
-fn largest(a: f64, b: f64) -> f64 {
-    a.abs().max(b.abs())
 }
 
 #[cfg(test)]

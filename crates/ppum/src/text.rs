@@ -9,7 +9,7 @@ use std::collections::BTreeSet;
 pub use ppum_formula::spelling::{hint, nearest};
 
 use crate::crack::Crack;
-use crate::vec2::{Rect, Vec2, vec2};
+use crate::vec2::{Rect, Vec2};
 
 /// Significant digits of a number.
 const DIGITS: usize = 6;
@@ -104,8 +104,7 @@ impl LocationText {
     /// Places of a box with cracks.
     #[must_use]
     pub fn new(bounds: &Rect, cracks: &[Crack]) -> Self {
-        let Rect { min, max } = *bounds;
-        let size = vec2(min.x.abs().max(max.x.abs()), min.y.abs().max(max.y.abs()));
+        let size = (-bounds.min).max(bounds.min).max(-bounds.max).max(bounds.max);
         let with = |digits| Self { size, digits };
         let texts = |places: Self| -> usize {
             let points = cracks.iter().flat_map(|crack| &crack.points);
@@ -138,6 +137,7 @@ fn far(size: Vec2, extent: Vec2) -> usize {
 mod tests {
     use super::*;
     use crate::crack::CrackEnd;
+    use crate::vec2::vec2;
 
     fn places(size: f64, xs: &[f64]) -> Vec<String> {
         let bounds = Rect::new(vec2(-size, -size), vec2(size, size));

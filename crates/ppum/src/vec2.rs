@@ -63,6 +63,12 @@ impl Vec2 {
         vec2(self.x.max(b.x), self.y.max(b.y))
     }
 
+    /// The maximum norm, max(|x|, |y|).
+    #[must_use]
+    pub fn max_norm(self) -> f64 {
+        self.x.abs().max(self.y.abs())
+    }
+
     /// True if both components are finite.
     #[must_use]
     pub fn is_finite(self) -> bool {
@@ -127,6 +133,10 @@ pub struct Rect {
 }
 
 impl Rect {
+    /// The box that holds nothing: its union with another one is that one.
+    pub const EMPTY: Self =
+        Self::new(vec2(f64::INFINITY, f64::INFINITY), vec2(f64::NEG_INFINITY, f64::NEG_INFINITY));
+
     /// The box with the given corners.
     #[must_use]
     pub const fn new(min: Vec2, max: Vec2) -> Self {
@@ -149,6 +159,12 @@ impl Rect {
     #[must_use]
     pub fn size(&self) -> Vec2 {
         self.max - self.min
+    }
+
+    /// The largest magnitude of a corner's coordinates.
+    #[must_use]
+    pub fn max_norm(&self) -> f64 {
+        self.min.max_norm().max(self.max.max_norm())
     }
 
     /// Corners, counter-clockwise from the lower left one.

@@ -254,7 +254,7 @@ fn told(steps: &[Step]) -> Vec<String> {
     let fates = steps.iter().filter_map(|step| step.growth.as_ref()?.tips.first());
     let met = fates
         .map(|row| row.fate)
-        .find(|fate| matches!(fate, TipStatus::MeetsHole(_) | TipStatus::LeavesPlate));
+        .find(|fate| matches!(fate, TipStatus::MeetsHole(_) | TipStatus::LeavesBody));
     let end = met.map_or("goes on upwards".into(), |fate| match fate {
         TipStatus::MeetsHole(0) => "upper hole".into(),
         TipStatus::MeetsHole(1) => "middle hole".into(),
@@ -280,7 +280,7 @@ fn network(page: &mut Page) -> anyhow::Result<()> {
          increments; {} ends meet other cracks, {} leave the plate. The series ends because {}.",
         length(&steps[0]), length(&last.steps[0]), steps.len() - 1,
         count(|fate| matches!(fate, TipStatus::MeetsCrack(_))),
-        count(|fate| *fate == TipStatus::LeavesPlate),
+        count(|fate| *fate == TipStatus::LeavesBody),
         stop.map_or("all increments are made", |stop| stop.words()),
     ));
     page.picture("network-growth", &last, last.domain.bounds)

@@ -153,7 +153,7 @@ fn the_command_of_a_picture_draws_it_again() {
 fn the_window_saves_what_its_command_draws() {
     use std::sync::atomic::AtomicUsize;
 
-    use ppum_viewer::export::{ExportKind, ImageExport, PageSize};
+    use ppum_viewer::export::{ExportChoice, ImageExport, Motion, PageSize};
     use ppum_viewer::field::OwnedField;
 
     let lab = Lab::solved(CRACKED);
@@ -164,10 +164,10 @@ fn the_window_saves_what_its_command_draws() {
         overlays: Overlays { isolines, ..Overlays::default() },
         ..SceneRequest::default()
     };
-    for (kind, page) in [
-        (ExportKind::Figure, PageSize::pixels([500, 400])),
-        (ExportKind::Figure, PageSize { dpi: 150.0, ..PageSize::COLUMN }),
-        (ExportKind::Picture, PageSize::pixels([80, 60])),
+    for (choice, page) in [
+        (ExportChoice::Figure, PageSize::pixels([500, 400])),
+        (ExportChoice::Figure, PageSize { dpi: 150.0, ..PageSize::COLUMN }),
+        (ExportChoice::Image, PageSize::pixels([80, 60])),
     ] {
         let order = ImageExport {
             field: Arc::new(OwnedField::new(Arc::clone(&dataset), 0).unwrap()),
@@ -176,7 +176,8 @@ fn the_window_saves_what_its_command_draws() {
             scene: scene.clone(),
             view: View::new(vec2(0.0, 0.0), 3.0, [80, 60]).unwrap(),
             page,
-            kind,
+            choice,
+            motion: Motion::default(),
         };
         let own =
             order.bytes("own.png".as_ref(), ppum::progress::unwatched(), &AtomicUsize::new(0));

@@ -4,11 +4,11 @@
 //! than its segments.
 
 use ab_glyph_rasterizer::{Point, Rasterizer, point};
-use ppum::segment;
+use ppum::segment::{self, sides};
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::{Image, Rgba};
 
-use crate::text::{GlyphCurve, bounds};
+use crate::text::{GlyphCurve, curve_bounds};
 
 /// A part of a page: columns from `min[0]` to `max[0]` and rows from `min[1]` to `max[1]`, the last
 /// ones not included.
@@ -113,15 +113,13 @@ impl CoverageMask {
     /// The inside of a closed polygon, with exact shares at its edges; an axis-parallel box
     /// among them.
     pub(super) fn polygon(&mut self, corners: &[Vec2]) {
-        let next = corners.iter().cycle().skip(1);
-        let sides: Vec<_> =
-            corners.iter().zip(next).map(|(&a, &b)| GlyphCurve::Line([a, b])).collect();
+        let sides: Vec<_> = sides(corners).map(|side| GlyphCurve(side.to_vec())).collect();
         self.outline(&sides);
     }
 
     /// The inside of closed curves.
     pub(super) fn outline(&mut self, curves: &[GlyphCurve]) {
-        let window = self.window.around(bounds(curves));
+        let window = self.window.around(curve_bounds(curves));
         let (columns, rows) = (window.columns(), window.rows());
         if columns == 0 || rows == 0 {
             return;
@@ -129,7 +127,7 @@ impl CoverageMask {
         let corner = vec2(f64::from(window.min[0]), f64::from(window.min[1]));
         let mut rasterizer = Rasterizer::new(columns, rows);
         for curve in curves {
-            draw(&mut rasterizer, *curve, corner);
+            draw(&mut rasterizer, curve, corner);
         }
         let [left, top] = window.min.map(i64::from);
         rasterizer.for_each_pixel_2d(|i, j, share| {
@@ -184,21 +182,22 @@ fn within(from: f64, to: f64, min: u32, max: u32) -> std::ops::Range<i64> {
 
 /// Draws a curve into a rasterizer whose upper left corner lies at `corner`. Curves are cut off by
 /// nobody: what leaves the rasterizer at its left counts there, elsewhere it covers nothing.
-fn draw(rasterizer: &mut Rasterizer, curve: GlyphCurve, corner: Vec2) {
+fn draw(rasterizer: &mut Rasterizer, curve: &GlyphCurve, corner: Vec2) {
     let (columns, rows) = rasterizer.dimensions();
     let most = vec2(columns as f64, rows as f64);
     let at = |p: Vec2| -> Point {
         let p = (p - corner).max(Vec2::ZERO).min(most);
         point(p.x as f32, p.y as f32)
     };
-    match curve {
-        GlyphCurve::Line([a, b]) => {
+    match curve.0[..] {
+        [a, b] => {
             for [a, b] in clipped(a - corner, b - corner, most) {
                 rasterizer.draw_line(point(a.x as f32, a.y as f32), point(b.x as f32, b.y as f32));
             }
         }
-        GlyphCurve::Quadratic([a, b, c]) => rasterizer.draw_quad(at(a), at(b), at(c)),
-        GlyphCurve::Cubic([a, b, c, d]) => rasterizer.draw_cubic(at(a), at(b), at(c), at(d)),
+        [a, b, c] => rasterizer.draw_quad(at(a), at(b), at(c)),
+        [a, b, c, d] => rasterizer.draw_cubic(at(a), at(b), at(c), at(d)),
+        _ => {}
     }
 }
 

@@ -13,6 +13,7 @@ mod svg;
 pub mod xml;
 pub mod zlib;
 
+use ppum::segment::sides;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::{Image, Rgba};
 use ppum_render::png::TextChunk;
@@ -193,9 +194,7 @@ impl CanvasItem {
             Self::Inset { corner, canvas } => of_page(corner, canvas.size),
         }
     }
-}
 
-impl CanvasItem {
     /// Lines and fills reflected in a page of a size, from left to right, from top to bottom or
     /// both. Texts stay upright, with their point reflected; images and pages stay as they are.
     #[must_use]
@@ -245,7 +244,7 @@ impl TextItem {
     /// The box around the letters and their seam.
     fn bounds(&self) -> [Vec2; 2] {
         let curves = text::outlines(&self.text, self.size, self.start(), self.angle);
-        let [lo, hi] = text::bounds(&curves);
+        let [lo, hi] = text::curve_bounds(&curves);
         let by = self.halo.map_or(0.0, |halo| halo.width);
         [lo - vec2(by, by), hi + vec2(by, by)]
     }
@@ -294,8 +293,7 @@ impl CanvasPath {
     /// The pieces all turning one way, so that none takes away what another fills.
     fn turned_alike(&self) -> Self {
         let turned = |points: &Vec<Vec2>| {
-            let next = points.iter().cycle().skip(1);
-            let area: f64 = points.iter().zip(next).map(|(a, b)| a.cross(*b)).sum();
+            let area: f64 = sides(points).map(|[a, b]| a.cross(b)).sum();
             let mut points = points.clone();
             if area < 0.0 {
                 points.reverse();
@@ -307,10 +305,7 @@ impl CanvasPath {
 
     /// The box around the points: least and largest coordinates; of no points, the least are +∞.
     fn bounds(&self) -> [Vec2; 2] {
-        let start =
-            [vec2(f64::INFINITY, f64::INFINITY), vec2(f64::NEG_INFINITY, f64::NEG_INFINITY)];
-        let points = self.pieces.iter().flatten();
-        points.fold(start, |[lo, hi], &p| [lo.min(p), hi.max(p)])
+        text::bounds(self.pieces.iter().flatten())
     }
 
     /// True if there is nothing to draw.

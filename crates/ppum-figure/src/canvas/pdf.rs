@@ -3,14 +3,14 @@
 //! ```text
 //! catalogue ── pages ── page ─┬─ content
 //!                             └─ resources ─┬─ font ── letters, file, text of each letter
-//!                                           ├─ pictures ── opacity
+//!                                           ├─ images ── opacity
 //!                                           └─ states: opacity of fills and strokes
 //! ```
 
 mod content;
 mod file;
 mod font;
-mod picture;
+mod image;
 
 use pdf_writer::{Content, Finish as _, Name, Rect, TextStr};
 use ppum::printable::printable;
@@ -42,11 +42,11 @@ pub(super) fn file(canvas: &Canvas, dpi: f64, texts: &[TextChunk]) -> Vec<u8> {
     if let Some(font) = font {
         listed.fonts().pair(font::NAME, font);
     }
-    let mut pictures = listed.x_objects();
-    for (name, place) in &resources.pictures {
-        pictures.pair(Name(name.as_bytes()), *place);
+    let mut images = listed.x_objects();
+    for (name, place) in &resources.images {
+        images.pair(Name(name.as_bytes()), *place);
     }
-    pictures.finish();
+    images.finish();
     let mut states = listed.ext_g_states();
     for (name, share) in &resources.states {
         let mut state = states

@@ -32,7 +32,7 @@ impl Painter<'_> {
                 CanvasItem::Picture { image, corner } => self.paste(image, *corner),
                 CanvasItem::Fill { outline, color } => self.fill(outline, *color),
                 CanvasItem::Line { path, pen } => self.line(path, pen),
-                CanvasItem::Text(lettering) => self.letters(lettering),
+                CanvasItem::Text(text) => self.text(text),
                 CanvasItem::Inset { corner, canvas } => self.inset(canvas, *corner),
             }
         }
@@ -108,10 +108,10 @@ impl Painter<'_> {
         mask.paint(self.image, pen.color);
     }
 
-    fn letters(&mut self, line: &TextItem) {
+    fn text(&mut self, line: &TextItem) {
         let start = line.start() + self.origin;
         let curves = text::outlines(&line.text, line.size, start, line.angle);
-        let around = text::bounds(&curves).map(|p| p - self.origin);
+        let around = text::curve_bounds(&curves).map(|p| p - self.origin);
         if let Some(halo) = line.halo {
             let mut mask = self.mask(around, halo.width + 1.0);
             for [a, b] in curves.iter().flat_map(GlyphCurve::chords) {

@@ -83,7 +83,7 @@ fn content(out: &mut String, canvas: &Canvas) {
                 element(out, &data(&outline.turned_alike(), true), &paint("fill", *color));
             }
             CanvasItem::Line { path, pen } => line(out, path, pen),
-            CanvasItem::Text(lettering) => letters(out, lettering),
+            CanvasItem::Text(line) => text_item(out, line),
             CanvasItem::Inset { corner: [x, y], canvas } => {
                 let [width, height] = canvas.size;
                 *out += &format!(
@@ -154,7 +154,7 @@ fn place(p: Vec2) -> String {
     format!("{} {}", number(p.x), number(p.y))
 }
 
-fn letters(out: &mut String, line: &TextItem) {
+fn text_item(out: &mut String, line: &TextItem) {
     let runs = text::runs(&line.text, line.size);
     if runs.is_empty() {
         return;

@@ -3,8 +3,8 @@
 use ppum::crack::{Crack, tips};
 use ppum::vec2::Vec2;
 
-use super::design::{FigureStyle, Labels, TickChoice};
 use super::ink::TICK_TEXT;
+use super::style::{FigureStyle, Labels, TickChoice};
 use crate::text;
 use crate::ticks::{self, AxisSpan, Notation, TickStep, Ticks, power_of_ten};
 use ppum_render::picture::ColoredRaster;
@@ -71,9 +71,9 @@ pub(super) fn axes(
     picture: &ColoredRaster,
     labels: &Labels,
     cracks: &[Crack],
-    design: &FigureStyle,
+    style: &FigureStyle,
 ) -> [FigureAxis; 2] {
-    let (view, scale) = (&picture.view, design.scale());
+    let (view, scale) = (&picture.view, style.scale());
     let half = view.half();
     let step = |distance: f64| TickStep::at_least(distance * scale * view.pixel_size());
     let [across, along] = TICK_DISTANCE.map(step);
@@ -96,8 +96,8 @@ pub(super) fn axes(
     let [x, y] = [(view.center.x, half.x), (view.center.y, half.y)]
         .map(|(center, half)| AxisSpan { center, half });
     [
-        axis(x, x_step, &design.x_ticks, tip.map(|t| t.x), &labels.x),
-        axis(y, y_step, &design.y_ticks, tip.map(|t| t.y), &labels.y),
+        axis(x, x_step, &style.x_ticks, tip.map(|t| t.x), &labels.x),
+        axis(y, y_step, &style.y_ticks, tip.map(|t| t.y), &labels.y),
     ]
 }
 

@@ -7,11 +7,11 @@
 use ppum::vec2::{Vec2, vec2};
 
 use super::axis::{FigureAxis, label_places};
-use super::beyond::words;
 use super::color_key::ColorKey;
-use super::design::{FigureStyle, LABEL_TEXT, Labels};
+use super::end_labels::end_labels;
 use super::ink::{Ink, LINE, TICK_TEXT, snapped};
 use super::metrics::{BETWEEN_ROWS, GAP, LABEL_GAP, TICK};
+use super::style::{FigureStyle, LABEL_TEXT, Labels};
 use crate::canvas::{Align, CanvasItem, CanvasPath};
 use crate::text::{self, CAP_HEIGHT};
 use ppum_render::image::{Image, Rgba};
@@ -36,10 +36,11 @@ pub(super) struct ColorBar {
     key: ColorKey,
     pub(super) axis: FigureAxis,
     /// The texts at the lower and the upper end.
-    words: [Option<String>; 2],
+    end_labels: [Option<String>; 2],
     pub(super) is_upright: bool,
     /// Length with the triangles, and of a lying bar with the words.
     pub(super) length: f64,
+    scale: f64,
 }
 
 /// A colour bar that stands by itself, upright, for programs that let people change its range.
@@ -56,18 +57,13 @@ pub struct StandaloneColorBar {
 impl StandaloneColorBar {
     /// The bar of an image, of some length with the triangles at its ends.
     #[must_use]
-    pub fn new(
-        picture: &ColoredRaster,
-        labels: &Labels,
-        design: &FigureStyle,
-        length: f64,
-    ) -> Self {
-        let mut ink = Ink::new(design);
-        let bar = ColorBar::upright(ColorKey::new(picture, labels), design, length.round());
+    pub fn new(picture: &ColoredRaster, labels: &Labels, style: &FigureStyle, length: f64) -> Self {
+        let mut ink = Ink::new(style);
+        let bar = ColorBar::upright(ColorKey::new(picture, labels), style, length.round());
         let start = vec2(0.0, bar.length);
         bar.draw(&mut ink, start, bar.length);
-        let ends = bar.ends(ink.scale).map(|along| bar.length - along);
-        Self { items: ink.items, ends, width: (BAR * ink.scale).round() }
+        let ends = bar.ends().map(|along| bar.length - along);
+        Self { items: ink.items, ends, width: bar.width() }
     }
 
     /// The box around it: upper left and lower right corner.
@@ -81,29 +77,23 @@ impl StandaloneColorBar {
 struct ColorBarLayout<'b> {
     bar: &'b ColorBar,
     start: Vec2,
-    scale: f64,
 }
 
 impl ColorBar {
-    pub(super) fn upright(key: ColorKey, design: &FigureStyle, length: f64) -> Self {
-        let scale = design.scale();
+    pub(super) fn upright(key: ColorKey, style: &FigureStyle, length: f64) -> Self {
+        let scale = style.scale();
         let (apart, least) =
             if key.has_classes() { (CLASS_DISTANCE, 1) } else { (UPRIGHT_DISTANCE, 2) };
         let most = (length / (apart * scale)) as usize;
-        let axis = key.axis(&design.bar_ticks, most.max(least), scale);
-        Self { words: words(&key, &axis.ticks, scale), key, axis, is_upright: true, length }
+        Self::new(key, style, length, (most.max(least), true))
     }
 
     /// A lying bar; it has as many labels as do not touch.
-    pub(super) fn lying(key: ColorKey, design: &FigureStyle, length: f64) -> Self {
-        let scale = design.scale();
-        let of = |most| {
-            let axis = key.axis(&design.bar_ticks, most, scale);
-            let words = words(&key, &axis.ticks, scale);
-            Self { words, key: key.clone(), axis, is_upright: false, length }
-        };
+    pub(super) fn lying(key: ColorKey, style: &FigureStyle, length: f64) -> Self {
+        let scale = style.scale();
+        let of = |most| Self::new(key.clone(), style, length, (most, false));
         let is_apart = |bar: &Self| {
-            let ([low, high], ticks) = (bar.ends(scale), &bar.axis.ticks.major);
+            let ([low, high], ticks) = (bar.ends(), &bar.axis.ticks.major);
             let places = ticks.windows(2).map(|pair| (pair[1].at - pair[0].at) * (high - low));
             places.fold(f64::INFINITY, f64::min) > bar.axis.widest + BETWEEN * scale
         };
@@ -111,9 +101,29 @@ impl ColorBar {
         most.map(of).find(is_apart).unwrap_or_else(|| of(2))
     }
 
+    /// A bar with about so many labels.
+    fn new(
+        key: ColorKey,
+        style: &FigureStyle,
+        length: f64,
+        (most, is_upright): (usize, bool),
+    ) -> Self {
+        let scale = style.scale();
+        let axis = key.axis(&style.bar_ticks, most, scale);
+        Self {
+            end_labels: end_labels(&key, &axis.ticks, scale),
+            key,
+            axis,
+            is_upright,
+            length,
+            scale,
+        }
+    }
+
     /// Returns the margins of a horizontal bar for words before its lower and behind its upper end.
-    fn margins(&self, scale: f64) -> [f64; 2] {
-        let margin = |k: usize| match &self.words[k] {
+    fn margins(&self) -> [f64; 2] {
+        let scale = self.scale;
+        let margin = |k: usize| match &self.end_labels[k] {
             Some(word) if !self.is_upright => {
                 (text::width(word, TICK_TEXT * scale) + GAP * scale).ceil()
             }
@@ -123,16 +133,26 @@ impl ColorBar {
     }
 
     /// Lower and upper end of the evenly coloured part.
-    fn ends(&self, scale: f64) -> [f64; 2] {
-        let arrow = |shown: bool| if shown { (ARROW * scale).round() } else { 0.0 };
-        let [before, behind] = self.margins(scale);
+    fn ends(&self) -> [f64; 2] {
+        let arrow = |shown: bool| if shown { (ARROW * self.scale).round() } else { 0.0 };
+        let [before, behind] = self.margins();
         let ColorKey { has_below, has_above, .. } = self.key;
         [before + arrow(has_below), self.length - behind - arrow(has_above)]
     }
 
+    /// The points of the triangles.
+    fn points(&self) -> [f64; 2] {
+        let [before, behind] = self.margins();
+        [before, self.length - behind]
+    }
+
+    fn width(&self) -> f64 {
+        (BAR * self.scale).round()
+    }
+
     /// Draws the bar with its lower end's corner at a place; the label is no longer than `room`.
     pub(super) fn draw(&self, ink: &mut Ink, start: Vec2, room: f64) {
-        let placed = ColorBarLayout { bar: self, start, scale: ink.scale };
+        let placed = ColorBarLayout { bar: self, start };
         placed.colors(ink);
         placed.frame(ink);
         let end = placed.marks(ink);
@@ -149,39 +169,22 @@ impl ColorBarLayout<'_> {
         }
     }
 
-    /// Lower and upper end of the evenly coloured part.
-    fn ends(&self) -> [f64; 2] {
-        self.bar.ends(self.scale)
-    }
-
-    /// The points of the triangles.
-    fn points(&self) -> [f64; 2] {
-        let [before, behind] = self.bar.margins(self.scale);
-        [before, self.bar.length - behind]
-    }
-
-    fn width(&self) -> f64 {
-        (BAR * self.scale).round()
-    }
-
     /// Two opposite corners, the upper left one first, of a part of the bar.
     fn corners(&self, [low, high]: [f64; 2]) -> [Vec2; 2] {
-        let (a, b) = (self.point(low, 0.0), self.point(high, self.width()));
+        let (a, b) = (self.point(low, 0.0), self.point(high, self.bar.width()));
         [a.min(b), a.max(b)]
     }
 
     fn colors(&self, ink: &mut Ink) {
-        let [low, high] = self.ends();
+        let [low, high] = self.bar.ends();
         let count = (high - low) as u32;
         let at = |k: u32| self.bar.key.color((f64::from(k) + 0.5) / f64::from(count.max(1)));
-        let width = self.width() as u32;
+        let width = self.bar.width() as u32;
         let size = if self.bar.is_upright { [width, count] } else { [count, width] };
         let mut image = Image::filled(size, [0; 4]);
-        let pixels = image.rgba.as_chunks_mut::<4>().0;
-        for (row, line) in (0u32..).zip(pixels.chunks_mut(size[0].max(1) as usize)) {
-            for (column, pixel) in (0u32..).zip(line) {
-                *pixel = at(if self.bar.is_upright { count - 1 - row } else { column });
-            }
+        for (k, pixel) in (0u32..).zip(image.rgba.as_chunks_mut::<4>().0) {
+            let (column, row) = (k % size[0], k / size[0]);
+            *pixel = at(if self.bar.is_upright { count - 1 - row } else { column });
         }
         let corner = self.corners([low, high])[0];
         ink.items.push(CanvasItem::Picture { image, corner: [corner.x as u32, corner.y as u32] });
@@ -193,8 +196,8 @@ impl ColorBarLayout<'_> {
 
     /// The triangles at the bar's ends: base, tip, base, and colour.
     fn arrows(&self) -> Vec<([Vec2; 3], Rgba)> {
-        let ([low, high], [first, last]) = (self.ends(), self.points());
-        let (width, key) = (self.width(), &self.bar.key);
+        let ([low, high], [first, last]) = (self.bar.ends(), self.bar.points());
+        let (width, key) = (self.bar.width(), &self.bar.key);
         let triangle = |base: f64, tip: f64| {
             [self.point(base, 0.0), self.point(tip, 0.5 * width), self.point(base, width)]
         };
@@ -204,7 +207,7 @@ impl ColorBarLayout<'_> {
     }
 
     fn frame(&self, ink: &mut Ink) {
-        let [min, max] = self.corners(self.ends());
+        let [min, max] = self.corners(self.bar.ends());
         ink.outline(min, max);
         for (corners, _) in self.arrows() {
             ink.line(corners.to_vec());
@@ -217,7 +220,7 @@ impl ColorBarLayout<'_> {
         for &position in &ticks.minor {
             self.mark(ink, position, MINOR_TICK);
         }
-        let base = self.width() + ink.stroke + (TICK + GAP) * ink.scale;
+        let base = self.bar.width() + ink.stroke + (TICK + GAP) * ink.scale;
         for (tick, along) in ticks.major.iter().zip(self.label_places()) {
             self.mark(ink, tick.at, TICK);
             if self.bar.is_upright {
@@ -227,7 +230,7 @@ impl ColorBarLayout<'_> {
                 ink.text(&tick.label, TICK_TEXT, self.point(along, base), Align::Middle);
             }
         }
-        let widest = self.words(ink, base);
+        let widest = self.draw_end_labels(ink, base);
         base + if self.bar.is_upright {
             self.bar.axis.widest.max(widest)
         } else {
@@ -237,48 +240,48 @@ impl ColorBarLayout<'_> {
 
     /// The words at the ends; returns the width of the widest one. Beside an upright bar they keep
     /// away from the labels of marks, which begin at `base`.
-    fn words(&self, ink: &mut Ink, base: f64) -> f64 {
-        let line = LINE * TICK_TEXT * self.scale;
+    fn draw_end_labels(&self, ink: &mut Ink, base: f64) -> f64 {
+        let line = LINE * TICK_TEXT * self.bar.scale;
         let labels = self.label_places().into_iter();
         let [first, last] =
             labels.fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], at| [a.min(at), b.max(at)]);
-        let [lower, upper] = self.points();
-        let half = 0.5 * ARROW * self.scale;
+        let [lower, upper] = self.bar.points();
+        let half = 0.5 * ARROW * self.bar.scale;
         let beside = [(lower + half).min(first - line), (upper - half).max(last + line)];
-        let away = [lower - GAP * self.scale, upper + GAP * self.scale];
+        let away = [lower - GAP * self.bar.scale, upper + GAP * self.bar.scale];
         let mut widest: f64 = 0.0;
-        for (k, word) in self.bar.words.iter().enumerate() {
+        for (k, word) in self.bar.end_labels.iter().enumerate() {
             let Some(word) = word else { continue };
             if self.bar.is_upright {
                 ink.at_height(word, self.point(beside[k], base), Align::Start);
             } else {
                 let align = [Align::End, Align::Start][k];
-                ink.at_height(word, self.point(away[k], 0.5 * self.width()), align);
+                ink.at_height(word, self.point(away[k], 0.5 * self.bar.width()), align);
             }
-            widest = widest.max(text::width(word, TICK_TEXT * self.scale));
+            widest = widest.max(text::width(word, TICK_TEXT * self.bar.scale));
         }
         widest
     }
 
     /// How far along the bar the labels of its marks stand.
     fn label_places(&self) -> Vec<f64> {
-        let ([low, high], size) = (self.ends(), TICK_TEXT * self.scale);
+        let ([low, high], size) = (self.bar.ends(), TICK_TEXT * self.bar.scale);
         let ticks = &self.bar.axis.ticks.major;
         let at: Vec<f64> = ticks.iter().map(|tick| low + tick.at * (high - low)).collect();
         if self.bar.is_upright {
             let heights = vec![CAP_HEIGHT * size; ticks.len()];
-            return label_places(&at, &heights, BETWEEN_ROWS * self.scale);
+            return label_places(&at, &heights, BETWEEN_ROWS * self.bar.scale);
         }
         let widths: Vec<f64> = ticks.iter().map(|tick| text::width(&tick.label, size)).collect();
-        label_places(&at, &widths, BETWEEN * self.scale)
+        label_places(&at, &widths, BETWEEN * self.bar.scale)
     }
 
     /// A mark at a position from 0 to 1.
     fn mark(&self, ink: &mut Ink, position: f64, length: f64) {
-        let [low, high] = self.ends();
+        let [low, high] = self.bar.ends();
         let along = low + position * (high - low);
         let length = length * ink.scale;
-        let (from, at) = (self.width() + ink.stroke, self.point(along, 0.0));
+        let (from, at) = (self.bar.width() + ink.stroke, self.point(along, 0.0));
         let middle = self.point(0.5 * (low + high), 0.0);
         if self.bar.is_upright {
             let top = snapped(at.y, ink.stroke, middle.y);

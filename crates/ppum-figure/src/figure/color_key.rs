@@ -1,7 +1,7 @@
 //! The content of a colour bar.
 
 use super::axis::{FigureAxis, axis_label};
-use super::design::{Labels, TickChoice};
+use super::style::{Labels, TickChoice};
 use crate::ticks::{self, Notation, Tick, Ticks};
 use ppum_render::colormap::Colormap;
 use ppum_render::image::Rgba;
@@ -94,7 +94,7 @@ impl ColorKey {
         let stride = |most: usize| count.div_ceil(most.max(1));
         let is_shown = |k: usize, value: f64| match choice {
             TickChoice::At(values) => values.contains(&value),
-            TickChoice::Count(wanted) => k.is_multiple_of(stride(*wanted).max(stride(most))),
+            TickChoice::Count(count) => k.is_multiple_of(stride(*count).max(stride(most))),
             TickChoice::Auto => k.is_multiple_of(stride(most)),
         };
         let notation = Notation::of(&self.normalization);

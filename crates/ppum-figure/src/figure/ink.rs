@@ -2,7 +2,7 @@
 
 use ppum::vec2::{Vec2, vec2};
 
-use super::design::FigureStyle;
+use super::style::FigureStyle;
 use crate::canvas::{Align, CanvasItem, CanvasPath, StrokeStyle, TextItem};
 use crate::text::CAP_HEIGHT;
 use ppum_render::image::Rgba;
@@ -14,19 +14,19 @@ const STROKE: f64 = 1.0;
 pub(super) const LINE: f64 = 1.3;
 
 /// Draws onto a list of items.
-pub(super) struct Ink {
-    pub(super) color: Rgba,
+pub(crate) struct Ink {
+    pub(crate) color: Rgba,
     /// Lengths in units of their length in a figure of 1024 × 768 pixels.
-    pub(super) scale: f64,
+    pub(crate) scale: f64,
     /// Width of frame and tick lines.
-    pub(super) stroke: f64,
-    pub(super) items: Vec<CanvasItem>,
+    pub(crate) stroke: f64,
+    pub(crate) items: Vec<CanvasItem>,
 }
 
 impl Ink {
-    pub(super) fn new(design: &FigureStyle) -> Self {
-        let scale = design.scale();
-        Self { color: design.ink(), scale, stroke: STROKE * scale, items: Vec::new() }
+    pub(super) fn new(style: &FigureStyle) -> Self {
+        let scale = style.scale();
+        Self { color: style.ink(), scale, stroke: STROKE * scale, items: Vec::new() }
     }
 
     /// A filled box.
@@ -55,7 +55,7 @@ impl Ink {
 
     /// Text of some size, given for a figure of 1024 × 768, whose part `align` lies at a point of
     /// its base line.
-    pub(super) fn text(&mut self, line: &str, size: f64, at: Vec2, align: Align) {
+    pub(crate) fn text(&mut self, line: &str, size: f64, at: Vec2, align: Align) {
         if !line.is_empty() {
             let at = vec2(at.x, at.y.round());
             let line = TextItem::new(line, size * self.scale, at, self.color).aligned(align);
@@ -64,7 +64,7 @@ impl Ink {
     }
 
     /// Text centred on a point of its base line that reads upwards.
-    pub(super) fn upwards(&mut self, line: &str, size: f64, at: Vec2) {
+    pub(crate) fn upwards(&mut self, line: &str, size: f64, at: Vec2) {
         if !line.is_empty() {
             let line = TextItem::new(line, size * self.scale, at, self.color);
             self.items.push(CanvasItem::Text(line.aligned(Align::Middle).upwards()));

@@ -17,10 +17,10 @@ use ppum::vec2::{Vec2, vec2};
 
 use super::color_bar::ColorBar;
 use super::color_key::ColorKey;
-use super::design::{BarPlace, FigureStyle, LABEL_TEXT};
 use super::ink::{Ink, LINE, TITLE_TEXT, bounds};
 use super::metrics::{MARGIN, RIGHT, RIGHT_BAR, TITLE_GAP};
-use super::sheet::{self, Extents, FigureLayout};
+use super::panel_layout::{self, Extents, PanelLayout};
+use super::style::{BarPlace, FigureStyle, LABEL_TEXT};
 use super::{FigureError, Panel};
 use crate::canvas::{Canvas, CanvasItem};
 use crate::text;
@@ -76,8 +76,8 @@ const CAPTION_LINES: usize = 2;
 ///
 /// # Errors
 /// If that is less than 48 pixels wide or high.
-pub fn plot_area(title: &str, design: &FigureStyle) -> Result<[u32; 2], FigureError> {
-    panel_area(title, &[""], PanelGrid::ONE, design)
+pub fn plot_area(title: &str, style: &FigureStyle) -> Result<[u32; 2], FigureError> {
+    panel_area(title, &[""], PanelGrid::ONE, style)
 }
 
 /// The largest image that each panel of a figure has room for, by the figure's title and the
@@ -89,43 +89,43 @@ pub fn panel_area(
     title: &str,
     captions: &[&str],
     grid: PanelGrid,
-    design: &FigureStyle,
+    style: &FigureStyle,
 ) -> Result<[u32; 2], FigureError> {
     let [across, down] = [grid.columns.max(1), grid.rows.max(1)];
-    let taken = kept(title, captions, grid, design).map(|room| room.ceil() as u32);
+    let taken = kept(title, captions, grid, style).map(|room| room.ceil() as u32);
     let least = [(taken[0], across), (taken[1], down)]
         .map(|(taken, count)| taken.saturating_add(count.saturating_mul(LEAST)));
-    if design.size[0] < least[0] || design.size[1] < least[1] {
-        let (size, dpi) = (design.size, design.dpi);
+    if style.size[0] < least[0] || style.size[1] < least[1] {
+        let (size, dpi) = (style.size, style.dpi);
         let least = [0, 1].map(|side| least[side].max(size[side]));
         return Err(FigureError::TooSmall { size, least, dpi });
     }
-    Ok([(design.size[0] - taken[0]) / across, (design.size[1] - taken[1]) / down])
+    Ok([(style.size[0] - taken[0]) / across, (style.size[1] - taken[1]) / down])
 }
 
-/// A design whose height is that of panels across and down with images of a shape, width over
+/// A style whose height is that of panels across and down with images of a shape, width over
 /// height, as wide as the page has room for, with all around them. Its bars are at the first of
 /// some places that leaves the images 60 % of the width, else at the last. `room` is the largest
-/// image of a panel of a design, as [`plot_area`] and [`panel_area`].
+/// image of a panel of a style, as [`plot_area`] and [`panel_area`].
 ///
 /// # Errors
 /// Those of `room`.
 pub fn hugging<E>(
-    design: &FigureStyle,
+    style: &FigureStyle,
     aspect: f64,
     [across, down]: [u32; 2],
     places: &[BarPlace],
     room: impl Fn(&FigureStyle) -> Result<[u32; 2], E>,
 ) -> Result<FigureStyle, E> {
-    let width = design.size[0];
+    let width = style.size[0];
     let tallest = width.saturating_mul(TALLEST).saturating_mul(down);
-    let tall = |bar| FigureStyle { bar, size: [width, tallest], ..design.clone() };
+    let tall = |bar| FigureStyle { bar, size: [width, tallest], ..style.clone() };
     let is_wide = |place: &&BarPlace| {
         let columns = room(&tall(**place)).map_or(0, |[columns, _]| columns);
         f64::from(columns) * f64::from(across) >= LEAST_PART * f64::from(width)
     };
     let place = places.iter().find(is_wide).or(places.last()).copied();
-    let mut found = tall(place.unwrap_or(design.bar));
+    let mut found = tall(place.unwrap_or(style.bar));
     let [columns, rows] = room(&found)?;
     let height = (f64::from(columns) / aspect.max(NARROWEST)).round().max(f64::from(LEAST)) as u32;
     found.size[1] = tallest - rows.saturating_sub(height) * down;
@@ -140,20 +140,20 @@ const NARROWEST: f64 = 0.25;
 const LEAST_PART: f64 = 0.6;
 
 /// Pixels across and down that no image has.
-fn kept(title: &str, captions: &[&str], grid: PanelGrid, design: &FigureStyle) -> [f64; 2] {
-    let scale = design.scale();
+fn kept(title: &str, captions: &[&str], grid: PanelGrid, style: &FigureStyle) -> [f64; 2] {
+    let scale = style.scale();
     let [across, down] = [grid.columns.max(1), grid.rows.max(1)].map(f64::from);
     let (bars_across, bars_down) = match grid.barred {
         _ if grid.shared_bar => (1.0, 1.0),
         Some([columns, rows]) => (f64::from(columns).min(across), f64::from(rows).min(down)),
         None => (across, down),
     };
-    let is = |place: BarPlace| f64::from(u8::from(design.bar == place));
+    let is = |place: BarPlace| f64::from(u8::from(style.bar == place));
     let wide =
         LEFT * across + RIGHT * across + (RIGHT_BAR - RIGHT) * bars_across * is(BarPlace::Right);
     // without a title, too, the room for its first line: ticks reach into it
-    let more_lines = title_lines(title, design).len().saturating_sub(1) as f64;
-    let captioned = captions.iter().map(|text| caption_lines(text, grid, design).len()).max();
+    let more_lines = title_lines(title, style).len().saturating_sub(1) as f64;
+    let captioned = captions.iter().map(|text| caption_lines(text, grid, style).len()).max();
     let caption = match captioned.unwrap_or(0) {
         0 => 0.0,
         lines => (lines as f64 * LINE * LABEL_TEXT) + TITLE_GAP,
@@ -166,18 +166,18 @@ fn kept(title: &str, captions: &[&str], grid: PanelGrid, design: &FigureStyle) -
     [wide, high].map(|room| room * scale)
 }
 
-fn title_lines(title: &str, design: &FigureStyle) -> Vec<String> {
-    let scale = design.scale();
-    let room = f64::from(design.size[0]) - 2.0 * MARGIN * scale;
-    sheet::lines(title, TITLE_TEXT * scale, room, TITLE_LINES)
+fn title_lines(title: &str, style: &FigureStyle) -> Vec<String> {
+    let scale = style.scale();
+    let room = f64::from(style.size[0]) - 2.0 * MARGIN * scale;
+    panel_layout::lines(title, TITLE_TEXT * scale, room, TITLE_LINES)
 }
 
 /// A caption as long as its cell right of where plots begin.
-fn caption_lines(caption: &str, grid: PanelGrid, design: &FigureStyle) -> Vec<String> {
-    let scale = design.scale();
-    let cell = f64::from(design.size[0]) / f64::from(grid.columns.max(1));
+fn caption_lines(caption: &str, grid: PanelGrid, style: &FigureStyle) -> Vec<String> {
+    let scale = style.scale();
+    let cell = f64::from(style.size[0]) / f64::from(grid.columns.max(1));
     let room = cell - (LEFT + MARGIN) * scale;
-    sheet::lines(caption, LABEL_TEXT * scale, room, CAPTION_LINES)
+    panel_layout::lines(caption, LABEL_TEXT * scale, room, CAPTION_LINES)
 }
 
 /// A figure of panels, in rows, whose titles are their captions, with a title of its own. Images
@@ -191,30 +191,30 @@ pub fn panels(
     title: &str,
     panels: &[Panel<'_>],
     grid: PanelGrid,
-    design: &FigureStyle,
+    style: &FigureStyle,
 ) -> Result<Canvas, FigureError> {
     if panels.is_empty() || panels.len() > grid.cells() {
         return Err(FigureError::Panels { panels: panels.len(), cells: grid.cells() });
     }
     let captions: Vec<&str> = panels.iter().map(|panel| panel.labels.title.as_str()).collect();
-    let room = panel_area(title, &captions, grid, design)?;
+    let room = panel_area(title, &captions, grid, style)?;
     if let Some(panel) = panels.iter().find(|p| (0..2).any(|k| p.picture.image.size[k] > room[k])) {
         return Err(FigureError::TooLarge { plot: panel.picture.image.size, room });
     }
-    let sheets = panels.iter().zip(own_keys(panels)?).map(|(panel, key)| {
-        let caption = caption_lines(&panel.labels.title, grid, design);
-        FigureLayout::new(panel, caption, design, room, key.filter(|_| !grid.shared_bar))
+    let layouts = panels.iter().zip(own_keys(panels)?).map(|(panel, key)| {
+        let caption = caption_lines(&panel.labels.title, grid, style);
+        PanelLayout::new(panel, caption, style, room, key.filter(|_| !grid.shared_bar))
     });
-    let lines = title_lines(title, design);
+    let lines = title_lines(title, style);
     let [across, down] = [(room[0], grid.columns), (room[1], grid.rows)]
         .map(|(side, count)| f64::from(side) * f64::from(count));
-    Ok(FigurePage::new(sheets.collect(), panels, lines, (grid, [across, down]), design)?.draw())
+    Ok(FigurePage::new(layouts.collect(), panels, lines, (grid, [across, down]), style)?.draw())
 }
 
-/// Sheets on a page.
+/// Panels on a page.
 struct FigurePage<'a> {
-    design: &'a FigureStyle,
-    sheets: Vec<FigureLayout<'a>>,
+    style: &'a FigureStyle,
+    layouts: Vec<PanelLayout<'a>>,
     columns: Vec<Track>,
     rows: Vec<Track>,
     /// The bar for all.
@@ -241,32 +241,32 @@ fn plots(tracks: &[Track]) -> [f64; 2] {
 impl<'a> FigurePage<'a> {
     /// A page whose panels have room for images of so many pixels together.
     fn new(
-        sheets: Vec<FigureLayout<'a>>,
+        layouts: Vec<PanelLayout<'a>>,
         panels: &[Panel<'_>],
         lines: Vec<String>,
         (grid, room): (PanelGrid, [f64; 2]),
-        design: &'a FigureStyle,
+        style: &'a FigureStyle,
     ) -> Result<Self, FigureError> {
-        let [columns, rows] = tracks(&sheets, grid, design);
+        let [columns, rows] = tracks(&layouts, grid, style);
         let sides = [&columns, &rows].map(|tracks| plots(tracks)[1] - plots(tracks)[0]);
         let bar = match grid.shared_bar {
-            true => sheet::bar(shared_key(panels.iter())?, design.bar, design, sides, room),
+            true => panel_layout::bar(shared_key(panels.iter())?, style.bar, style, sides, room),
             false => None,
         };
-        Ok(Self { design, sheets, columns, rows, bar, lines })
+        Ok(Self { style, layouts, columns, rows, bar, lines })
     }
 
     /// The page with everything in its middle.
     fn draw(&self) -> Canvas {
-        let size = Vec2::from(self.design.size.map(f64::from));
+        let size = Vec2::from(self.style.size.map(f64::from));
         // measured at a place far from the borders
         let far = vec2(f64::from(1 << 24), f64::from(1 << 24));
         let [lo, hi] = bounds(&self.around(far));
         let start = (size - (hi - lo)) * 0.5 + (far - lo);
         let start = vec2(start.x.round(), start.y.round());
-        let mut page = Canvas::new(self.design.size, self.design.paper());
+        let mut page = Canvas::new(self.style.size, self.style.paper());
         let origins = self.origins(start);
-        page.items.extend(self.sheets.iter().zip(origins).map(|(sheet, at)| sheet.plot(at)));
+        page.items.extend(self.layouts.iter().zip(origins).map(|(layout, at)| layout.plot(at)));
         page.items.extend(self.around(start));
         page
     }
@@ -279,15 +279,15 @@ impl<'a> FigurePage<'a> {
             let corner = start + vec2(before(&self.columns, column), before(&self.rows, row));
             [corner.x as u32, corner.y as u32]
         };
-        (0..self.sheets.len()).map(at).collect()
+        (0..self.layouts.len()).map(at).collect()
     }
 
     /// Everything but the plots.
     fn around(&self, start: Vec2) -> Vec<CanvasItem> {
-        let mut ink = Ink::new(self.design);
+        let mut ink = Ink::new(self.style);
         let origins = self.origins(start);
-        for (sheet, at) in self.sheets.iter().zip(&origins) {
-            ink.items.extend(sheet.around(*at));
+        for (layout, at) in self.layouts.iter().zip(&origins) {
+            ink.items.extend(layout.around(*at));
         }
         let ([left, right], [top, bottom]) = (plots(&self.columns), plots(&self.rows));
         if let Some(bar) = &self.bar {
@@ -295,7 +295,7 @@ impl<'a> FigurePage<'a> {
             // an upright bar is beside all panels
             let max = vec2(if bar.is_upright { end.x } else { start.x + right }, start.y + bottom);
             let room = [right - left, bottom - top];
-            sheet::draw_bar(bar, &mut ink, [start + vec2(left, top), max], end, room);
+            panel_layout::draw_bar(bar, &mut ink, [start + vec2(left, top), max], end, room);
         }
         self.title(&mut ink, start.x + left);
         ink.items
@@ -314,11 +314,11 @@ impl<'a> FigurePage<'a> {
 }
 
 /// The rooms of columns and of rows, whole pixels.
-fn tracks(sheets: &[FigureLayout<'_>], grid: PanelGrid, design: &FigureStyle) -> [Vec<Track>; 2] {
+fn tracks(layouts: &[PanelLayout<'_>], grid: PanelGrid, style: &FigureStyle) -> [Vec<Track>; 2] {
     let mut columns = vec![[0.0; 3]; grid.columns as usize];
     let mut rows = vec![[0.0; 3]; grid.rows as usize];
-    for (k, sheet) in sheets.iter().enumerate() {
-        let (Extents { before, after }, plot) = (sheet.extents(), sheet.sides());
+    for (k, layout) in layouts.iter().enumerate() {
+        let (Extents { before, after }, plot) = (layout.extents(), layout.sides());
         let (column, row) = (k % columns.len(), k / columns.len());
         for (track, parts) in [
             (&mut columns[column], [before.x, plot.x, after.x]),
@@ -329,7 +329,7 @@ fn tracks(sheets: &[FigureLayout<'_>], grid: PanelGrid, design: &FigureStyle) ->
             }
         }
     }
-    let gap = (MARGIN * design.scale()).ceil();
+    let gap = (MARGIN * style.scale()).ceil();
     for tracks in [&mut columns, &mut rows] {
         tracks.iter_mut().skip(1).for_each(|track| track[0] += gap);
     }

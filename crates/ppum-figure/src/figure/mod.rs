@@ -14,33 +14,33 @@
 //! ```
 
 mod axis;
-mod beyond;
 mod color_bar;
 mod color_key;
-mod design;
-mod ink;
+mod end_labels;
+pub(crate) mod ink;
 mod layout;
 mod legend;
 mod metrics;
 mod panel;
-mod sheet;
+mod panel_layout;
+mod style;
 
 use crate::canvas::Canvas;
 
 pub use axis::axis_label;
 pub use color_bar::StandaloneColorBar;
-pub use design::{BarPlace, FigureStyle, Labels, Theme, TickChoice};
 pub use layout::{PanelGrid, hugging, panel_area, panels, plot_area};
 pub use panel::{FigureError, Panel, bare};
-pub use sheet::lacks_legend;
+pub use panel_layout::lacks_legend;
+pub use style::{BarPlace, FigureStyle, Labels, Theme, TickChoice};
 
 /// A figure around an image of at most [`plot_area`], in the middle, its title above it.
 ///
 /// # Errors
 /// A size without room for the image.
-pub fn figure(mut panel: Panel<'_>, design: &FigureStyle) -> Result<Canvas, FigureError> {
+pub fn figure(mut panel: Panel<'_>, style: &FigureStyle) -> Result<Canvas, FigureError> {
     let title = std::mem::take(&mut panel.labels.title);
-    panels(&title, &[panel], PanelGrid::ONE, design)
+    panels(&title, &[panel], PanelGrid::ONE, style)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use ppum::crack::Crack;
 use ppum_render::picture::ColoredRaster;
 
-use super::design::Labels;
+use super::style::Labels;
 use crate::canvas::{Canvas, CanvasItem};
 use crate::overlay::LegendEntry;
 

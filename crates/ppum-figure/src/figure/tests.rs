@@ -13,8 +13,8 @@ use ppum_testkit::random::Random;
 
 use super::color_bar::{ARROW, BAR};
 use super::color_key::ColorKey;
-use super::design::HATCH_STEP;
 use super::metrics::BAR_GAP;
+use super::style::HATCH_STEP;
 use super::*;
 use crate::canvas::{CanvasItem, TextItem};
 use crate::overlay::{LegendEntry, Symbol};

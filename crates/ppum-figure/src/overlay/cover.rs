@@ -46,28 +46,25 @@ impl EnrichmentClass {
     /// All kinds.
     pub const ALL: [Self; 5] = [Self::None, Self::Jump, Self::Tip, Self::JumpAndTip, Self::Other];
 
-    /// The colour, that of Üffinger et al. 2011, figure 2, where it has one.
+    /// Colours, those of Üffinger et al. 2011, figure 2, where it has them, and words of legends.
+    const MARKS: [(Rgba, &'static str); 5] = [
+        ([150, 150, 155, 255], "polynomials"),
+        ([208, 38, 42, 255], "jump"),
+        ([38, 78, 205, 255], "tip functions"),
+        ([140, 50, 165, 255], "jump and tip functions"),
+        ([24, 140, 80, 255], "other functions"),
+    ];
+
+    /// The colour.
     #[must_use]
     pub fn color(self) -> Rgba {
-        match self {
-            Self::None => [150, 150, 155, 255],
-            Self::Jump => [208, 38, 42, 255],
-            Self::Tip => [38, 78, 205, 255],
-            Self::JumpAndTip => [140, 50, 165, 255],
-            Self::Other => [24, 140, 80, 255],
-        }
+        Self::MARKS[self as usize].0
     }
 
     /// The words of a legend.
     #[must_use]
     pub fn label(self) -> &'static str {
-        match self {
-            Self::None => "polynomials",
-            Self::Jump => "jump",
-            Self::Tip => "tip functions",
-            Self::JumpAndTip => "jump and tip functions",
-            Self::Other => "other functions",
-        }
+        Self::MARKS[self as usize].1
     }
 
     /// The kind of the functions of a patch.
@@ -143,20 +140,33 @@ pub fn patches(view: &View, scale: f64, partition: &BoxPartition) -> Vec<CanvasI
 /// mean. Üffinger et al. 2011, figure 2.
 #[must_use]
 pub fn centers(view: &View, scale: f64, field: &Field<'_>) -> (Vec<CanvasItem>, Vec<LegendEntry>) {
-    let (cells, kinds) = (field.step.partition.cells(), enrichments(field));
-    let (mut items, mut entries) = (Vec::new(), Vec::new());
-    for kind in EnrichmentClass::ALL {
-        let of_kind = cells.iter().zip(&kinds).filter(|(_, k)| **k == kind).map(|(cell, _)| *cell);
+    let cells = field.step.partition.cells();
+    by_enrichment(view, field, |kind, seen| {
         let mut outline = CanvasPath::default();
-        for cell in of_kind.filter(|cell| is_near(view, *cell)) {
+        for cell in seen.iter().map(|&patch| cells[patch]) {
             let side = cell.size().x.min(cell.size().y) / view.pixel_size();
             let half = 0.5 * (CENTER * scale).min(CENTER_PART * side);
             let at = view.pixel_of_offset(cell.center() - view.center);
             outline.rect(at - vec2(half, half), at + vec2(half, half));
         }
-        if !outline.is_empty() {
+        vec![CanvasItem::Fill { outline, color: kind.color() }]
+    })
+}
+
+/// Draws the patches in sight of each kind of enrichment, and says what the colours mean.
+fn by_enrichment(
+    view: &View,
+    field: &Field<'_>,
+    draw: impl Fn(EnrichmentClass, &[usize]) -> Vec<CanvasItem>,
+) -> (Vec<CanvasItem>, Vec<LegendEntry>) {
+    let (cells, kinds) = (field.step.partition.cells(), enrichments(field));
+    let (mut items, mut entries) = (Vec::new(), Vec::new());
+    for kind in EnrichmentClass::ALL {
+        let is_seen = |patch: &usize| kinds[*patch] == kind && is_near(view, cells[*patch]);
+        let seen: Vec<usize> = (0..cells.len()).filter(is_seen).collect();
+        if !seen.is_empty() {
             entries.push(LegendEntry::new(Symbol::Square(kind.color()), kind.label()));
-            items.push(CanvasItem::Fill { outline, color: kind.color() });
+            items.extend(draw(kind, &seen));
         }
     }
     (items, entries)
@@ -172,26 +182,17 @@ const PLAIN: u8 = 110;
 /// boxes that share a side both show theirs. Üffinger et al. 2011, figure 8.
 #[must_use]
 pub fn boxes(view: &View, scale: f64, field: &Field<'_>) -> (Vec<CanvasItem>, Vec<LegendEntry>) {
-    let (cells, kinds) = (field.step.partition.cells(), enrichments(field));
-    let (mut items, mut entries) = (Vec::new(), Vec::new());
-    for kind in EnrichmentClass::ALL {
-        let is_seen = |patch: &usize| kinds[*patch] == kind && is_near(view, cells[*patch]);
-        let seen: Vec<usize> = (0..kinds.len()).filter(is_seen).collect();
-        if seen.is_empty() {
-            continue;
-        }
+    let (cells, mesh) = (field.step.partition.cells(), field.step.partition.mesh());
+    by_enrichment(view, field, |kind, seen| {
         let [r, g, b, opaque] = kind.color();
-        let color =
-            if kind == EnrichmentClass::None { [r, g, b, PLAIN] } else { [r, g, b, opaque] };
-        entries.push(LegendEntry::new(Symbol::Square(kind.color()), kind.label()));
-        if let Some(mesh) = field.step.partition.mesh() {
+        let opacity = if kind == EnrichmentClass::None { PLAIN } else { opaque };
+        let color = [r, g, b, opacity];
+        if let Some(mesh) = mesh {
             let pen = StrokeStyle::new(color, 1.5 * WIDTH * scale);
-            items.push(CanvasItem::Line { path: edges(view, mesh, seen.into_iter()), pen });
-            continue;
+            return vec![CanvasItem::Line { path: edges(view, mesh, seen.iter().copied()), pen }];
         }
-        items.extend(seen.into_iter().map(|patch| frame_inside(view, scale, cells[patch], color)));
-    }
-    (items, entries)
+        seen.iter().map(|&patch| frame_inside(view, scale, cells[patch], color)).collect()
+    })
 }
 
 /// The border of a cell, drawn within it.

@@ -13,6 +13,7 @@ use ppum::function::{Frame, FunctionKind};
 use ppum::mesh::Mesh;
 use ppum::polynomial::{PolynomialSpace, polynomial_in};
 use ppum::vec2::Vec2;
+use ppum_render::pieces::steepness;
 use ppum_render::view::View;
 
 use super::edges::is_near;
@@ -79,7 +80,7 @@ impl<'a> Level<'a> {
     fn new(data: &'a FieldData, patch: usize) -> Self {
         let block = |k| (data.space(k), data.block_degree[k].into(), data.block_coefficients(k, 0));
         let blocks: Vec<_> = data.blocks(patch).map(block).collect();
-        let slopes = blocks.iter().map(|(space, degree, c)| slope(*space, *degree, c));
+        let slopes = blocks.iter().map(|(space, degree, c)| steepness(*space, *degree, c));
         Self { slope: slopes.sum(), blocks }
     }
 
@@ -89,12 +90,6 @@ impl<'a> Level<'a> {
         };
         self.blocks.iter().map(value).sum()
     }
-}
-
-/// Σ (j + k) |c_jk|.
-fn slope(space: PolynomialSpace, degree: usize, coefficients: &[f64]) -> f64 {
-    let terms = space.exponents(degree).zip(coefficients);
-    terms.map(|((a, b), c)| f64::from(a + b) * c.abs()).sum()
 }
 
 /// A line of one patch on an image.
@@ -114,10 +109,8 @@ impl<'a> CutLine<'a> {
         let level = |field: u32| Level::new(&step.fields[field as usize], patch);
         let sign = |is_above: bool| if is_above { 1.0 } else { -1.0 };
         let sides = line.sides.iter().map(|(field, is_above)| (level(*field), sign(*is_above)));
-        let exponents = || mesh.map_space[patch].exponents(mesh.map_degree[patch].into()).skip(1);
-        let slopes = mesh
-            .map_of(patch)
-            .map(|c| exponents().zip(c).map(|((a, b), c)| f64::from(a + b) * c.abs()).sum::<f64>());
+        let (space, degree) = (mesh.map_space[patch], mesh.map_degree[patch].into());
+        let slopes = mesh.map_of(patch).map(|c| steepness(space, degree, &[&[0.0], c].concat()));
         let slope = slopes[0].max(slopes[1]) / view.pixel_size();
         Self { view, mesh, patch, level: level(line.field), sides: sides.collect(), slope }
     }

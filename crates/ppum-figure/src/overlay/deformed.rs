@@ -19,8 +19,7 @@ const DASHES: [f64; 2] = [7.0, 5.0];
 /// The faces of all cracks, and of the cuts of elements, where they have moved to.
 #[must_use]
 pub fn faces(view: &DeformedView<'_>, scale: f64) -> Vec<CanvasItem> {
-    let cracks: Vec<usize> = (0..view.field().step.cracks.len()).collect();
-    let faces = view.faces_of(&cracks).into_iter().flatten().flatten();
+    let faces = view.faces().into_iter().flatten().flatten();
     let lines = faces.chain(view.cut_faces()).collect();
     let pen =
         StrokeStyle::new(CRACK, 0.7 * CRACK_WIDTH * scale).with_halo(SEAM, SEAM_WIDTH * scale);
@@ -35,7 +34,7 @@ pub fn deformed_outline(
     mirrors: [Option<f64>; 2],
     scale: f64,
 ) -> Vec<CanvasItem> {
-    vec![line(view, view.outline_beside(mirrors), StrokeStyle::new(CRACK, RIM_WIDTH * scale))]
+    vec![line(view, view.outline(mirrors), StrokeStyle::new(CRACK, RIM_WIDTH * scale))]
 }
 
 /// The border of the body, the rims and the cracks where they are without displacement, dashed,
@@ -49,11 +48,10 @@ pub fn undeformed_outline(
     scale: f64,
 ) -> Result<Vec<CanvasItem>, DeformError> {
     let before = Deformation::new(view.field(), 0.0)?.seen(&view.view);
-    let cracks: Vec<usize> = (0..view.field().step.cracks.len()).collect();
-    let above = before.faces_of(&cracks).into_iter().flat_map(|[above, _]| above);
+    let above = before.faces().into_iter().flat_map(|[above, _]| above);
     let [dash, gap] = DASHES.map(|length| length * scale);
     let pen = StrokeStyle::new(BEFORE, RIM_WIDTH * scale).dashed(dash, gap);
-    let lines = before.outline_beside(mirrors).into_iter().chain(above).chain(before.cut_faces());
+    let lines = before.outline(mirrors).into_iter().chain(above).chain(before.cut_faces());
     Ok(vec![line(&before, lines.collect(), pen)])
 }
 
@@ -91,12 +89,12 @@ pub fn carried(view: &DeformedView<'_>, lines: &[Isoline]) -> Vec<Isoline> {
 /// The parts of paths in and near the image, as lines.
 fn line(view: &DeformedView<'_>, paths: Paths, pen: StrokeStyle) -> CanvasItem {
     let seen = &view.view;
-    let pieces = paths.iter().flat_map(|path| in_picture(seen, path)).collect();
+    let pieces = paths.iter().flat_map(|path| visible_runs(seen, path)).collect();
     CanvasItem::Line { path: CanvasPath { pieces }, pen }
 }
 
 /// Runs of a path that come near the image, in pixels.
-fn in_picture(view: &View, path: &[Vec2]) -> Vec<Vec<Vec2>> {
+fn visible_runs(view: &View, path: &[Vec2]) -> Vec<Vec<Vec2>> {
     let reach = 2.0 * view.half().length();
     let is_near = |pair: &[Vec2]| {
         let (a, b) = (pair[0], pair[1]);

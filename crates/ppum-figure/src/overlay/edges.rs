@@ -22,8 +22,13 @@ pub(super) fn reach(view: &View) -> Vec2 {
 }
 
 pub(super) fn is_near(view: &View, rect: Rect) -> bool {
-    let (min, max, around) = (rect.min - view.center, rect.max - view.center, reach(view));
-    max.x >= -around.x && min.x <= around.x && max.y >= -around.y && min.y <= around.y
+    let offsets = Rect::new(rect.min - view.center, rect.max - view.center);
+    meet(&offsets, &Rect::around(Vec2::ZERO, reach(view)))
+}
+
+/// True if two closed boxes meet.
+fn meet(a: &Rect, b: &Rect) -> bool {
+    a.min.x <= b.max.x && a.max.x >= b.min.x && a.min.y <= b.max.y && a.max.y >= b.min.y
 }
 
 /// The outlines of some patches, as far as they are in sight.
@@ -95,9 +100,6 @@ impl PatchEdge<'_> {
         let margin = Vec2 { x: 0.1 * columns, y: 0.1 * rows };
         let picture = Rect::new(-margin, Vec2 { x: columns, y: rows } + margin);
         let arc = Rect::new(a.min(b) - around, a.max(b) + around);
-        arc.min.x <= picture.max.x
-            && arc.max.x >= picture.min.x
-            && arc.min.y <= picture.max.y
-            && arc.max.y >= picture.min.y
+        meet(&arc, &picture)
     }
 }

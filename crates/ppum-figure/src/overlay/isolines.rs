@@ -28,6 +28,8 @@ pub struct Room {
     is_free: Vec<bool>,
     /// The way levels are written.
     notation: Notation,
+    /// Middles and half lengths of the labels.
+    labels: Vec<(Vec2, f64)>,
 }
 
 impl Room {
@@ -37,7 +39,8 @@ impl Room {
     pub fn new(picture: &ColoredRaster, cracks: &[Crack], notation: Notation) -> Self {
         let image = &picture.image;
         let is_free = image.rgba.chunks_exact(4).map(|pixel| pixel[3] > 0).collect();
-        let mut room = Self { columns: image.size[0] as usize, is_free, notation };
+        let mut room =
+            Self { columns: image.size[0] as usize, is_free, notation, labels: Vec::new() };
         for ends in cracks.iter().flat_map(|crack| crack.points.windows(2)) {
             room.close([ends[0], ends[1]].map(|p| picture.view.pixel(p)));
         }
@@ -99,10 +102,9 @@ pub fn isolines(view: &View, scale: f64, lines: &[Isoline], room: Option<Room>) 
     let path = CanvasPath { pieces: lines.iter().map(|line| points(view, line)).collect() };
     let pen = StrokeStyle::new(LINE, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
     let mut items = vec![CanvasItem::Line { path: path.clone(), pen }];
-    if let Some(room) = room {
-        let mut taken = OccupiedArea { room, labels: Vec::new() };
+    if let Some(mut room) = room {
         for (line, points) in lines.iter().zip(&path.pieces) {
-            items.extend(label(view, scale, line.level, points, &mut taken).map(CanvasItem::Text));
+            items.extend(label(view, scale, line.level, points, &mut room).map(CanvasItem::Text));
         }
     }
     items
@@ -135,13 +137,6 @@ const UNSEEN: f64 = 0.02;
 /// Most points that one chord stands for.
 const RUN: usize = 48;
 
-/// The areas that labels avoid.
-struct OccupiedArea {
-    room: Room,
-    /// Middles and half lengths of other labels.
-    labels: Vec<(Vec2, f64)>,
-}
-
 /// The level along the straightest part of its line, away from other labels, cracks and the body's
 /// border; none where there is no room.
 fn label(
@@ -149,10 +144,10 @@ fn label(
     scale: f64,
     level: f64,
     points: &[Vec2],
-    taken: &mut OccupiedArea,
+    room: &mut Room,
 ) -> Option<TextItem> {
     let size = TEXT * scale;
-    let line = TextItem::new(taken.room.notation.label(level), size, Vec2::ZERO, LINE);
+    let line = TextItem::new(room.notation.label(level), size, Vec2::ZERO, LINE);
     let half = 0.5 * line.width();
     let arcs = arc_lengths(points);
     let length = *arcs.last()?;
@@ -172,8 +167,8 @@ fn label(
         let inside = p.x > margin.x && p.y > margin.y && p.x < most.x && p.y < most.y;
         let is_apart = |(q, r): &(Vec2, f64)| (p - *q).length() > half + r + 2.0 * size;
         inside
-            && taken.labels.iter().all(is_apart)
-            && taken.room.holds(p, along(s), vec2(half + 0.3 * size, 0.7 * size))
+            && room.labels.iter().all(is_apart)
+            && room.holds(p, along(s), vec2(half + 0.3 * size, 0.7 * size))
     };
     const PLACES: u32 = 24;
     let places = (1..PLACES).map(|k| length * f64::from(k) / f64::from(PLACES));
@@ -187,7 +182,7 @@ fn label(
     }
     let (middle, along) = (at(best), along(best));
     let angle = (-along.y).atan2(along.x);
-    taken.labels.push((middle, half));
+    room.labels.push((middle, half));
     let down = along.left() * (0.36 * size);
     let halo = Some(Halo { color: GROUND, width: 0.25 * size });
     Some(TextItem { at: middle + down, angle, halo, align: Align::Middle, ..line })

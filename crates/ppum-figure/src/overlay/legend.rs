@@ -34,9 +34,10 @@ impl LegendEntry {
     }
 }
 
-const TEXT: f64 = 13.0;
+pub(crate) const TEXT: f64 = 13.0;
 const ROW: f64 = 20.0;
-const MARGIN: f64 = 9.0;
+pub(crate) const MARGIN: f64 = 9.0;
+/// Side of a square, and length of a line beside plots.
 const MARK: f64 = 11.0;
 const GROUND: Rgba = [255, 255, 255, 225];
 const FRAME: Rgba = [120, 120, 126, 255];
@@ -51,9 +52,10 @@ const PART: [f64; 2] = [0.75, 0.4];
 #[must_use]
 pub fn legend_box(view: &View, scale: f64, entries: &[LegendEntry]) -> Option<[Vec2; 2]> {
     let pixels = view.pixels.map(f64::from);
-    let size = legend_size(entries, scale);
+    let size = LegendBox::new(entries, scale).size();
     let fits = size.x <= PART[0] * pixels[0] && size.y <= PART[1] * pixels[1];
-    let corner = corner(view.pixels, size, scale);
+    let left = pixels[0] - MARGIN * scale - size.x;
+    let corner = vec2(left.max(0.0), MARGIN * scale);
     (fits && !entries.is_empty()).then_some([corner, corner + size])
 }
 
@@ -61,57 +63,76 @@ pub fn legend_box(view: &View, scale: f64, entries: &[LegendEntry]) -> Option<[V
 #[must_use]
 pub fn legend(view: &View, scale: f64, entries: &[LegendEntry]) -> Vec<CanvasItem> {
     let place = legend_box(view, scale, entries);
-    place.map_or_else(Vec::new, |[min, _]| legend_at(min, entries, scale))
+    place.map_or_else(Vec::new, |[min, _]| LegendBox::new(entries, scale).items(min))
 }
 
-/// The upper left corner of a box in the upper right one of a page.
-fn corner(pixels: [u32; 2], size: Vec2, scale: f64) -> Vec2 {
-    let right = f64::from(pixels[0]) - MARGIN * scale;
-    vec2((right - size.x).max(0.0), MARGIN * scale)
+/// A box with a line for each entry.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LegendBox<'a> {
+    entries: &'a [LegendEntry],
+    /// Length of marks in units of the scale.
+    mark: f64,
+    scale: f64,
 }
 
-/// Width and height of a legend's box.
-pub(crate) fn legend_size(entries: &[LegendEntry], scale: f64) -> Vec2 {
-    let widest = entries.iter().map(|entry| text::width(&entry.label, TEXT * scale));
-    vec2(
-        (3.0 * MARGIN + MARK) * scale + widest.fold(0.0, f64::max),
-        (2.0 * MARGIN + ROW * entries.len() as f64 - (ROW - TEXT)) * scale,
-    )
-}
-
-/// A legend's box with its upper left corner at a place; nothing without entries.
-pub(crate) fn legend_at(corner: Vec2, entries: &[LegendEntry], scale: f64) -> Vec<CanvasItem> {
-    if entries.is_empty() {
-        return Vec::new();
+impl<'a> LegendBox<'a> {
+    pub(crate) fn new(entries: &'a [LegendEntry], scale: f64) -> Self {
+        Self { entries, mark: MARK, scale }
     }
-    let letter =
-        |entry: &LegendEntry| TextItem::new(&entry.label, TEXT * scale, vec2(0.0, 0.0), INK);
-    let size = legend_size(entries, scale);
-    let mut outline = CanvasPath::default();
-    outline.rect(corner, corner + size);
-    let mut items = vec![
-        CanvasItem::Fill { outline: outline.clone(), color: GROUND },
-        CanvasItem::Line { path: outline, pen: StrokeStyle::new(FRAME, scale) },
-    ];
-    for (row, entry) in entries.iter().enumerate() {
-        let middle = corner.y + (MARGIN + 0.5 * TEXT + ROW * row as f64) * scale;
-        let left = corner.x + MARGIN * scale;
+
+    /// The box with marks of another length.
+    pub(crate) fn marked(self, mark: f64) -> Self {
+        Self { mark, ..self }
+    }
+
+    /// Width and height.
+    pub(crate) fn size(&self) -> Vec2 {
+        let Self { entries, mark, scale } = *self;
+        let widest = entries.iter().map(|entry| text::width(&entry.label, TEXT * scale));
+        vec2(
+            (3.0 * MARGIN + mark) * scale + widest.fold(0.0, f64::max),
+            (2.0 * MARGIN + ROW * entries.len() as f64 - (ROW - TEXT)) * scale,
+        )
+    }
+
+    /// The box with its upper left corner at a place; nothing without entries.
+    pub(crate) fn items(&self, corner: Vec2) -> Vec<CanvasItem> {
+        if self.entries.is_empty() {
+            return Vec::new();
+        }
+        let mut outline = CanvasPath::default();
+        outline.rect(corner, corner + self.size());
+        let pen = StrokeStyle::new(FRAME, self.scale);
+        let mut items = vec![
+            CanvasItem::Fill { outline: outline.clone(), color: GROUND },
+            CanvasItem::Line { path: outline, pen },
+        ];
+        for (row, entry) in self.entries.iter().enumerate() {
+            let down = MARGIN + 0.5 * TEXT + ROW * row as f64;
+            items.extend(self.line(entry, corner + vec2(MARGIN, down) * self.scale));
+        }
+        items
+    }
+
+    /// An entry whose mark starts at a point.
+    fn line(&self, entry: &LegendEntry, start: Vec2) -> [CanvasItem; 2] {
+        let (mark, half) = (self.mark * self.scale, 0.5 * MARK * self.scale);
         let mut path = CanvasPath::default();
-        let half = 0.5 * MARK * scale;
-        items.push(match entry.symbol {
+        let symbol = match entry.symbol {
             Symbol::Square(color) => {
-                path.rect(vec2(left, middle - half), vec2(left + 2.0 * half, middle + half));
+                let middle = start + vec2(0.5 * mark, 0.0);
+                path.rect(middle - vec2(half, half), middle + vec2(half, half));
                 CanvasItem::Fill { outline: path, color }
             }
             Symbol::Line(pen) => {
-                path.line(vec2(left, middle), vec2(left + 2.0 * half, middle));
+                path.line(start, start + vec2(mark, 0.0));
                 CanvasItem::Line { path, pen }
             }
-        });
-        let base = vec2(left + (MARK + MARGIN) * scale, middle + 0.5 * CAP_HEIGHT * TEXT * scale);
-        items.push(CanvasItem::Text(TextItem { at: base, ..letter(entry) }));
+        };
+        let right = (self.mark + MARGIN) * self.scale;
+        let at = start + vec2(right, 0.5 * CAP_HEIGHT * TEXT * self.scale);
+        [symbol, CanvasItem::Text(TextItem::new(&entry.label, TEXT * self.scale, at, INK))]
     }
-    items
 }
 
 #[cfg(test)]

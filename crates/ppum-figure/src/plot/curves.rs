@@ -1,6 +1,9 @@
 //! The content of a plot.
 
-use ppum_render::scale::Scale;
+use ppum_render::scale::{Normalization, Scale};
+
+/// Room between the outermost values and the frame, in parts of the axis.
+const MARGIN: f64 = 0.04;
 
 /// Curves over axes.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -16,7 +19,7 @@ pub struct Plot {
 }
 
 /// An axis of a plot.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct PlotAxis {
     /// The quantity.
     pub label: String,
@@ -30,13 +33,6 @@ pub struct PlotAxis {
     pub names: Vec<String>,
     /// The values with a label, rising; found if there are none.
     pub marks: Vec<f64>,
-}
-
-impl Default for PlotAxis {
-    fn default() -> Self {
-        let (label, unit, names) = (String::new(), String::new(), Vec::new());
-        Self { label, unit, scale: Scale::Linear, range: None, names, marks: Vec::new() }
-    }
 }
 
 impl PlotAxis {
@@ -95,4 +91,45 @@ impl PlotCurve {
 /// True if an axis of this scale has a place for a value.
 pub(super) fn has_place(scale: Scale, value: f64) -> bool {
     value.is_finite() && (scale != Scale::Log || value > 0.0)
+}
+
+/// The scale of an axis: its range, or that of the curves' values with some room.
+pub(super) fn scale_of(plot: &Plot, k: usize) -> Normalization {
+    let (axes, curves) = ([&plot.x, &plot.y], &plot.curves);
+    let axis = axes[k];
+    let is_log = axis.scale == Scale::Log;
+    let fits = |(axis, v): (&PlotAxis, &f64)| has_place(axis.scale, *v);
+    let is_seen = |p: &&[f64; 2]| axes.into_iter().zip(*p).all(fits);
+    let points = curves.iter().flat_map(|curve| &curve.points).filter(is_seen);
+    let have_bars = !is_log && curves.iter().any(|curve| curve.look == CurveStyle::Bars);
+    let [min, max] = axis.range.unwrap_or_else(|| {
+        if !axis.names.is_empty() {
+            return [-0.6, axis.names.len() as f64 - 0.4];
+        }
+        let zero = (have_bars && k == 1).then_some(0.0);
+        let values = points.map(|p| p[k]).chain(zero);
+        let start = [f64::INFINITY, f64::NEG_INFINITY];
+        roomy(values.fold(start, |[a, b], v| [a.min(v), b.max(v)]), is_log)
+    });
+    let usable = min < max && (max - min).is_normal() && (!is_log || min > 0.0);
+    let [min, max] = if usable { [min, max] } else { [0.1, 1.0] };
+    Normalization::new(axis.scale, min, max)
+}
+
+/// A range with some room at its ends; around a single value, or where there is none, some range.
+fn roomy([min, max]: [f64; 2], is_log: bool) -> [f64; 2] {
+    if min > max {
+        return if is_log { [0.1, 1.0] } else { [0.0, 1.0] };
+    }
+    if is_log {
+        let factor = (max / min).powf(MARGIN).max(if max / min < 1.01 { 2.0 } else { 1.0 });
+        return [min / factor, max * factor];
+    }
+    let size = min.abs().max(max.abs());
+    let room = match max - min {
+        span if span > 1e-12 * size && span > 0.0 => MARGIN * span,
+        _ if size > 0.0 => 0.5 * size,
+        _ => 0.5,
+    };
+    [min - room, max + room]
 }

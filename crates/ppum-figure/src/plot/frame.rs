@@ -4,11 +4,13 @@ use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
 use ppum_render::scale::Normalization;
 
-use super::{Plot, PlotAxis, has_place};
-use crate::canvas::{Align, CanvasItem, CanvasPath, StrokeStyle, TextItem};
+use super::curves::{Plot, PlotAxis, has_place, scale_of};
+use crate::canvas::{Align, CanvasItem, CanvasPath, StrokeStyle};
+use crate::figure::axis_label;
+use crate::figure::ink::Ink;
 use crate::overlay::line_scale;
 use crate::text::{self, CAP_HEIGHT};
-use crate::ticks::{self, Tick, Ticks, power_of_ten};
+use crate::ticks::{self, Tick, Ticks};
 
 pub(super) const PAPER: Rgba = [255, 255, 255, 255];
 const INK: Rgba = [38, 38, 42, 255];
@@ -24,8 +26,13 @@ const MARGIN: f64 = 16.0;
 /// Least distances of labelled ticks, across and along the direction of reading.
 const DISTANCE: [f64; 2] = [90.0, 48.0];
 
+/// The least size of a plot.
+pub const LEAST: [u32; 2] = [240, 180];
+
 /// The positions of a plot's axes, ticks and labels.
 pub(super) struct PlotFrame {
+    /// Columns and rows of the page.
+    pub(super) size: [u32; 2],
     pub(super) scale: f64,
     /// Upper left and lower right corner of the curves' page, whole pixels.
     min: [f64; 2],
@@ -37,7 +44,9 @@ pub(super) struct PlotFrame {
 }
 
 impl PlotFrame {
-    pub(super) fn new(plot: &Plot, norms: [Normalization; 2], size: [u32; 2]) -> Self {
+    pub(super) fn new(plot: &Plot, size: [u32; 2]) -> Self {
+        let size = [0, 1].map(|k| size[k].max(LEAST[k]));
+        let norms = [0, 1].map(|k| scale_of(plot, k));
         let scale = line_scale(size);
         let most = |k: usize| (f64::from(size[k]) / (DISTANCE[k] * scale)) as usize;
         let ticks = [(&plot.x, 0), (&plot.y, 1)].map(|(axis, k)| match () {
@@ -56,7 +65,7 @@ impl PlotFrame {
             (columns - 2.0 * MARGIN * scale).round().max(min[0] + 8.0),
             (rows - below * scale).round().max(min[1] + 8.0),
         ];
-        Self { scale, min, max, norms, ticks, widest }
+        Self { size, scale, min, max, norms, ticks, widest }
     }
 
     /// Columns and rows of the curves' page.
@@ -124,41 +133,33 @@ impl PlotFrame {
     }
 
     /// Labels of ticks and axes, and the title.
-    pub(super) fn words(&self, plot: &Plot) -> Vec<CanvasItem> {
-        let mut words = Vec::new();
-        let (size, cap) = (TICK_TEXT * self.scale, CAP_HEIGHT * TICK_TEXT * self.scale);
-        let start = (TICK + GAP) * self.scale;
+    pub(super) fn texts(&self, plot: &Plot) -> Vec<CanvasItem> {
+        let scale = self.scale;
+        let mut ink = Ink { color: INK, scale, stroke: scale, items: Vec::new() };
+        let (cap, start) = (CAP_HEIGHT * TICK_TEXT * scale, (TICK + GAP) * scale);
         for tick in &self.ticks[0].major {
-            let at = vec2(self.across(tick.at), (self.max[1] + start + cap).round());
-            words.push(TextItem::new(&tick.label, size, at, INK).aligned(Align::Middle));
+            let at = vec2(self.across(tick.at), self.max[1] + start + cap);
+            ink.text(&tick.label, TICK_TEXT, at, Align::Middle);
         }
         for tick in &self.ticks[1].major {
-            let at = vec2(self.min[0] - start, (self.down(tick.at) + 0.5 * cap).round());
-            words.push(TextItem::new(&tick.label, size, at, INK).aligned(Align::End));
+            let at = vec2(self.min[0] - start, self.down(tick.at) + 0.5 * cap);
+            ink.text(&tick.label, TICK_TEXT, at, Align::End);
         }
-        words.extend(self.labels(plot));
-        words.into_iter().map(CanvasItem::Text).collect()
-    }
-
-    fn labels(&self, plot: &Plot) -> Vec<TextItem> {
-        let (size, scale) = (LABEL_TEXT * self.scale, self.scale);
         let [wide, high] = [0, 1].map(|k| self.max[k] - self.min[k]);
-        let fitted = |axis: &PlotAxis, k: usize, room: f64| {
-            text::fitted(&label(axis, &self.ticks[k]), size, room)
+        let label = |axis: &PlotAxis, k: usize, room: f64| {
+            let label = axis_label(&axis.label, &self.ticks[k], &axis.unit);
+            text::fitted(&label, LABEL_TEXT * scale, room)
         };
         let middle = [0, 1].map(|k| 0.5 * (self.min[k] + self.max[k]));
         let below = self.max[1] + (TICK + 2.0 * GAP + TICK_TEXT + 0.8 * LABEL_TEXT) * scale;
         let beside = self.min[0] - self.widest - (TICK + 2.0 * GAP + 0.3 * LABEL_TEXT) * scale;
+        let (x, y) = (label(&plot.x, 0, wide), label(&plot.y, 1, high));
+        ink.text(&x, LABEL_TEXT, vec2(middle[0], below), Align::Middle);
+        ink.upwards(&y, LABEL_TEXT, vec2(beside.round(), middle[1]));
         let title = text::fitted(&plot.title, TITLE_TEXT * scale, wide);
         let above = self.min[1] - 0.6 * MARGIN * scale;
-        vec![
-            TextItem::new(fitted(&plot.x, 0, wide), size, vec2(middle[0], below.round()), INK)
-                .aligned(Align::Middle),
-            TextItem::new(fitted(&plot.y, 1, high), size, vec2(beside.round(), middle[1]), INK)
-                .aligned(Align::Middle)
-                .upwards(),
-            TextItem::new(title, TITLE_TEXT * scale, vec2(self.min[0], above.round()), INK),
-        ]
+        ink.text(&title, TITLE_TEXT, vec2(self.min[0], above), Align::Start);
+        ink.items
     }
 }
 
@@ -191,18 +192,4 @@ fn marked(values: &[f64], norm: &Normalization, most: usize) -> Ticks {
 fn marks(ticks: &Ticks) -> impl Iterator<Item = (f64, f64)> {
     let major = ticks.major.iter().map(|tick| (tick.at, TICK));
     major.chain(ticks.minor.iter().map(|&at| (at, MINOR_TICK)))
-}
-
-/// Returns the text along an axis: name, number that the labels count from, power of ten, unit.
-fn label(axis: &PlotAxis, ticks: &Ticks) -> String {
-    let reference = match ticks.reference {
-        0.0 => String::new(),
-        r if r > 0.0 => format!(" − {r}"),
-        r => format!(" + {}", -r),
-    };
-    let power = if ticks.exponent == 0 { String::new() } else { power_of_ten(ticks.exponent) };
-    let unit = [power, axis.unit.clone()].into_iter().filter(|part| !part.is_empty());
-    let unit = unit.collect::<Vec<_>>().join(" ");
-    let unit = if unit.is_empty() { unit } else { format!(" [{unit}]") };
-    format!("{}{reference}{unit}", axis.label)
 }

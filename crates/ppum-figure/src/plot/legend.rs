@@ -1,97 +1,42 @@
 //! The legend of a plot, where it covers the least of the curves.
 
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_render::image::Rgba;
 
-use crate::canvas::{CanvasItem, CanvasPath, StrokeStyle, TextItem};
-use crate::overlay::{LegendEntry, Symbol};
-use crate::text::{self, CAP_HEIGHT};
+use crate::canvas::CanvasItem;
+use crate::overlay::{LEGEND_MARGIN, LEGEND_TEXT, LegendBox, LegendEntry, Symbol};
+use crate::text;
 
-// Lengths in pixels of a plot of 1024 × 768; others are scaled.
-const TEXT: f64 = 13.0;
-const ROW: f64 = 20.0;
-const MARGIN: f64 = 9.0;
 /// Length of a line's sample: dashes are told apart in it.
 const SAMPLE: f64 = 34.0;
-const SQUARE: f64 = 11.0;
 /// Longest label, in parts of the page.
 const LONGEST: f64 = 0.4;
 /// Distance of the points of curves that are counted.
 const STEP: f64 = 3.0;
-const GROUND: Rgba = [255, 255, 255, 225];
-const FRAME: Rgba = [120, 120, 126, 255];
-const INK: Rgba = [38, 38, 42, 255];
 
-/// A box with a line for each entry on a page of some size; nothing without entries.
+/// A box with a line for each entry on a page of some size; nothing without entries. Labels leave
+/// room for the plot: what tells quantities apart is often their end.
 pub(super) fn legend(
     pixels: [u32; 2],
     entries: &[LegendEntry],
     curves: &[Vec<Vec2>],
     scale: f64,
 ) -> Vec<CanvasItem> {
-    if entries.is_empty() {
-        return Vec::new();
-    }
-    let entries: Vec<LegendEntry> =
-        entries.iter().map(|entry| short(entry, pixels[0], scale)).collect();
-    let mark = if entries.iter().any(is_line) { SAMPLE } else { SQUARE };
-    let widths = entries.iter().map(|entry| letter(entry, scale).width());
-    let size = vec2(
-        (3.0 * MARGIN + mark) * scale + widths.fold(0.0, f64::max),
-        (2.0 * MARGIN + ROW * entries.len() as f64 - (ROW - TEXT)) * scale,
-    );
-    let corner = place(pixels, size, curves, scale);
-    let mut outline = CanvasPath::default();
-    outline.rect(corner, corner + size);
-    let mut items = vec![
-        CanvasItem::Fill { outline: outline.clone(), color: GROUND },
-        CanvasItem::Line { path: outline, pen: StrokeStyle::new(FRAME, scale) },
-    ];
-    for (row, entry) in entries.iter().enumerate() {
-        let down = (MARGIN + 0.5 * TEXT + ROW * row as f64) * scale;
-        items.extend(line(entry, corner + vec2(MARGIN * scale, down), mark * scale, scale));
-    }
-    items
-}
-
-/// The entry with a label that leaves room for the plot: what tells quantities apart is often
-/// their end.
-fn short(entry: &LegendEntry, columns: u32, scale: f64) -> LegendEntry {
-    let room = LONGEST * f64::from(columns);
-    LegendEntry { label: text::squeezed(&entry.label, TEXT * scale, room), ..entry.clone() }
-}
-
-fn is_line(entry: &LegendEntry) -> bool {
-    matches!(entry.symbol, Symbol::Line(_))
-}
-
-fn letter(entry: &LegendEntry, scale: f64) -> TextItem {
-    TextItem::new(&entry.label, TEXT * scale, vec2(0.0, 0.0), INK)
-}
-
-/// The mark, `mark` long, and the label of an entry, from the middle of the mark's left end.
-fn line(entry: &LegendEntry, start: Vec2, mark: f64, scale: f64) -> [CanvasItem; 2] {
-    let (mut path, half) = (CanvasPath::default(), 0.5 * SQUARE * scale);
-    let symbol = match entry.symbol {
-        Symbol::Square(color) => {
-            let middle = start + vec2(0.5 * mark, 0.0);
-            path.rect(middle - vec2(half, half), middle + vec2(half, half));
-            CanvasItem::Fill { outline: path, color }
-        }
-        Symbol::Line(pen) => {
-            path.line(start, start + vec2(mark, 0.0));
-            CanvasItem::Line { path, pen }
-        }
+    let room = LONGEST * f64::from(pixels[0]);
+    let short = |entry: &LegendEntry| LegendEntry {
+        label: text::squeezed(&entry.label, LEGEND_TEXT * scale, room),
+        ..entry.clone()
     };
-    let right = mark + MARGIN * scale;
-    let at = start + vec2(right, 0.5 * CAP_HEIGHT * TEXT * scale);
-    [symbol, CanvasItem::Text(TextItem { at, ..letter(entry, scale) })]
+    let entries: Vec<LegendEntry> = entries.iter().map(short).collect();
+    let has_lines = entries.iter().any(|entry| matches!(entry.symbol, Symbol::Line(_)));
+    let plain = LegendBox::new(&entries, scale);
+    let legend = if has_lines { plain.marked(SAMPLE) } else { plain };
+    legend.items(place(pixels, legend.size(), curves, scale))
 }
 
 /// The upper left corner of a box of some size: in one of the page's corners or in the middle of a
 /// side, where it covers the fewest points of the curves; of several the first.
 fn place(pixels: [u32; 2], size: Vec2, curves: &[Vec<Vec2>], scale: f64) -> Vec2 {
-    let near = vec2(MARGIN, MARGIN) * scale;
+    let near = vec2(LEGEND_MARGIN, LEGEND_MARGIN) * scale;
     let far = (vec2(f64::from(pixels[0]), f64::from(pixels[1])) - near - size).max(Vec2::ZERO);
     let near = near.min(far);
     let middle = (near + far) * 0.5;
@@ -124,6 +69,9 @@ fn dots(curve: &[Vec2], step: f64) -> impl Iterator<Item = Vec2> + '_ {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::canvas::{StrokeStyle, TextItem};
+
+    const INK: ppum_render::image::Rgba = [38, 38, 42, 255];
 
     /// A curve through all corners but one leaves that to the legend; without curves it is the
     /// upper right one.

@@ -11,12 +11,13 @@ mod thin;
 
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::Rgba;
-use ppum_render::scale::{Normalization, Scale};
+use ppum_render::scale::Normalization;
 
 use crate::canvas::{Canvas, CanvasItem, CanvasPath, StrokeStyle};
 use crate::overlay::{LegendEntry, Symbol};
 use curves::has_place;
 pub use curves::{CurveStyle, Plot, PlotAxis, PlotCurve};
+pub use frame::LEAST;
 use frame::PlotFrame;
 use legend::legend;
 use thin::thinned;
@@ -60,23 +61,16 @@ const WIDTH: f64 = 1.8;
 const DOT: f64 = 3.2;
 /// Dashes and gaps of the curves that have the colours once more, and of those after them.
 const DASHES: [[f64; 2]; 4] = [[9.0, 4.0], [2.0, 3.0], [16.0, 4.0], [5.0, 7.0]];
-/// Room between the outermost values and the frame, in parts of the axis.
-const MARGIN: f64 = 0.04;
-
-/// The least size of a plot.
-pub const LEAST: [u32; 2] = [240, 180];
 
 /// Draws a plot of at least [`LEAST`] pixels; a smaller size is enlarged.
 #[must_use]
 pub fn plot(plot: &Plot, size: [u32; 2]) -> Canvas {
-    let size = [size[0].max(LEAST[0]), size[1].max(LEAST[1])];
-    let [x, y] = [0, 1].map(|k| scale_of(plot, k));
-    let frame = PlotFrame::new(plot, [x, y], size);
-    let mut page = Canvas::new(size, frame::PAPER);
+    let frame = PlotFrame::new(plot, size);
+    let mut page = Canvas::new(frame.size, frame::PAPER);
     page.items.extend(frame.grid());
     page.items.push(inside(plot, &frame));
     page.items.extend(frame.lines());
-    page.items.extend(frame.words(plot));
+    page.items.extend(frame.texts(plot));
     page
 }
 
@@ -94,11 +88,9 @@ impl PlotArea {
     /// The area of a plot that [`plot`] draws in this size.
     #[must_use]
     pub fn new(plot: &Plot, size: [u32; 2]) -> Self {
-        let size = [size[0].max(LEAST[0]), size[1].max(LEAST[1])];
-        let norms = [0, 1].map(|k| scale_of(plot, k));
-        let frame = PlotFrame::new(plot, norms, size);
+        let frame = PlotFrame::new(plot, size);
         let [corner, size] = [frame.corner(), frame.pixels()].map(|c| c.map(f64::from).into());
-        Self { corner, size, norms }
+        Self { corner, size, norms: frame.norms }
     }
 
     /// The value of the horizontal axis at a column of the page.
@@ -183,50 +175,10 @@ fn drawn(curve: &PlotCurve, pen: StrokeStyle, frame: &PlotFrame) -> (Vec<CanvasI
     (items, path)
 }
 
-/// The scale of an axis: its range, or that of the curves' values with some room.
-fn scale_of(plot: &Plot, k: usize) -> Normalization {
-    let (axes, curves) = ([&plot.x, &plot.y], &plot.curves);
-    let axis = axes[k];
-    let is_log = axis.scale == Scale::Log;
-    let fits = |(axis, v): (&PlotAxis, &f64)| has_place(axis.scale, *v);
-    let is_seen = |p: &&[f64; 2]| axes.into_iter().zip(*p).all(fits);
-    let points = curves.iter().flat_map(|curve| &curve.points).filter(is_seen);
-    let have_bars = !is_log && curves.iter().any(|curve| curve.look == CurveStyle::Bars);
-    let [min, max] = axis.range.unwrap_or_else(|| {
-        if !axis.names.is_empty() {
-            return [-0.6, axis.names.len() as f64 - 0.4];
-        }
-        let zero = (have_bars && k == 1).then_some(0.0);
-        let values = points.map(|p| p[k]).chain(zero);
-        let start = [f64::INFINITY, f64::NEG_INFINITY];
-        roomy(values.fold(start, |[a, b], v| [a.min(v), b.max(v)]), is_log)
-    });
-    let usable = min < max && (max - min).is_normal() && (!is_log || min > 0.0);
-    let [min, max] = if usable { [min, max] } else { [0.1, 1.0] };
-    Normalization::new(axis.scale, min, max)
-}
-
-/// A range with some room at its ends; around a single value, or where there is none, some range.
-fn roomy([min, max]: [f64; 2], is_log: bool) -> [f64; 2] {
-    if min > max {
-        return if is_log { [0.1, 1.0] } else { [0.0, 1.0] };
-    }
-    if is_log {
-        let factor = (max / min).powf(MARGIN).max(if max / min < 1.01 { 2.0 } else { 1.0 });
-        return [min / factor, max * factor];
-    }
-    let size = min.abs().max(max.abs());
-    let room = match max - min {
-        span if span > 1e-12 * size && span > 0.0 => MARGIN * span,
-        _ if size > 0.0 => 0.5 * size,
-        _ => 0.5,
-    };
-    [min - room, max + room]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ppum_render::scale::Scale;
 
     fn line(points: &[[f64; 2]]) -> Plot {
         let curves = vec![PlotCurve::new("a", points.to_vec())];
@@ -340,7 +292,7 @@ mod tests {
         let words = |size| {
             let is_mark = |text: &String| text.contains("180") || text == "−90" || text == "90";
             let texts = plot(&around, size).items.into_iter().filter_map(|item| match item {
-                CanvasItem::Text(lettering) => Some(lettering.text),
+                CanvasItem::Text(text) => Some(text.text),
                 _ => None,
             });
             texts.filter(is_mark).collect::<Vec<_>>()

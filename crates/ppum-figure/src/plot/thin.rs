@@ -8,59 +8,22 @@ const PER_PIXEL: f64 = 4.0;
 /// The points of a line. For each run of points within one column, only the first, last, highest
 /// and lowest are kept: the line looks the same, peaks included.
 pub(super) fn thinned(points: impl Iterator<Item = Vec2>) -> Vec<Vec2> {
-    let mut kept = Vec::new();
-    let mut run: Option<ColumnRun> = None;
-    for (index, point) in points.enumerate() {
-        let column = (PER_PIXEL * point.x).floor();
-        match &mut run {
-            Some(run) if run.column == column => run.add(index, point),
-            _ => {
-                run.replace(ColumnRun::new(index, point, column))
-                    .iter()
-                    .for_each(|r| r.put(&mut kept));
-            }
-        }
-    }
-    run.iter().for_each(|run| run.put(&mut kept));
-    kept
+    let points: Vec<Vec2> = points.collect();
+    let column = |p: &Vec2| (PER_PIXEL * p.x).floor();
+    points.chunk_by(|a, b| column(a) == column(b)).flat_map(outermost).collect()
 }
 
-/// Consecutive points in one column, with their numbers.
-struct ColumnRun {
-    column: f64,
-    first: (usize, Vec2),
-    lowest: (usize, Vec2),
-    highest: (usize, Vec2),
-    last: (usize, Vec2),
-}
-
-impl ColumnRun {
-    fn new(index: usize, point: Vec2, column: f64) -> Self {
-        let only = (index, point);
-        Self { column, first: only, lowest: only, highest: only, last: only }
+/// The first, lowest, highest and last of some points, in order and each once.
+fn outermost(run: &[Vec2]) -> Vec<Vec2> {
+    let (mut lowest, mut highest) = (0, 0);
+    for (k, point) in run.iter().enumerate() {
+        lowest = if point.y < run[lowest].y { k } else { lowest };
+        highest = if point.y > run[highest].y { k } else { highest };
     }
-
-    fn add(&mut self, index: usize, point: Vec2) {
-        self.last = (index, point);
-        if point.y < self.lowest.1.y {
-            self.lowest = self.last;
-        }
-        if point.y > self.highest.1.y {
-            self.highest = self.last;
-        }
-    }
-
-    /// Appends the points to keep, in order and each once.
-    fn put(&self, kept: &mut Vec<Vec2>) {
-        let mut all = [self.first, self.lowest, self.highest, self.last];
-        all.sort_by_key(|(index, _)| *index);
-        let mut last = None;
-        for (index, point) in all {
-            if last.replace(index) != Some(index) {
-                kept.push(point);
-            }
-        }
-    }
+    let mut kept = vec![0, lowest, highest, run.len() - 1];
+    kept.sort_unstable();
+    kept.dedup();
+    kept.into_iter().map(|k| run[k]).collect()
 }
 
 #[cfg(test)]

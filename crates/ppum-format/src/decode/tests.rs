@@ -7,7 +7,7 @@ mod rules;
 use std::sync::LazyLock;
 
 use super::*;
-use crate::content::Array;
+use crate::content::{Array, ObjectKind};
 use crate::{checksum, encode, everything};
 use ppum::crack::{End, TipId};
 use ppum::dataset::TipIntensity;
@@ -203,10 +203,10 @@ fn tables_are_checked() {
         ("tables/0002/values", Array::vector([0.0; 12]), "expected [3, 4]"),
         ("tables/0001/y", Array::vector([0.0; 0]), "expected [0, 2]"),
     ];
-    for (key, array, mistake) in cases {
+    for (key, array, expected) in cases {
         let message = with(key, array);
         let object = key.replace("0001/y", "0001/values");
-        assert!(message.starts_with(&object) && message.contains(mistake), "{message}");
+        assert!(message.starts_with(&object) && message.contains(expected), "{message}");
     }
     let none = complaint_after(|c| {
         put(c, "tables/0002/y", Array::vector([0.0; 0]));
@@ -234,7 +234,7 @@ fn tables_have_a_limit() {
         })
     };
     assert!(huge(1 << 20).starts_with("tables/0003/values: the tables have more than"));
-    assert!(huge(1 << 19).contains("equation@young"), "the next mistake");
+    assert!(huge(1 << 19).contains("equation@young"), "the next message");
     let mut data = everything::dataset(1);
     let knots: Vec<f64> = (0..1 << 20).map(f64::from).collect();
     let table = ppum::formula::Table::curve("huge", knots.clone(), knots).expect("a table");

@@ -3,13 +3,13 @@
 //! Nothing of the file moves or changes but its superblock. Behind the end come the objects of the
 //! step, then a new header of the group `steps`, with one link more, and a new header of the root,
 //! which leads to that one. The superblock then names the new root and the new end. Everything that
-//! the old trunk described is still there, unchanged.
+//! the old state described is still there, unchanged.
 //!
 //! So that the length of a file stays linear in its steps the header of `steps` itself holds few
 //! links: as soon as there are [`LINKS`] of them they move to a block of their own, which continues
 //! in the block before.
 
-use super::account::memory_of;
+use super::budget::memory_of;
 use super::messages::{
     Addition, CONTINUATION, HeaderMessage, LINK, LINK_INFO, NO_HEAP, block, header,
 };
@@ -33,7 +33,7 @@ const EXPANSION: u64 = 3;
 
 /// The part of a file that appending changes.
 #[derive(Clone, Debug)]
-pub(crate) struct Trunk {
+pub(crate) struct AppendState {
     /// Where the file ends.
     end: u64,
     /// Messages of the root but the link to `steps`.
@@ -52,8 +52,8 @@ pub(crate) struct AppendedStep {
     pub(crate) start: Vec<u8>,
 }
 
-impl Trunk {
-    /// Reads the trunk of a file that this program began; none of what another program may have
+impl AppendState {
+    /// Reads the state of a file that this program began; none of what another program may have
     /// made of it.
     pub(crate) fn read(file: &dyn Ranges) -> Option<Self> {
         let mut start = [0; SUPERBLOCK];
@@ -73,7 +73,7 @@ impl Trunk {
         steps.iter().all(is_plain).then_some(Self { end, root, steps, links })
     }
 
-    /// Writes the objects that make a step part of the file, and the trunk of the file that has it.
+    /// Writes the objects that make a step part of the file, and the state of the file that has it.
     pub(crate) fn step(
         &self,
         content: &ObjectTree,

@@ -11,10 +11,10 @@ mod heap;
 mod inflate;
 mod links;
 mod packing;
+mod pages;
 mod shuffle;
 mod source;
 mod storage;
-mod store;
 mod superblock;
 #[cfg(test)]
 mod tests;
@@ -24,20 +24,20 @@ mod types;
 
 use std::collections::BTreeMap;
 
-use super::account::{Account, memory};
-use crate::content::{Array, ArrayValues, ObjectTree, join, step_of};
-use crate::error::ReadError;
+use super::budget::ReadBudget;
+use crate::content::{Array, ObjectTree, join, step_of};
+use crate::error::{ReadError, shortened};
 use crate::limits::MAX_LENGTH;
-use error::{Hdf5Error, ReadResult, fail};
+use error::{Hdf5Error, ReadResult};
 use header::{DATASPACE, DATATYPE, GROUP_INFO, Header, LAYOUT, LINK, LINK_INFO, SYMBOL_TABLE};
 use links::{LinkTarget, links};
+use pages::PageChain;
+pub(crate) use pages::Ranges;
 use source::Hdf5Source;
 use storage::elements;
-pub(crate) use store::Ranges;
-use store::StoredParts;
 use superblock::Superblock;
 use texts::TextCollections;
-use types::{Dataspace, DatatypeClass, Type};
+use types::{Dataspace, Type};
 
 /// Root group that is neither read nor part of the checksum: for additions by anybody.
 const USER: &str = "user";
@@ -47,23 +47,18 @@ const DEPTH: usize = 8;
 
 /// All arrays and attributes of a file, whatever they mean.
 pub(crate) fn from_bytes(bytes: &[u8]) -> Result<ObjectTree, ReadError> {
-    let account = Account::for_file(bytes.len() as u64);
-    let start = Superblock::of_bytes(bytes).map_err(unreadable)?;
-    let source = start.memory(bytes, &account).map_err(unreadable)?;
-    let mut walk = FileWalk::new(source, ReadChoice::All);
-    walk.root(start.root)?;
-    Ok(walk.content)
+    from_file(&bytes, bytes.len() as u64)
 }
 
 /// Reads a file of so many bytes, and no more than that.
 pub(crate) fn from_file(file: &dyn Ranges, length: u64) -> Result<ObjectTree, ReadError> {
-    let start = Superblock::of_file(file, length).map_err(unreadable)?;
+    let start = Superblock::read(file, length).map_err(unreadable)?;
     let (content, _) = parts(start, file, length, |walk| walk.root(start.root))?;
     Ok(content)
 }
 
-fn unreadable(Hdf5Error(message): Hdf5Error) -> ReadError {
-    ReadError::Hdf5 { message: message.into() }
+fn unreadable(message: Hdf5Error) -> ReadError {
+    ReadError::Hdf5 { message: shortened(message.into()) }
 }
 
 /// Whatever a file holds beside its steps, and where these are.
@@ -79,7 +74,7 @@ pub(crate) struct Outline {
 impl Outline {
     /// Reads a file of so many bytes.
     pub(crate) fn read(file: &dyn Ranges, length: u64) -> Result<Self, ReadError> {
-        let start = Superblock::of_file(file, length).map_err(unreadable)?;
+        let start = Superblock::read(file, length).map_err(unreadable)?;
         let (content, steps) = parts(start, file, length, |walk| {
             walk.choice = ReadChoice::NoSteps;
             walk.root(start.root)
@@ -119,11 +114,10 @@ fn parts(
     length: u64,
     visit: impl FnOnce(&mut FileWalk<'_>) -> Result<(), ReadError>,
 ) -> Result<(ObjectTree, BTreeMap<String, u64>), ReadError> {
-    let account = Account::for_file(length.min(MAX_LENGTH));
-    let chain = StoredParts::default();
+    let budget = ReadBudget::for_file(length.min(MAX_LENGTH));
+    let chain = PageChain::default();
     let parts = start.parts(file, length, &chain);
-    let source = start.source(&parts, &account).map_err(unreadable)?;
-    let mut walk = FileWalk::new(source, ReadChoice::All);
+    let mut walk = FileWalk::new(start.source(&parts, &budget));
     visit(&mut walk)?;
     Ok((walk.content, walk.steps))
 }
@@ -157,9 +151,9 @@ enum ObjectType {
 }
 
 impl<'f> FileWalk<'f> {
-    fn new(source: Hdf5Source<'f>, choice: ReadChoice) -> Self {
+    fn new(source: Hdf5Source<'f>) -> Self {
         let (content, texts) = (ObjectTree::new(), TextCollections::new(source));
-        Self { content, source, texts, choice, steps: BTreeMap::new() }
+        Self { content, source, texts, choice: ReadChoice::All, steps: BTreeMap::new() }
     }
 
     fn root(&mut self, address: u64) -> Result<(), ReadError> {
@@ -173,7 +167,7 @@ impl<'f> FileWalk<'f> {
     }
 
     fn visit(&self, path: &str) -> Result<(), ReadError> {
-        if self.source.account.pay_object() {
+        if self.source.budget.objects.charge(1) {
             return Ok(());
         }
         Err(error(path, "more objects than the file can hold"))
@@ -212,7 +206,7 @@ impl<'f> FileWalk<'f> {
             };
         }
         let header = self.header(address, &path)?;
-        match form(&header) {
+        match object_type(&header) {
             ObjectType::Group => {
                 self.content.insert_group(&path);
                 self.group(&header, &path, depth - 1)
@@ -243,29 +237,13 @@ impl<'f> FileWalk<'f> {
 
     fn array(&mut self, header: &Header<'f>) -> ReadResult<Array> {
         let kind = Type::parse(header.get(DATATYPE)?)?;
-        let Some(space) = Dataspace::parse(header.get(DATASPACE)?)? else {
-            return Ok(Array { shape: vec![], values: ArrayValues::Other("null".into()) });
-        };
-        if let DatatypeClass::Other(name) = kind.kind {
-            return Ok(Array { shape: space.shape, values: ArrayValues::Other(name) });
-        }
-        let cost = space.count().and_then(|n| memory(n, kind.size as u64, kind.is_text()));
-        if !self.source.account.pay_memory(cost) {
-            return fail(format!("its shape {:?} is too large for the file's length", space.shape));
-        }
-        // the bytes of all values fit into memory's numbers, too
-        let fits =
-            |n: &u64| n.checked_mul(kind.size as u64).is_some_and(|n| usize::try_from(n).is_ok());
-        let Some(count) = space.count().filter(fits) else { return fail("its shape is too large") };
-        let fill = |bytes: &mut [u8]| elements(header, &space, kind.size, bytes);
-        Ok(Array {
-            values: kind.values(count as usize, &mut self.texts, fill)?,
-            shape: space.shape,
-        })
+        let space = Dataspace::parse(header.get(DATASPACE)?)?;
+        let size = kind.size;
+        kind.array(space, &mut self.texts, |space, bytes| elements(header, space, size, bytes))
     }
 }
 
-fn form(header: &Header) -> ObjectType {
+fn object_type(header: &Header) -> ObjectType {
     let is_group = [SYMBOL_TABLE, LINK_INFO, LINK, GROUP_INFO].iter().any(|kind| header.has(*kind));
     match is_group {
         true => ObjectType::Group,
@@ -275,13 +253,12 @@ fn form(header: &Header) -> ObjectType {
 }
 
 /// An error at an object; the root is `/`.
-fn error(path: &str, mistake: impl Into<Hdf5Error>) -> ReadError {
-    let Hdf5Error(mistake) = mistake.into();
-    ReadError::object(if path.is_empty() { "/" } else { path }, mistake)
+fn error(path: &str, message: impl Into<Hdf5Error>) -> ReadError {
+    ReadError::object(if path.is_empty() { "/" } else { path }, message.into())
 }
 
 fn elsewhere(path: &str) -> ReadError {
-    let mistake = "leads to no group or dataset of this file: soft and external links and named types \
+    let message = "leads to no group or dataset of this file: soft and external links and named types \
                    are not read; copy into the file what it leads to, or leave it out";
-    error(path, mistake)
+    error(path, message)
 }

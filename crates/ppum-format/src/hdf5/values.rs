@@ -89,8 +89,8 @@ pub(super) fn long_text(addition: &mut Addition, array: &Array) -> Option<(Vec<u
 /// finds U+FFFD something was not UTF-8.
 pub(super) fn check_text(name: &str, texts: &[String]) -> Result<(), WriteError> {
     if texts.iter().any(|t| t.contains(['\0', char::REPLACEMENT_CHARACTER])) {
-        let mistake = "texts must not contain the characters NUL and U+FFFD";
-        return Err(WriteError::object(name, mistake));
+        let message = "texts must not contain the characters NUL and U+FFFD";
+        return Err(WriteError::object(name, message));
     }
     Ok(())
 }

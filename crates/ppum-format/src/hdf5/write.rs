@@ -1,6 +1,6 @@
 //! Content → HDF5.
 
-use super::account::{PLAIN_BYTES, memory_of};
+use super::budget::{PLAIN_BYTES, memory_of};
 use super::messages::{Addition, NOWHERE, with_checksum};
 use super::objects::group;
 use super::values::check_text;

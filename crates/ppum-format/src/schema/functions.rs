@@ -1,16 +1,35 @@
 //! The function table.
 
 use ppum::crack::{End, TipId};
+use ppum::dataset::Step;
 use ppum::function::{Cut, Frame, Function, FunctionKind, NonsmoothPoints, Role, native};
 use ppum::vec2::Vec2;
 
-use crate::column::{ColumnNames, TableColumns, table};
+use crate::member::{GroupShape, Member, MemberNames, TableMembers, members, names_of};
 use crate::reader::GroupReader;
 use crate::stored::{FrameKind, FunctionTag, StoredWord, value};
 
+pub(super) const FUNCTIONS: Member<Step> = Member::<Step>::group(
+    "functions",
+    (GroupShape::Table, || names_of(FUNCTION)),
+    |step, group, name| {
+        let mut group = group.group(name);
+        let rows: Option<Vec<_>> = step.functions.iter().map(StoredFunction::of).collect();
+        group.put(FUNCTION, &rows.ok_or_else(|| group.unknown("kind"))?)
+    },
+    |step, group, name, _| {
+        let group = group.group(name);
+        let function = |(k, row): (usize, StoredFunction)| {
+            let one = || Function { name: String::new(), kind: FunctionKind::One };
+            row.function(&group, k).unwrap_or_else(one)
+        };
+        step.functions = group.table(FUNCTION).into_iter().enumerate().map(function).collect();
+    },
+);
+
 /// A row of the function table; what a kind does not use says nothing.
 #[derive(Clone, Default)]
-pub(crate) struct StoredFunction {
+struct StoredFunction {
     name: String,
     kind: FunctionTag,
     crack: Option<u32>,
@@ -27,7 +46,7 @@ pub(crate) struct StoredFunction {
     role: Option<Role>,
 }
 
-pub(crate) const FUNCTIONS: &TableColumns<StoredFunction> = table!(StoredFunction:
+const FUNCTION: &TableMembers<StoredFunction> = members!(StoredFunction:
     cell("name", name), cell("kind", kind), cell("crack", crack), cell("formula", formula),
     cell("frame", frame), cell("frame_end", end), cell("frame_origin", origin),
     cell("frame_angle", angle), list("parameter_name", "parameter_offsets", parameters),
@@ -43,7 +62,7 @@ const OF_ALL: [&str; 2] = ["name", "kind"];
 
 impl StoredFunction {
     /// The row of a function; none of a kind or frame that the format has no word for.
-    pub(crate) fn of(function: &Function) -> Option<Self> {
+    fn of(function: &Function) -> Option<Self> {
         let row = Self { name: function.name.clone(), ..Self::default() };
         Some(match &function.kind {
             FunctionKind::One => row,
@@ -91,7 +110,7 @@ impl StoredFunction {
 
     /// The function of row k. Columns that its kind does not use must say nothing: a row that says
     /// more than its kind was damaged, or written for another kind.
-    pub(crate) fn function(mut self, group: &GroupReader, k: usize) -> Option<Function> {
+    fn function(mut self, group: &GroupReader, k: usize) -> Option<Function> {
         if group.is_wrong("kind") {
             return None;
         }
@@ -105,11 +124,11 @@ impl StoredFunction {
             FunctionTag::Formula => self.take_formula(group, k)?,
         };
         let rows = std::slice::from_ref(&self);
-        let rest = FUNCTIONS.iter().filter(|column| !OF_ALL.contains(&column.names.array));
-        if let Some(column) = rest.into_iter().find(|column| (column.is_used)(rows)) {
-            let ColumnNames { array, offsets, .. } = column.names;
+        let mut rest = FUNCTION.iter().filter(|member| !OF_ALL.contains(&member.names.stored));
+        if let Some(member) = rest.find(|member| (member.is_used)(rows)) {
+            let MemberNames { stored, offsets, .. } = member.names;
             let word = self.kind.word().unwrap_or_default();
-            let nothing = match (offsets, array) {
+            let nothing = match (offsets, stored) {
                 (Some("parameter_offsets"), _) => "no parameters",
                 (Some("cut_offsets"), _) => "no cuts",
                 (Some("kink_offsets"), _) => "no kinks",
@@ -120,9 +139,9 @@ impl StoredFunction {
                 (None, "frame_angle") => "0",
                 _ => "an empty text",
             };
-            let mistake =
+            let message =
                 format!("function {k} of the kind `{word}` does not use it: expected {nothing}");
-            group.error(offsets.unwrap_or(array), mistake);
+            group.error(offsets.unwrap_or(stored), message);
         }
         Some(Function { name: self.name, kind })
     }
@@ -166,8 +185,8 @@ impl StoredFunction {
 
     fn take_level(&mut self, group: &GroupReader, k: usize, column: usize) -> u32 {
         self.levels[column].take().unwrap_or_else(|| {
-            let mistake = format!("function {k} has no level field (-1) in column {column}");
-            group.error("levels", mistake);
+            let message = format!("function {k} has no level field (-1) in column {column}");
+            group.error("levels", message);
             0
         })
     }
@@ -182,7 +201,7 @@ impl StoredFunction {
 
 /// The value of a word that must be there.
 fn needed<T: StoredWord>(group: &GroupReader, name: &str, found: Option<T>) -> Option<T> {
-    found.or_else(|| value(T::WORDS, "").map_err(|mistake| group.error(name, mistake)).ok())
+    found.or_else(|| value(T::WORDS, "").map_err(|message| group.error(name, message)).ok())
 }
 
 /// The role of a formula in a file of a version before 1.7, whose writers told it by names alone.

@@ -102,12 +102,12 @@ trait Operand<R: Real>: Copy {
 
 /// The numbers of a register.
 #[derive(Clone, Copy)]
-struct Each<R> {
+struct RegisterNumbers<R> {
     register: usize,
     zero: R,
 }
 
-impl<R: Real> Operand<R> for Each<R> {
+impl<R: Real> Operand<R> for RegisterNumbers<R> {
     #[inline(always)]
     fn at(self, registers: &[Register<R>], k: usize) -> R {
         self.zero.load_array(&registers[self.register * TapeMachine::<R>::PARTS][k])
@@ -288,8 +288,8 @@ impl DoubleFunction<2> for TableLookUp<'_> {
 /// The loops over the vectors of a block, for each pattern of constants that a tape may have.
 impl<R: Real> TapeMachine<'_, R> {
     #[inline(always)]
-    fn each(&self, op: &Instruction, operand: usize) -> Each<R> {
-        Each { register: op.operands[operand] as usize, zero: self.zero }
+    fn each(&self, op: &Instruction, operand: usize) -> RegisterNumbers<R> {
+        RegisterNumbers { register: op.operands[operand] as usize, zero: self.zero }
     }
 
     #[inline(always)]

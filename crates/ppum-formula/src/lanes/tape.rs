@@ -71,7 +71,7 @@ impl<'a> FusedProducts<'a> {
     fn new(program: &'a FormulaProgram) -> Self {
         let ops = program.ops();
         let mut uses = vec![0; ops.len()];
-        for operand in ops.iter().flat_map(Op::operands) {
+        for operand in ops.iter().copied().flat_map(Op::operands) {
             uses[operand.index()] += 1;
         }
         for output in program.outputs() {
@@ -142,10 +142,10 @@ fn form(op: Op, products: &mut FusedProducts<'_>) -> Option<LoweredOperation> {
 fn action(op: Op) -> Option<TapeAction> {
     Some(match op {
         Op::Constant(_) | Op::Input(_) | Op::Truth(_) => return None,
-        Op::Unary(op, _) => unary(op),
+        Op::Unary(op, _) => op.into(),
         Op::Power(_, 2) => TapeAction::Square,
         Op::Power(_, n) => TapeAction::Power(n),
-        Op::Binary(op, ..) => binary(op),
+        Op::Binary(op, ..) => op.into(),
         Op::Table { table, orders, .. } => TapeAction::Table { table, orders },
         Op::Select(..) => TapeAction::Select,
         Op::Compare(Comparison::Less, ..) => TapeAction::Less,
@@ -158,42 +158,19 @@ fn action(op: Op) -> Option<TapeAction> {
     })
 }
 
-fn unary(op: Unary) -> TapeAction {
-    match op {
-        Unary::Neg => TapeAction::Neg,
-        Unary::Sqrt => TapeAction::Sqrt,
-        Unary::Abs => TapeAction::Abs,
-        Unary::Sign => TapeAction::Sign,
-        Unary::Floor => TapeAction::Floor,
-        Unary::Cbrt => TapeAction::Cbrt,
-        Unary::Exp => TapeAction::Exp,
-        Unary::Log => TapeAction::Log,
-        Unary::Log10 => TapeAction::Log10,
-        Unary::Sin => TapeAction::Sin,
-        Unary::Cos => TapeAction::Cos,
-        Unary::Tan => TapeAction::Tan,
-        Unary::Asin => TapeAction::Asin,
-        Unary::Acos => TapeAction::Acos,
-        Unary::Atan => TapeAction::Atan,
-        Unary::Sinh => TapeAction::Sinh,
-        Unary::Cosh => TapeAction::Cosh,
-        Unary::Tanh => TapeAction::Tanh,
-    }
+/// The actions of operations, which have their names.
+macro_rules! actions_of {
+    ($type:ident: $($name:ident)+) => {
+        impl From<$type> for TapeAction {
+            fn from(op: $type) -> Self {
+                match op { $($type::$name => Self::$name,)+ }
+            }
+        }
+    };
 }
 
-fn binary(op: Binary) -> TapeAction {
-    match op {
-        Binary::Add => TapeAction::Add,
-        Binary::Sub => TapeAction::Sub,
-        Binary::Mul => TapeAction::Mul,
-        Binary::Div => TapeAction::Div,
-        Binary::Min => TapeAction::Min,
-        Binary::Max => TapeAction::Max,
-        Binary::Pow => TapeAction::Pow,
-        Binary::Atan2 => TapeAction::Atan2,
-        Binary::Hypot => TapeAction::Hypot,
-    }
-}
+actions_of!(Unary: Neg Sqrt Cbrt Exp Log Log10 Sin Cos Tan Asin Acos Atan Sinh Cosh Tanh Abs Sign Floor);
+actions_of!(Binary: Add Sub Mul Div Pow Atan2 Min Max Hypot);
 
 /// The register or constant that holds the result of an operation.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -2,6 +2,7 @@
 
 use crate::error::TextSpan;
 use crate::library::LibraryFunction;
+use crate::operation::Binary;
 
 /// A parsed formula. Nodes stand in an arena, operands before what uses them; so a pass is a loop,
 /// and neither a pass nor a drop can exhaust the stack.
@@ -69,11 +70,8 @@ pub(crate) enum Infix {
     GreaterEqual,
     Equal,
     NotEqual,
-    Add,
-    Sub,
-    Mul,
-    Div,
-    Pow,
+    /// An operation of two numbers that has a sign.
+    Arithmetic(Binary),
 }
 
 impl Infix {
@@ -85,7 +83,7 @@ impl Infix {
 
 /// Precedence of the operators; shared by the parser and the printer.
 pub(crate) mod precedence {
-    use super::Infix;
+    use super::{Binary, Infix};
 
     pub(crate) const OR: u8 = 1;
     pub(crate) const AND: u8 = 2;
@@ -104,15 +102,10 @@ pub(crate) mod precedence {
         match infix {
             Infix::Or => OR,
             Infix::And => AND,
-            Infix::Less
-            | Infix::LessEqual
-            | Infix::Greater
-            | Infix::GreaterEqual
-            | Infix::Equal
-            | Infix::NotEqual => COMPARISON,
-            Infix::Add | Infix::Sub => SUM,
-            Infix::Mul | Infix::Div => PRODUCT,
-            Infix::Pow => POWER,
+            Infix::Arithmetic(Binary::Add | Binary::Sub) => SUM,
+            Infix::Arithmetic(Binary::Mul | Binary::Div) => PRODUCT,
+            Infix::Arithmetic(_) => POWER,
+            _ => COMPARISON,
         }
     }
 }

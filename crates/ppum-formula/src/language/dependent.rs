@@ -70,28 +70,18 @@ impl Scope {
     ///
     /// # Errors
     /// When the name is not one or is taken, or a rule is missing or is no formula.
-    pub fn with_dependent(self, name: &str, rules: &[&str]) -> Result<Self, ScopeError> {
-        self.with_dependents(&[(name, rules)])
-    }
-
-    /// Adds inputs that are functions of the independent variables, each with the rules of its
-    /// derivatives, which may use all inputs of the group.
-    fn with_dependents(mut self, group: &[(&str, &[&str])]) -> Result<Self, ScopeError> {
-        let first = self.dependent.len();
-        for (name, rules) in group {
-            self.check_name(name)?;
-            let (expected, given) = (self.independent.len(), rules.len());
-            if given != expected {
-                return Err(ScopeError::RuleCount { name: (*name).to_owned(), expected, given });
-            }
-            self.dependent.push(Dependent::without_rules(name));
+    pub fn with_dependent(mut self, name: &str, rules: &[&str]) -> Result<Self, ScopeError> {
+        self.check_name(name)?;
+        let (expected, given) = (self.independent.len(), rules.len());
+        if given != expected {
+            return Err(ScopeError::RuleCount { name: name.to_owned(), expected, given });
         }
-        for (k, (name, rules)) in group.iter().enumerate() {
-            let parsed: Result<Arc<[Ast]>, FormulaError> =
-                rules.iter().map(|rule| checked(rule, &self)).collect();
-            self.dependent[first + k].rules =
-                parsed.map_err(|error| ScopeError::Rule { name: (*name).to_owned(), error })?;
-        }
+        let own = self.dependent.len();
+        self.dependent.push(Dependent::without_rules(name));
+        let parsed: Result<_, FormulaError> =
+            rules.iter().map(|rule| checked(rule, &self)).collect();
+        self.dependent[own].rules =
+            parsed.map_err(|error| ScopeError::Rule { name: name.to_owned(), error })?;
         Ok(self)
     }
 

@@ -44,11 +44,11 @@ pub(crate) fn multiple(
             Of(k) => Of(-k),
             _ => Unknown,
         },
-        ExprKind::Infix(infix, a, b) => match (infix, operand(a), operand(b)) {
-            (Infix::Add, Of(j), Of(k)) => Of(j + k),
-            (Infix::Sub, Of(j), Of(k)) => Of(j - k),
-            (Infix::Mul, Constant(c), Of(k)) | (Infix::Mul, Of(k), Constant(c)) => Of(c * k),
-            (Infix::Div, Of(k), Constant(c)) => Of(k / c),
+        ExprKind::Infix(Infix::Arithmetic(op), a, b) => match (op, operand(a), operand(b)) {
+            (Binary::Add, Of(j), Of(k)) => Of(j + k),
+            (Binary::Sub, Of(j), Of(k)) => Of(j - k),
+            (Binary::Mul, Constant(c), Of(k)) | (Binary::Mul, Of(k), Constant(c)) => Of(c * k),
+            (Binary::Div, Of(k), Constant(c)) => Of(k / c),
             _ => Unknown,
         },
         _ => Unknown,

@@ -1,7 +1,9 @@
 //! Text → tokens.
 
 use crate::error::{ErrorKind, FormulaError, TextSpan};
+use crate::language::ast::Infix;
 use crate::library::foreign;
+use crate::operation::Binary;
 
 /// A piece of the text that the grammar knows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,20 +20,8 @@ pub(crate) enum TokenKind {
     Number(f64),
     Name,
     Let,
-    And,
-    Or,
+    Operator(Infix),
     Not,
-    Plus,
-    Minus,
-    Star,
-    Slash,
-    Caret,
-    Less,
-    LessEqual,
-    Greater,
-    GreaterEqual,
-    Equal,
-    NotEqual,
     Open,
     Close,
     Comma,
@@ -42,27 +32,31 @@ pub(crate) enum TokenKind {
 
 use TokenKind as Kind;
 
+const fn arithmetic(operation: Binary) -> TokenKind {
+    Kind::Operator(Infix::Arithmetic(operation))
+}
+
 /// The signs of the language; longer ones first.
 const SIGNS: [(&str, TokenKind); 18] = [
-    ("<=", Kind::LessEqual),
-    (">=", Kind::GreaterEqual),
-    ("==", Kind::Equal),
-    ("!=", Kind::NotEqual),
-    ("<", Kind::Less),
-    (">", Kind::Greater),
+    ("<=", Kind::Operator(Infix::LessEqual)),
+    (">=", Kind::Operator(Infix::GreaterEqual)),
+    ("==", Kind::Operator(Infix::Equal)),
+    ("!=", Kind::Operator(Infix::NotEqual)),
+    ("<", Kind::Operator(Infix::Less)),
+    (">", Kind::Operator(Infix::Greater)),
     ("=", Kind::Assign),
-    ("+", Kind::Plus),
-    ("-", Kind::Minus),
-    ("*", Kind::Star),
-    ("/", Kind::Slash),
-    ("^", Kind::Caret),
+    ("+", arithmetic(Binary::Add)),
+    ("-", arithmetic(Binary::Sub)),
+    ("*", arithmetic(Binary::Mul)),
+    ("/", arithmetic(Binary::Div)),
+    ("^", arithmetic(Binary::Pow)),
     ("(", Kind::Open),
     (")", Kind::Close),
     (",", Kind::Comma),
     (";", Kind::Semicolon),
     // the minus sign and the dot of typeset formulas, as they are pasted from papers
-    ("−", Kind::Minus),
-    ("·", Kind::Star),
+    ("−", arithmetic(Binary::Sub)),
+    ("·", arithmetic(Binary::Mul)),
 ];
 
 /// Signs of other languages and what to write instead; longer ones first.
@@ -212,8 +206,8 @@ fn length_while(text: &str, fits: impl Fn(char) -> bool) -> usize {
 fn word(text: &str) -> TokenKind {
     match text {
         "let" => Kind::Let,
-        "and" => Kind::And,
-        "or" => Kind::Or,
+        "and" => Kind::Operator(Infix::And),
+        "or" => Kind::Operator(Infix::Or),
         "not" => Kind::Not,
         _ => Kind::Name,
     }
@@ -245,9 +239,9 @@ mod tests {
             kinds("a<=b # a<b\n != not(c)"),
             [
                 Kind::Name,
-                Kind::LessEqual,
+                Kind::Operator(Infix::LessEqual),
                 Kind::Name,
-                Kind::NotEqual,
+                Kind::Operator(Infix::NotEqual),
                 Kind::Not,
                 Kind::Open,
                 Kind::Name,

@@ -155,11 +155,7 @@ impl<'a> Lowerer<'a> {
                 let equal = g.compare(Comparison::Equal, a, b);
                 g.not(equal)
             }
-            Infix::Add => g.binary(Binary::Add, a, b),
-            Infix::Sub => g.binary(Binary::Sub, a, b),
-            Infix::Mul => g.binary(Binary::Mul, a, b),
-            Infix::Div => g.binary(Binary::Div, a, b),
-            Infix::Pow => g.binary(Binary::Pow, a, b),
+            Infix::Arithmetic(op) => g.binary(op, a, b),
         })
     }
 

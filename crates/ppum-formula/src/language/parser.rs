@@ -5,8 +5,9 @@ use crate::language::ast::{Ast, Expr, ExprId, ExprKind, Infix, Prefix, precedenc
 use crate::language::lexer::{Token, TokenKind, tokens};
 use crate::language::scope::{NameMeaning, Scope};
 use crate::library::{self, LibraryFunction};
-use crate::limits::MAX_DEPTH;
-use crate::limits::MAX_LENGTH;
+use crate::limits::{MAX_DEPTH, MAX_LENGTH};
+use crate::operation::Binary;
+use crate::spelling;
 
 /// Parses a formula whose names are those of `scope`.
 pub(crate) fn parse(source: &str, scope: &Scope) -> Result<Ast, FormulaError> {
@@ -65,13 +66,13 @@ impl<'a> Parser<'a> {
     /// Operands joined by operators that bind at least as tightly as `weakest`.
     fn expression(&mut self, weakest: u8) -> ParseResult {
         let mut left = self.operand()?;
-        while let Some(infix) = infix(self.peek().kind) {
+        while let TokenKind::Operator(infix) = self.peek().kind {
             let strength = precedence::of(infix);
             if strength < weakest {
                 break;
             }
             self.advance();
-            let right = if infix == Infix::Pow {
+            let right = if infix == Infix::Arithmetic(Binary::Pow) {
                 self.nested(|p| p.expression(strength))?
             } else {
                 self.expression(strength + 1)?
@@ -86,8 +87,8 @@ impl<'a> Parser<'a> {
     }
 
     fn refuse_comparison(&self) -> Result<(), FormulaError> {
-        match infix(self.peek().kind) {
-            Some(next) if next.is_comparison() => {
+        match self.peek().kind {
+            TokenKind::Operator(next) if next.is_comparison() => {
                 Err(self.error(self.peek().span, ErrorKind::ChainedComparison))
             }
             _ => Ok(()),
@@ -98,8 +99,12 @@ impl<'a> Parser<'a> {
     fn operand(&mut self) -> ParseResult {
         let token = self.peek();
         let (prefix, strength) = match token.kind {
-            TokenKind::Minus => (Prefix::Minus, precedence::POWER),
-            TokenKind::Plus => (Prefix::Plus, precedence::POWER),
+            TokenKind::Operator(Infix::Arithmetic(Binary::Sub)) => {
+                (Prefix::Minus, precedence::POWER)
+            }
+            TokenKind::Operator(Infix::Arithmetic(Binary::Add)) => {
+                (Prefix::Plus, precedence::POWER)
+            }
             TokenKind::Not => (Prefix::Not, precedence::COMPARISON),
             _ => return self.atom(),
         };
@@ -265,7 +270,7 @@ impl<'a> Parser<'a> {
             }
             None if self.known_names().any(|known| known == name) => ErrorKind::NotAFunction,
             None => {
-                let names = library::FUNCTIONS.iter().map(|&(known, _)| known);
+                let names = library::function_names();
                 let foreign = library::foreign(name).map(str::to_owned);
                 ErrorKind::UnknownFunction { suggestion: foreign.or_else(|| nearest(name, names)) }
             }
@@ -276,9 +281,8 @@ impl<'a> Parser<'a> {
     /// The function of a similar name that takes this many arguments.
     fn with_arguments(&self, name: TextSpan, given: usize) -> Option<&'static str> {
         let fits = |function: LibraryFunction| function.arity() == Some(given);
-        let fitting = library::FUNCTIONS.iter().filter(|(_, function)| fits(*function));
-        let found = nearest(self.text(name), fitting.map(|&(known, _)| known))?;
-        library::FUNCTIONS.iter().map(|&(known, _)| known).find(|&known| known == found)
+        let fitting = library::functions().filter(|(_, function)| fits(*function));
+        spelling::nearest(self.text(name), fitting.map(|(known, _)| known))
     }
 
     fn unknown_name(&self, name: &str) -> ErrorKind {
@@ -372,23 +376,4 @@ fn table_form(name: &str, n: usize, derivative: bool) -> String {
         (true, 1) => format!("dtable({name}, m, {arguments})"),
         (true, _) => format!("dtable({name}, m, n, {arguments})"),
     }
-}
-
-fn infix(kind: TokenKind) -> Option<Infix> {
-    Some(match kind {
-        TokenKind::Or => Infix::Or,
-        TokenKind::And => Infix::And,
-        TokenKind::Less => Infix::Less,
-        TokenKind::LessEqual => Infix::LessEqual,
-        TokenKind::Greater => Infix::Greater,
-        TokenKind::GreaterEqual => Infix::GreaterEqual,
-        TokenKind::Equal => Infix::Equal,
-        TokenKind::NotEqual => Infix::NotEqual,
-        TokenKind::Plus => Infix::Add,
-        TokenKind::Minus => Infix::Sub,
-        TokenKind::Star => Infix::Mul,
-        TokenKind::Slash => Infix::Div,
-        TokenKind::Caret => Infix::Pow,
-        _ => return None,
-    })
 }

@@ -36,7 +36,7 @@ pub const VARIABLES: [&str; 5] = ["x", "y", "r", "theta", "t"];
 /// let value = f.evaluate(&[x, y, x.hypot(y), theta, (theta / 2.0).cos(), (theta / 2.0).sin()]);
 /// assert!((value - 2.0_f64.sqrt()).abs() < 1e-15);
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scope {
     pub(super) independent: Vec<String>,
     pub(super) dependent: Vec<Dependent>,
@@ -131,19 +131,12 @@ impl Scope {
     /// # Errors
     /// When a name is not one, or is taken.
     pub fn new(independent: &[&str]) -> Result<Self, ScopeError> {
-        let empty = Self {
-            independent: vec![],
-            dependent: vec![],
-            defined: Arc::default(),
-            parameters: vec![],
-            tables: Arc::default(),
-            sides: 0..0,
-        };
-        independent.iter().try_fold(empty, |mut scope, name| {
+        let mut scope = Self::default();
+        for name in independent {
             scope.check_name(name)?;
             scope.independent.push((*name).to_owned());
-            Ok(scope)
-        })
+        }
+        Ok(scope)
     }
 
     /// Inputs x, y.

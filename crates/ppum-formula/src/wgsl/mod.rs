@@ -80,21 +80,12 @@ pub(crate) fn function(
 ) -> String {
     let inputs: Vec<String> = scope.inputs().map(parameter).collect();
     let mut text = tables(name, program);
-    let parameters: Vec<String> = inputs
-        .iter()
-        .enumerate()
-        .filter(|(index, _)| kept(*index))
-        .map(|(_, input)| format!("{input}: f32"))
-        .collect();
+    let parameters = inputs.iter().enumerate().filter(|(index, _)| kept(*index));
+    let parameters: Vec<_> = parameters.map(|(_, input)| format!("{input}: f32")).collect();
     let n = program.outputs().len();
     text += &format!("fn {name}({}) -> array<f32, {n}> {{\n", parameters.join(", "));
-    let mut results = WgslResults {
-        function: name,
-        inputs: &inputs,
-        atoms: Vec::new(),
-        lets: 0,
-        places: Vec::new(),
-    };
+    let (atoms, places) = (Vec::new(), Vec::new());
+    let mut results = WgslResults { function: name, inputs: &inputs, atoms, lets: 0, places };
     for &op in program.ops() {
         text += &results.add(op);
     }
@@ -198,42 +189,21 @@ impl WgslResults<'_> {
 }
 
 fn unary(op: Unary, a: &str) -> String {
-    let function = match op {
-        Unary::Neg => return format!("-{a}"),
-        Unary::Sqrt => "sqrt",
-        Unary::Cbrt => "ppum_cbrt",
-        Unary::Exp => "ppum_exp",
-        Unary::Log => "ppum_log",
-        Unary::Log10 => "ppum_log10",
-        Unary::Sin => "ppum_sin",
-        Unary::Cos => "ppum_cos",
-        Unary::Tan => "ppum_tan",
-        Unary::Asin => "ppum_asin",
-        Unary::Acos => "ppum_acos",
-        Unary::Atan => "ppum_atan",
-        Unary::Sinh => "ppum_sinh",
-        Unary::Cosh => "ppum_cosh",
-        Unary::Tanh => "ppum_tanh",
-        Unary::Abs => "abs",
-        Unary::Sign => "ppum_sign",
-        Unary::Floor => "floor",
-    };
-    format!("{function}({a})")
+    if op == Unary::Neg { format!("-{a}") } else { call(op.text(), a) }
 }
 
 fn binary(op: Binary, a: &str, b: &str) -> String {
-    let function = match op {
-        Binary::Add => return format!("{a} + {b}"),
-        Binary::Sub => return format!("{a} - {b}"),
-        Binary::Mul => return format!("{a} * {b}"),
-        Binary::Div => return format!("{a} / {b}"),
-        Binary::Pow => "ppum_pow",
-        Binary::Atan2 => "ppum_atan2",
-        Binary::Min => "ppum_min",
-        Binary::Max => "ppum_max",
-        Binary::Hypot => "ppum_hypot",
-    };
-    format!("{function}({a}, {b})")
+    match op {
+        Binary::Add | Binary::Sub | Binary::Mul | Binary::Div => format!("{a} {} {b}", op.text()),
+        Binary::Pow => call("pow", &format!("{a}, {b}")),
+        _ => call(op.text(), &format!("{a}, {b}")),
+    }
+}
+
+/// A function of the prelude, or of the few that WGSL has as formulas mean them.
+fn call(name: &str, arguments: &str) -> String {
+    let prefix = if ["sqrt", "abs", "floor"].contains(&name) { "" } else { "ppum_" };
+    format!("{prefix}{name}({arguments})")
 }
 
 /// aⁿ by the products of [`power`](crate::operation::power): the lines of the squares that are

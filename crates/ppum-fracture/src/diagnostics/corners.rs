@@ -1,12 +1,12 @@
 //! Warnings about singular points of the boundary that the cells do not resolve.
 
-use super::{short, smaller_cells, warning};
+use super::{above, percent, short, smaller_cells};
 use ppum::dataset::{Warning, WarningKind};
 use ppum::field::Field;
 use ppum::text::LocationText;
 use ppum::vec2::Rect;
 use ppum_problem::Problem;
-use ppum_solve::corner::{CornerMedium, SingularCorner, corners};
+use ppum_solve::corner::{SingularCause, SingularCorner, corners};
 use ppum_solve::norms::energy_of;
 use ppum_solve::space::TrialSpace;
 
@@ -24,10 +24,11 @@ pub(super) fn of_corners(
     problem: &Problem,
     field: &Field<'_>,
     space: &TrialSpace<'_>,
-    (energy, places): (f64, &LocationText),
+    energy: f64,
+    places: &LocationText,
 ) -> Vec<Warning> {
     let of_corner = |corner: &SingularCorner| {
-        if corner.nature == CornerMedium::Jump {
+        if corner.nature == SingularCause::Jump {
             return Some(infinite(corner, places));
         }
         if has_functions(corner, problem, space) {
@@ -40,7 +41,8 @@ pub(super) fn of_corners(
             touching.iter().map(|&c| cells[c].size()).fold(0.0f64, |m, s| m.max(s.x.max(s.y)));
         let share = energy_of(field, space, &touching) / energy;
         let missed = MISSED * corner.weakness().powi(2) * share;
-        (missed > LARGE_MISS).then(|| unresolved(corner, (size, missed), problem, places))
+        let message = unresolved(corner, [size, missed], problem, places);
+        above(WarningKind::SingularPoint, Some(corner.at), [missed, LARGE_MISS], message)
     };
     corners(problem).iter().filter_map(of_corner).collect()
 }
@@ -53,38 +55,34 @@ fn has_functions(corner: &SingularCorner, problem: &Problem, space: &TrialSpace<
     corner.wedge.is_some() && holding.all(|support| corner.has_room_for(&part(support)))
 }
 
-/// Growth of displacements at a singular point, in words.
-fn growth(corner: &SingularCorner) -> String {
-    match corner.nature {
-        CornerMedium::Load => "r ln r".into(),
-        _ => format!("r^{}", short((1e3 * corner.exponent).round() / 1e3)),
-    }
-}
-
+/// The warning about values that jump.
 fn infinite(corner: &SingularCorner, places: &LocationText) -> Warning {
     let message = format!(
         "{}: the values given on the border jump there; such a field has infinite energy, and energies, reactions \
          and stresses nearby depend on the cells; make the values continuous",
         places.show(corner.at)
     );
-    warning(WarningKind::SingularPoint, Some(corner.at), [1.0, LARGE_MISS], message)
+    Warning::new(WarningKind::SingularPoint, Some(corner.at), [1.0, LARGE_MISS], message)
 }
 
+/// The message about cells of a size that miss a part of the energy.
 fn unresolved(
     corner: &SingularCorner,
-    (size, missed): (f64, f64),
+    [size, missed]: [f64; 2],
     problem: &Problem,
     places: &LocationText,
-) -> Warning {
-    let message = format!(
-        "{}: stresses are infinite at {} (displacements grow like {}), and cells {} wide miss about {} % of the \
+) -> String {
+    let growth = match corner.nature {
+        SingularCause::Load => "r ln r".into(),
+        _ => format!("r^{}", short((1e3 * corner.exponent).round() / 1e3)),
+    };
+    format!(
+        "{}: stresses are infinite at {} (displacements grow like {growth}), and cells {} wide miss about {} % of the \
          energy there; {}",
         places.show(corner.at),
         corner.nature.name(),
-        growth(corner),
         short(size),
-        short((1e3 * missed).round() / 10.0),
+        percent(missed),
         smaller_cells(Some(problem), "`center` and `radius`")
-    );
-    warning(WarningKind::SingularPoint, Some(corner.at), [missed, LARGE_MISS], message)
+    )
 }

@@ -12,7 +12,7 @@
 //! falls like the root of the segments' length. The curve goes on as at the last of the vertices
 //! that are looked at, where the formula of Euler and Maclaurin ends the sum.
 
-use super::{short, warning};
+use super::{above, short};
 use crate::intensity::TipResult;
 use ppum::crack::{Crack, End};
 use ppum::dataset::{TipIntensity, Warning, WarningKind};
@@ -50,8 +50,7 @@ pub(super) fn of_curve(
         short(t + lacking),
         short(t)
     );
-    (part > LARGE_T)
-        .then(|| warning(WarningKind::Curve, Some(outcome.at), [part, LARGE_T], message))
+    above(WarningKind::Curve, Some(outcome.at), [part, LARGE_T], message)
 }
 
 /// The part of |K| that K of a tip may be off by, if its crack may be meant as a curve.

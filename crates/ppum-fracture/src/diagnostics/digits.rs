@@ -5,7 +5,7 @@
 //! rounding of the c_k to a part ε adds, divided by ε. Its gradient over that of the field, times
 //! some ε, is the relative rounding error of stresses.
 
-use super::{Cutters, short, warning};
+use super::{Cutters, above, short};
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Step, Warning, WarningKind};
 use ppum::field::{Field, FieldError};
@@ -49,18 +49,19 @@ impl GradientRounding {
     }
 }
 
-/// Relative rounding errors of the gradient of a step's first field, evaluated in double precision;
-/// single precision has 2²⁹ times that.
+/// Relative rounding errors of the gradient of the first field of a step, evaluated in double
+/// precision; single precision has 2²⁹ times that.
 ///
 /// # Errors
 /// Functions that do not compile.
-pub fn rounding(dataset: &Dataset, step: usize) -> Result<GradientRounding, FieldError> {
-    let mut noise = dataset.clone();
-    noise.steps = vec![with_noise(&dataset.steps[step])];
-    let (field, noise) = (Field::new(dataset, step)?, Field::new(&noise, 0)?);
-    let cells = &dataset.steps[step].partition.cells();
+pub fn rounding(field: &Field<'_>) -> Result<GradientRounding, FieldError> {
+    let mut noise = Dataset::new(field.domain.clone(), field.equation.clone());
+    noise.tables = field.tables.to_vec();
+    noise.steps = vec![with_noise(field.step)];
+    let noise = Field::new(&noise, 0)?;
+    let cells = &field.step.partition.cells();
     let gradients: Vec<[f64; 2]> =
-        cells.par_iter().map(|cell| [&field, &noise].map(|f| gradient(f, cell))).collect();
+        cells.par_iter().map(|cell| [field, &noise].map(|f| gradient(f, cell))).collect();
     let [mean, of_noise] =
         [0, 1].map(|k| gradients.iter().map(|g| g[k]).sum::<f64>() / gradients.len() as f64);
     let relative =
@@ -86,7 +87,7 @@ pub(super) fn of_digits(
     if mean > ALL {
         let message = "the field is constant but for rounding, or the plate moves as a rigid body: stresses, gradients and \
                        factors are zero, and their digits rounding";
-        return Some(warning(WarningKind::Digits, None, [mean, ALL], message.into()));
+        return Some(Warning::new(WarningKind::Digits, None, [mean, ALL], message.into()));
     }
     let message = format!(
         "near {} coefficients cancel, and stresses are good to {} there in double, not at all in single \
@@ -94,8 +95,7 @@ pub(super) fn of_digits(
         places.show(at),
         short(error)
     );
-    (error > FEW_DIGITS)
-        .then(|| warning(WarningKind::Digits, Some(at), [error, FEW_DIGITS], message))
+    above(WarningKind::Digits, Some(at), [error, FEW_DIGITS], message)
 }
 
 /// The step with coefficients δ_k c_k, δ_k = 2 {k g} − 1 with the golden ratio g.

@@ -1,6 +1,6 @@
 //! Warnings about the faces of cracks: whether they open.
 
-use super::{short, warning};
+use super::short;
 use ppum::crack::{Crack, SegmentId, Side, TipId};
 use ppum::dataset::{Warning, WarningKind};
 use ppum::field::Field;
@@ -20,18 +20,17 @@ const NOISE: f64 = 5e-3;
 pub(super) fn of_faces(
     field: &Field<'_>,
     problem: Option<&Problem>,
-    seats: &LocationText,
+    places: &LocationText,
 ) -> Vec<Warning> {
     if field.equation.elastic().is_none() || field.components() != 2 {
         return Vec::new();
     }
-    let of_crack = |(k, own): (usize, &Crack)| {
-        let crack = k as u32;
-        let symmetry = |end| symmetry_of_field(problem?, TipId { crack, end });
-        let symmetry = own.tips().find_map(symmetry);
-        overlap((field, symmetry), (k, own), (seats, remedy(problem, crack)))
+    let of_crack = |(index, crack): (u32, &Crack)| {
+        let symmetry = |end| symmetry_of_field(problem?, TipId { crack: index, end });
+        let symmetry = crack.tips().find_map(symmetry);
+        CrackFaces { field, symmetry, crack, index }.overlap(remedy(problem, index), places)
     };
-    field.step.cracks.iter().enumerate().filter_map(of_crack).collect()
+    (0..).zip(&field.step.cracks).filter_map(of_crack).collect()
 }
 
 /// Returns the remedy for faces of a crack that overlap.
@@ -55,73 +54,68 @@ struct FaceSample {
     strain: f64,
 }
 
-/// A field, and its symmetry to a crack of which one face is in the body.
-type FieldAtFaces<'a> = (&'a Field<'a>, Option<Symmetry>);
+/// The faces of a crack in a field.
+struct CrackFaces<'a> {
+    field: &'a Field<'a>,
+    /// Its symmetry to a crack of which one face is in the body.
+    symmetry: Option<Symmetry>,
+    crack: &'a Crack,
+    index: u32,
+}
 
-fn overlap(
-    field: FieldAtFaces<'_>,
-    (index, crack): (usize, &Crack),
-    (seats, remedy): (&LocationText, &str),
-) -> Option<Warning> {
-    let places: Vec<FaceSample> =
-        places(crack, index).filter_map(|p| FaceSample::new(field, p)).collect();
-    // an opening is small against other jumps, or against what the strain makes of the length
-    let jump = places.iter().fold(0.0f64, |m, p| m.max(p.jump));
-    let strain = places.iter().map(|p| p.strain).sum::<f64>() / places.len() as f64;
-    let scale = jump.max(strain * crack.length());
-    let limit = -NOISE * scale;
-    let closed = places.iter().filter(|p| p.opening < limit).count();
-    let worst = places.iter().min_by(|a, b| a.opening.total_cmp(&b.opening))?;
-    (worst.opening < limit).then(|| {
+impl CrackFaces<'_> {
+    fn overlap(&self, remedy: &str, places: &LocationText) -> Option<Warning> {
+        let samples = self.samples();
+        // an opening is small against other jumps, or against what the strain makes of the length
+        let jump = samples.iter().fold(0.0f64, |m, p| m.max(p.jump));
+        let strain = samples.iter().map(|p| p.strain).sum::<f64>() / samples.len() as f64;
+        let limit = -NOISE * jump.max(strain * self.crack.length());
+        let closed = samples.iter().filter(|p| p.opening < limit).count();
+        let worst = samples.iter().min_by(|a, b| a.opening.total_cmp(&b.opening))?;
         let message = format!(
-            "crack {index}: its faces overlap on {:.0} % of its length, most at {} by {}: the solution \
+            "crack {}: its faces overlap on {:.0} % of its length, most at {} by {}: the solution \
              has no meaning near it; {remedy}",
-            (100.0 * closed as f64 / places.len() as f64).max(1.0),
-            seats.show(worst.at),
+            self.index,
+            (100.0 * closed as f64 / samples.len() as f64).max(1.0),
+            places.show(worst.at),
             short(-worst.opening)
         );
-        warning(WarningKind::FacesOverlap, Some(worst.at), [worst.opening, limit], message)
-    })
-}
+        let numbers = [worst.opening, limit];
+        (worst.opening < limit)
+            .then(|| Warning::new(WarningKind::FacesOverlap, Some(worst.at), numbers, message))
+    }
 
-/// Points along a crack, equally apart and none at a vertex, with their segment and the
-/// normal there.
-pub(super) fn places(crack: &Crack, index: usize) -> impl Iterator<Item = (Vec2, SegmentId, Vec2)> {
-    let length = crack.length();
-    (0..).zip(crack.points.windows(2)).flat_map(move |(segment, s)| {
-        let (a, way) = (s[0], s[1] - s[0]);
-        let count = (SAMPLES as f64 * way.length() / length).ceil();
-        let at = move |k: usize| a + way * ((k as f64 + 0.5) / count);
-        let segment = SegmentId { crack: index as u32, segment };
-        (0..count as usize).map(move |k| (at(k), segment, way.unit().left()))
-    })
-}
+    /// Samples along the crack, equally apart and none at a vertex.
+    fn samples(&self) -> Vec<FaceSample> {
+        let length = self.crack.length();
+        let of_segment = |(segment, s): (u32, &[Vec2])| {
+            let (a, way) = (s[0], s[1] - s[0]);
+            let count = (SAMPLES as f64 * way.length() / length).ceil();
+            let on = SegmentId { crack: self.index, segment };
+            let at = move |k: usize| a + way * ((k as f64 + 0.5) / count);
+            (0..count as usize).filter_map(move |k| self.sample(on, at(k), way.unit().left()))
+        };
+        (0..).zip(self.crack.points.windows(2)).flat_map(of_segment).collect()
+    }
 
-impl FaceSample {
-    fn new(
-        (field, symmetry): FieldAtFaces<'_>,
-        (at, on, normal): (Vec2, SegmentId, Vec2),
-    ) -> Option<Self> {
-        let mut local = field.on(on, at);
+    fn sample(&self, on: SegmentId, at: Vec2, normal: Vec2) -> Option<FaceSample> {
+        let mut local = self.field.on(on, at);
         let mut face = |side: Side| {
             let mut u = [Jet::constant(0.0); 2];
             local.evaluate::<1>(Vec2::ZERO, side, &mut u).then_some(u)
         };
         let above = face(Side::Above)?;
         // of a crack on an edge the other face is the image of this one
-        let below = if symmetry.is_some() { above } else { face(Side::Below)? };
-        let opening = normal * vec2(above[0].v, above[1].v).dot(normal);
-        let jump = match symmetry {
-            None => vec2(above[0].v - below[0].v, above[1].v - below[1].v),
+        let below = if self.symmetry.is_some() { above } else { face(Side::Below)? };
+        let value = |u: [Jet<f64>; 2]| vec2(u[0].v, u[1].v);
+        let opening = normal * value(above).dot(normal);
+        let jump = match self.symmetry {
+            None => value(above) - value(below),
             Some(Symmetry::Symmetric) => opening * 2.0,
-            Some(Symmetry::Antisymmetric) => (vec2(above[0].v, above[1].v) - opening) * 2.0,
+            Some(Symmetry::Antisymmetric) => (value(above) - opening) * 2.0,
         };
         let strain = |u: [Jet<f64>; 2]| u[0].x.hypot(u[1].y).hypot(0.5 * (u[0].y + u[1].x));
-        Some(Self {
-            at,
-            opening: jump.dot(normal),
-            jump: jump.length(),
-            strain: strain(above).min(strain(below)),
-        })
+        let strain = strain(above).min(strain(below));
+        Some(FaceSample { at, opening: jump.dot(normal), jump: jump.length(), strain })
     }
 }

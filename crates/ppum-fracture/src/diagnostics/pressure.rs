@@ -13,7 +13,7 @@
 //! Cell by cell the tail is 0.8 to 1.3 times the error away from singular points, where the
 //! pressure is no polynomial; so the median by area is reported.
 
-use super::{short, warning};
+use super::{above, short};
 use ppum::crack::Side;
 use ppum::dataset::{Warning, WarningKind};
 use ppum::field::{Field, LocalField};
@@ -57,7 +57,7 @@ pub(super) fn of_pressure(field: &Field<'_>, law: &Law<'_>) -> Option<Warning> {
          in most places, far more than displacements, energy and factors; use a higher `order`, or smaller cells",
         short((1e4 * part).round() / 1e2)
     );
-    (part > LARGE).then(|| warning(WarningKind::Pressure, None, [part, LARGE], message))
+    above(WarningKind::Pressure, None, [part, LARGE], message)
 }
 
 /// The median by area of the squares of tails.
@@ -105,10 +105,9 @@ fn oscillation(field: &Field<'_>, law: &Law<'_>, cell: usize) -> Option<Oscillat
 fn stresses(local: &mut LocalField<'_>, offset: Vec2, law: &LawAt) -> Option<(f64, f64)> {
     let mut u = [Jet::constant(0.0); 2];
     let is_inside = local.evaluate::<1>(offset, Side::Above, &mut u);
-    let g = u.map(|jet| vec2(jet.x, jet.y));
-    let ([[xx, xy], [yx, yy]], [ex, ey]) = (law.stress(&g), law.elastic(&g));
-    let pressure = law.lambda() * (ex.x + ey.y);
-    let square = xx * xx + xy * xy + yx * yx + yy * yy;
+    let strain = law.strain(&u);
+    let pressure = law.lambda() * law.elastic(&strain).trace();
+    let square: f64 = law.stress(&strain).0.as_flattened().iter().map(|s| s * s).sum();
     (is_inside && square.is_finite()).then_some((pressure, square))
 }
 

@@ -1,6 +1,6 @@
 //! Warnings about the solution as a whole, from the numbers of the solver's report.
 
-use super::{LARGE_CUT_OFF, LARGE_IMBALANCE, LARGE_NITSCHE, LARGE_RESIDUAL, warning};
+use super::warning::{LARGE_CUT_OFF, LARGE_IMBALANCE, LARGE_NITSCHE, LARGE_RESIDUAL, above};
 use ppum::dataset::{Step, Warning, WarningKind};
 use ppum::domain::Domain;
 use ppum_problem::Adaptivity;
@@ -21,11 +21,8 @@ pub(super) fn of_report(
         (WarningKind::CrossedTwice, report.crossed_twice.map(|n| n as f64), 0.0, crossed_twice),
         (WarningKind::Solver, report.fallback.then_some(1.0), 0.0, fallback),
     ];
-    let passed = rules.into_iter().filter_map(|(kind, value, limit, message)| {
-        value.filter(|value| *value > limit).map(|value| (kind, value, limit, message))
-    });
-    let found = passed.map(|(kind, value, limit, message)| {
-        warning(kind, None, [value, limit], message(value, cutters))
+    let found = rules.into_iter().filter_map(|(kind, value, limit, message)| {
+        above(kind, None, [value?, limit], message(value?, cutters))
     });
     found.chain(of_tolerance(report, adaptivity)).collect()
 }
@@ -54,7 +51,7 @@ fn of_tolerance(report: &SolverReport, adaptivity: Option<&Adaptivity>) -> Optio
     let message = format!(
         "the estimated error is {found:.1e}, not {wanted:e} as wanted, and {reason}; {remedy}, or a larger `{key}`"
     );
-    Some(warning(WarningKind::Tolerance, None, [found, wanted], message))
+    Some(Warning::new(WarningKind::Tolerance, None, [found, wanted], message))
 }
 
 /// The meaning of a number of the report, on a body with these cutters.
@@ -92,16 +89,14 @@ impl Cutters {
 
 fn residual(value: f64, cutters: Cutters) -> String {
     let suspects = match cutters {
-        Cutters::Nothing => "cells far smaller than their neighbours",
-        Cutters::Cracks => "cracks that nearly touch, or cells far smaller than their neighbours",
-        Cutters::Holes => "rims that nearly touch, or cells far smaller than their neighbours",
-        Cutters::Both => {
-            "cracks or rims that nearly touch, or cells far smaller than their neighbours"
-        }
+        Cutters::Nothing => "",
+        Cutters::Cracks => "cracks that nearly touch, or ",
+        Cutters::Holes => "rims that nearly touch, or ",
+        Cutters::Both => "cracks or rims that nearly touch, or ",
     };
     format!(
         "the residual of the linear system is {value:.1e} of the load; the solution has lost digits: look for \
-         {suspects}, or for a material whose constants differ by many orders of magnitude"
+         {suspects}cells far smaller than their neighbours, or for a material whose constants differ by many orders of magnitude"
     )
 }
 

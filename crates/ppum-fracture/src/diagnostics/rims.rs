@@ -1,6 +1,6 @@
 //! The warning about cells that are too large for the stress at the rim of a hole.
 
-use super::{short, smaller_cells, warning};
+use super::{percent, short, smaller_cells};
 use ppum::dataset::{Warning, WarningKind};
 use ppum::domain::Hole;
 use ppum::field::Field;
@@ -26,10 +26,10 @@ struct CoarseRim {
 /// The warning about the worst hole, and how many are nearly as bad.
 pub(super) fn of_rims(
     field: &Field<'_>,
-    holes: &[Hole],
     problem: Option<&Problem>,
     places: &LocationText,
 ) -> Option<Warning> {
+    let holes = &field.domain.holes;
     if holes.is_empty() {
         return None;
     }
@@ -54,7 +54,7 @@ pub(super) fn of_rims(
     let at = partition.cell[worst.cell as usize].center();
     let place = places.show(at);
     let message = message(&worst, &holes[worst.hole], problem, (count, &place));
-    Some(warning(WarningKind::CoarseHole, Some(at), [worst.error, LARGE], message))
+    Some(Warning::new(WarningKind::CoarseHole, Some(at), [worst.error, LARGE], message))
 }
 
 fn message(
@@ -78,7 +78,7 @@ fn message(
          around {at}, is {} of the radius of curvature long, and stresses are off by up to about {} % of the \
          largest; {}, or a higher `order`",
         short((1e3 * part).round() / 1e3),
-        short((1e3 * error).round() / 10.0),
+        percent(*error),
         smaller_cells(problem, &keys)
     )
 }

@@ -2,8 +2,8 @@
 
 use super::curves::of_curve;
 use super::faces::remedy;
-use super::{LARGE_ERROR, short, warning};
-use crate::intensity::{TipObstacle, TipResult};
+use super::{LARGE_ERROR, above, percent, short, unresolved_function};
+use crate::intensity::{QuadratureErrorEstimate, TipObstacle, TipResult};
 use ppum::crack::Crack;
 use ppum::dataset::{TipIntensity, Warning, WarningKind};
 use ppum::text::{LocationText, trimmed_to};
@@ -32,167 +32,179 @@ const NEAR_BORDER: f64 = 0.05;
 /// Least number of cells along a crack.
 const LEAST_CELLS: f64 = 4.0;
 
+/// A tip that is judged.
+struct JudgedTip<'a> {
+    problem: Option<&'a Problem>,
+    result: &'a TipResult,
+    crack: &'a Crack,
+    /// Its place, in words.
+    at: String,
+}
+
 /// The warnings about the tips of a step, whose cracks these are.
 pub(super) fn of_tips(
     problem: Option<&Problem>,
-    outcomes: &[TipResult],
+    results: &[TipResult],
     cracks: &[Crack],
     places: &LocationText,
 ) -> Vec<Warning> {
-    let of_tip = |outcome: &TipResult| {
-        let crack = &cracks[outcome.tip.crack as usize];
-        let length = crack.length();
-        let at = &places.show(outcome.at);
-        let about_factors = match &outcome.factors {
+    let of_tip = |result: &TipResult| {
+        let &TipResult { tip, at, doubt, .. } = result;
+        let (crack, at) = (&cracks[tip.crack as usize], places.show(at));
+        JudgedTip { problem, result, crack, at }.warnings(&places.show(doubt.at))
+    };
+    results.iter().flat_map(of_tip).collect()
+}
+
+impl JudgedTip<'_> {
+    /// The warnings about the tip, whose integrands are not resolved at a place in words.
+    fn warnings(&self, unresolved: &str) -> impl Iterator<Item = Warning> + use<> {
+        let about_factors = match &self.result.factors {
             Some(factors) => [
-                negative(problem, (outcome, at), factors),
-                spread(outcome, factors, at),
-                unresolved(outcome, at, &places.show(outcome.doubt.at)),
-                of_curve(outcome, factors, crack, at),
+                self.negative(factors),
+                self.spread(factors),
+                self.unresolved(unresolved),
+                of_curve(self.result, factors, self.crack, &self.at),
             ],
-            None => [Some(no_room(outcome, at)), None, None, None],
+            None => [Some(self.no_room()), None, None, None],
         };
-        let about_place = [
-            little_room(outcome, at),
-            near_interface(outcome, at),
-            near_border(outcome, length, at),
-            coarse(problem, outcome, length, at),
-        ];
+        let about_place =
+            [self.little_room(), self.near_interface(), self.near_border(), self.coarse()];
         about_factors.into_iter().chain(about_place).flatten()
-    };
-    outcomes.iter().flat_map(of_tip).collect()
-}
+    }
 
-/// |K|, or more where that is nothing but noise.
-fn size(outcome: &TipResult, factors: &TipIntensity) -> f64 {
-    factors.k1.hypot(factors.k2).max(NOTHING * outcome.energy_scale)
-}
+    fn warning(&self, kind: WarningKind, numbers: [f64; 2], message: &str) -> Warning {
+        let message = format!("tip {}: {message}", self.at);
+        Warning::new(kind, Some(self.result.at), numbers, message)
+    }
 
-fn negative(
-    problem: Option<&Problem>,
-    (outcome, at): (&TipResult, &str),
-    factors: &TipIntensity,
-) -> Option<Warning> {
-    let k1 = factors.k1;
-    // closed faces have none except for its error
-    let touches = problem.is_some_and(|all| face_law(all, outcome.tip.crack).is_some());
-    let error = if touches { CLOSED * factors.error.unwrap_or(0.0) } else { 0.0 };
-    let limit = -(NOISE * size(outcome, factors)).max(error);
-    let message = format!(
-        "tip {at}: K_I = {} is negative: the faces of the crack overlap there, and the solution has no \
-         meaning near it; {}",
-        short(k1),
-        remedy(problem, outcome.tip.crack)
-    );
-    (k1 < limit).then(|| warning(WarningKind::NegativeK1, Some(outcome.at), [k1, limit], message))
-}
+    /// |K|, or more where that is nothing but noise.
+    fn size(&self, factors: &TipIntensity) -> f64 {
+        factors.k1.hypot(factors.k2).max(NOTHING * self.result.energy_scale)
+    }
 
-fn spread(outcome: &TipResult, factors: &TipIntensity, at: &str) -> Option<Warning> {
-    let spread = factors.largest_difference() / size(outcome, factors);
-    let message = format!(
-        "tip {at}: the values at three radii, which should agree, differ by {} % (no estimate of the error, \
-         which may be larger); use smaller cells there",
-        short((1e3 * spread).round() / 10.0)
-    );
-    (spread > LARGE_SPREAD)
-        .then(|| warning(WarningKind::Spread, Some(outcome.at), [spread, LARGE_SPREAD], message))
-}
+    /// Cells in which so small a length has ample room, in words.
+    fn ample_cells(length: f64) -> String {
+        format!("use cells of at most {} there", short(length / AMPLE_CLEARANCE))
+    }
 
-fn unresolved(outcome: &TipResult, tip: &str, place: &str) -> Option<Warning> {
-    let error = outcome.doubt.functions;
-    let message = format!(
-        "tip {tip}: a function or a coefficient varies too fast around {place}: integrals over a piece of a cell in its disc \
-         are off by about {error:.1e}; use smaller cells there, or a smoother formula"
-    );
-    let place = Some(outcome.doubt.at);
-    (error > LARGE_ERROR)
-        .then(|| warning(WarningKind::Quadrature, place, [error, LARGE_ERROR], message))
-}
+    /// A length in cells at the tip, in words.
+    fn in_cells(&self, length: f64) -> String {
+        short((100.0 * length / self.result.cell).round() / 100.0)
+    }
 
-fn no_room(outcome: &TipResult, at: &str) -> Warning {
-    let (radius, needed) = (outcome.clearance.radius, outcome.needed());
-    let message = if outcome.clearance.end == TipObstacle::Interface {
-        format!(
-            "tip {at}: no stress intensity factors, because it lies on an interface of two materials: stresses there are not \
-             those of K_I and K_II, 1/√r, but of another power of r; let the crack end off the interface"
-        )
-    } else if radius <= f64::EPSILON * needed {
-        format!(
-            "tip {at}: no stress intensity factors, because it lies on {}; move it away",
-            outcome.clearance.end.name()
-        )
-    } else {
-        format!(
-            "tip {at}: no stress intensity factors: the disc up to {} has a radius of {}, but {} is \
-             needed with cells {} wide; use cells of at most {} there, or move the tip away",
-            outcome.clearance.end.name(),
-            short(radius),
-            short(needed),
-            short(outcome.cell),
-            short(radius * outcome.cell / needed)
-        )
-    };
-    warning(WarningKind::NoRoom, Some(outcome.at), [radius, needed], message)
-}
-
-fn little_room(outcome: &TipResult, at: &str) -> Option<Warning> {
-    let (radius, ample) = (outcome.clearance.radius, AMPLE_CLEARANCE * outcome.cell);
-    let little = outcome.factors.is_some() && radius < ample;
-    little.then(|| {
+    fn negative(&self, factors: &TipIntensity) -> Option<Warning> {
+        let (k1, crack) = (factors.k1, self.result.tip.crack);
+        // closed faces have none except for its error
+        let touches = self.problem.is_some_and(|all| face_law(all, crack).is_some());
+        let error = if touches { CLOSED * factors.error.unwrap_or(0.0) } else { 0.0 };
+        let limit = -(NOISE * self.size(factors)).max(error);
         let message = format!(
-            "tip {at}: the disc up to {} has a radius of {} cells only, and the factors may be off by \
-             1 %; use cells of at most {} there",
-            outcome.clearance.end.name(),
-            short((100.0 * radius / outcome.cell).round() / 100.0),
-            short(radius / AMPLE_CLEARANCE)
+            "K_I = {} is negative: the faces of the crack overlap there, and the solution has no \
+             meaning near it; {}",
+            short(k1),
+            remedy(self.problem, crack)
         );
-        warning(WarningKind::LittleRoom, Some(outcome.at), [radius, ample], message)
-    })
-}
+        (k1 < limit).then(|| self.warning(WarningKind::NegativeK1, [k1, limit], &message))
+    }
 
-fn near_interface(outcome: &TipResult, at: &str) -> Option<Warning> {
-    let (distance, ample) = (outcome.interface?, AMPLE_CLEARANCE * outcome.cell);
-    outcome.factors.as_ref()?;
-    let message = format!(
-        "tip {at}: an interface of two materials passes at a distance of {} cells, and the factors may be \
-         off by {}; use cells of at most {} there, and a `kink` along the interface",
-        short((100.0 * distance / outcome.cell).round() / 100.0),
-        if distance < 0.5 * outcome.cell { "several %" } else { "1 %" },
-        short(distance / AMPLE_CLEARANCE)
-    );
-    Some(warning(WarningKind::NearInterface, Some(outcome.at), [distance, ample], message))
-}
-
-fn near_border(outcome: &TipResult, length: f64, at: &str) -> Option<Warning> {
-    let (radius, limit) = (outcome.clearance.radius, NEAR_BORDER * length);
-    let free = matches!(outcome.clearance.end, TipObstacle::Border | TipObstacle::Hole(_));
-    (free && radius < limit).then(|| {
+    fn spread(&self, factors: &TipIntensity) -> Option<Warning> {
+        let spread = factors.largest_difference() / self.size(factors);
         let message = format!(
-            "tip {at}: it is {} from {}, {} % of the crack's length: the factors grow like one over \
+            "the values at three radii, which should agree, differ by {} % (no estimate of the error, \
+             which may be larger); use smaller cells there",
+            percent(spread)
+        );
+        let numbers = [spread, LARGE_SPREAD];
+        (spread > LARGE_SPREAD).then(|| self.warning(WarningKind::Spread, numbers, &message))
+    }
+
+    fn unresolved(&self, place: &str) -> Option<Warning> {
+        let QuadratureErrorEstimate { functions: error, at, .. } = self.result.doubt;
+        let message = unresolved_function(place, "in its disc ", error);
+        let message = format!("tip {}: {message}", self.at);
+        above(WarningKind::Quadrature, Some(at), [error, LARGE_ERROR], message)
+    }
+
+    fn no_room(&self) -> Warning {
+        let TipResult { clearance, cell, .. } = self.result;
+        let (radius, needed) = (clearance.radius, self.result.needed());
+        let reason = match clearance.end {
+            TipObstacle::Interface => {
+                ", because it lies on an interface of two materials: stresses there are not \
+                 those of K_I and K_II, 1/√r, but of another power of r; let the crack end off the interface"
+                    .into()
+            }
+            end if radius <= f64::EPSILON * needed => {
+                format!(", because it lies on {}; move it away", end.name())
+            }
+            end => format!(
+                ": the disc up to {} has a radius of {}, but {} is \
+                 needed with cells {} wide; use cells of at most {} there, or move the tip away",
+                end.name(),
+                short(radius),
+                short(needed),
+                short(*cell),
+                short(radius * cell / needed)
+            ),
+        };
+        let message = format!("no stress intensity factors{reason}");
+        self.warning(WarningKind::NoRoom, [radius, needed], &message)
+    }
+
+    fn little_room(&self) -> Option<Warning> {
+        let TipResult { clearance, cell, factors, .. } = self.result;
+        let (radius, ample) = (clearance.radius, AMPLE_CLEARANCE * cell);
+        let message = format!(
+            "the disc up to {} has a radius of {} cells only, and the factors may be off by 1 %; {}",
+            clearance.end.name(),
+            self.in_cells(radius),
+            Self::ample_cells(radius)
+        );
+        (factors.is_some() && radius < ample)
+            .then(|| self.warning(WarningKind::LittleRoom, [radius, ample], &message))
+    }
+
+    fn near_interface(&self) -> Option<Warning> {
+        let TipResult { interface, cell, factors, .. } = self.result;
+        let (distance, _) = interface.zip(factors.as_ref())?;
+        let message = format!(
+            "an interface of two materials passes at a distance of {} cells, and the factors may be \
+             off by {}; {}, and a `kink` along the interface",
+            self.in_cells(distance),
+            if distance < 0.5 * cell { "several %" } else { "1 %" },
+            Self::ample_cells(distance)
+        );
+        let numbers = [distance, AMPLE_CLEARANCE * cell];
+        Some(self.warning(WarningKind::NearInterface, numbers, &message))
+    }
+
+    fn near_border(&self) -> Option<Warning> {
+        let (clearance, length) = (self.result.clearance, self.crack.length());
+        let (radius, limit) = (clearance.radius, NEAR_BORDER * length);
+        let message = format!(
+            "it is {} from {}, {} % of the crack's length: the factors grow like one over \
              the root of that distance; see that the position is meant, or let the crack end there",
             short(radius),
-            outcome.clearance.end.name(),
+            clearance.end.name(),
             trimmed_to(100.0 * radius / length, 2)
         );
-        warning(WarningKind::TipNearBorder, Some(outcome.at), [radius, limit], message)
-    })
-}
+        let is_free = matches!(clearance.end, TipObstacle::Border | TipObstacle::Hole(_));
+        (is_free && radius < limit)
+            .then(|| self.warning(WarningKind::TipNearBorder, [radius, limit], &message))
+    }
 
-fn coarse(
-    problem: Option<&Problem>,
-    outcome: &TipResult,
-    length: f64,
-    at: &str,
-) -> Option<Warning> {
-    let is_off = problem.is_some_and(|problem| !problem.discretization.refine);
-    let cells = length / outcome.cell;
-    (cells < LEAST_CELLS).then(|| {
+    fn coarse(&self) -> Option<Warning> {
+        let is_off = self.problem.is_some_and(|problem| !problem.discretization.refine);
+        let length = self.crack.length();
+        let cells = length / self.result.cell;
         let message = format!(
-            "tip {at}: its crack is only {} cells long; use cells of at most {} there{}",
-            short((100.0 * cells).round() / 100.0),
+            "its crack is only {} cells long; use cells of at most {} there{}",
+            self.in_cells(length),
             short(length / LEAST_CELLS),
             if is_off { ", or leave out `refine = false`" } else { "" }
         );
-        warning(WarningKind::Coarse, Some(outcome.at), [cells, LEAST_CELLS], message)
-    })
+        (cells < LEAST_CELLS)
+            .then(|| self.warning(WarningKind::Coarse, [cells, LEAST_CELLS], &message))
+    }
 }

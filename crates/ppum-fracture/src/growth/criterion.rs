@@ -26,7 +26,7 @@ use std::f64::consts::{FRAC_2_PI, PI};
 
 /// The direction of growth and the factor that drives it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct KinkDirection {
+pub struct KinkPrediction {
     /// θ, from the direction of the crack to the left, in radians.
     pub angle: f64,
     /// K_I of a straight crack that would be driven as much.
@@ -42,7 +42,7 @@ const WIDEST: f64 = 1.4;
 ///
 /// Angles are those of the criterion's closed form to the last digits; the functions of kinks that
 /// two of the criteria rest on are right to 1e-5 up to 80°.
-pub fn kink(criterion: Criterion, factors: &TipIntensity) -> Option<KinkDirection> {
+pub fn kink(criterion: Criterion, factors: &TipIntensity) -> Option<KinkPrediction> {
     Drive::new(criterion, factors).map(|drive| drive.kink)
 }
 
@@ -55,7 +55,7 @@ pub(super) struct Drive {
     /// T where it is negative, so that it turns the crack back; else zero.
     t_stress: f64,
     /// The kink of a vanishing increment.
-    pub(super) kink: KinkDirection,
+    pub(super) kink: KinkPrediction,
 }
 
 /// The turn of an increment: at its start, and then evenly along its arc.
@@ -81,7 +81,7 @@ impl Drive {
             Criterion::Energy => after(angle, k)[0].hypot(after(angle, k)[1]),
         };
         let t_stress = factors.t_stress.unwrap_or(0.0).min(0.0);
-        Some(Self { criterion, k, t_stress, kink: KinkDirection { angle, k_eq: strength } })
+        Some(Self { criterion, k, t_stress, kink: KinkPrediction { angle, k_eq: strength } })
     }
 
     /// True if T turns the crack back.
@@ -207,8 +207,17 @@ fn root(mut far: f64, value: impl Fn(f64) -> f64) -> f64 {
     }
 }
 
-/// The powers m, m³, …, m¹⁹ of F_12 and F_21 with m = θ/π, and 1, m², …, m²⁰ of F_11 and F_22:
-/// first the exact coefficients, then those that Amestoy & Leblond have computed.
+/// Coefficients of F_11, F_12, F_21 and F_22 that Amestoy & Leblond have computed, behind those
+/// that are known exactly.
+const F11: [f64; 7] = [5.077_90, -2.883_12, -0.092_5, 2.996, -4.059, 1.63, 4.1];
+const F12: [f64; 7] = [12.313_906, -7.324_33, 1.579_3, 4.021_6, -6.915, 4.21, 4.56];
+const F21: [f64; 7] = [-6.176_023, 4.441_12, -1.534_0, -2.070_0, 4.684, -3.95, -1.32];
+const F22: [f64; 7] = [10.582_54, -4.785_11, -1.880_4, 7.280, -7.591, 0.25, 12.5];
+
+/// Those of G_II.
+const G2: [f64; 8] = [-59.565_733, 61.174_444, -39.902_49, 15.622_2, 3.034_3, -12.781, 9.69, 6.62];
+
+/// The powers m, m³, …, m¹⁹ of F_12 and F_21 with m = θ/π, and 1, m², …, m²⁰ of F_11 and F_22.
 fn kinked(angle: f64) -> [[[f64; 2]; 2]; 2] {
     let (p2, p3, p4, p5, p6) = (PI.powi(2), PI.powi(3), PI.powi(4), PI.powi(5), PI.powi(6));
     let f11 = [
@@ -216,77 +225,37 @@ fn kinked(angle: f64) -> [[[f64; 2]; 2]; 2] {
         -3.0 * p2 / 8.0,
         p2 - 5.0 * p4 / 128.0,
         p2 / 9.0 - 11.0 * p4 / 72.0 + 119.0 * p6 / 15_360.0,
-        5.077_90,
-        -2.883_12,
-        -0.092_5,
-        2.996,
-        -4.059,
-        1.63,
-        4.1,
     ];
     let f12 = [
         -1.5 * PI,
         10.0 * PI / 3.0 + p3 / 16.0,
         -2.0 * PI - 133.0 * p3 / 180.0 + 59.0 * p5 / 1280.0,
-        12.313_906,
-        -7.324_33,
-        1.579_3,
-        4.021_6,
-        -6.915,
-        4.21,
-        4.56,
     ];
     let f21 = [
         0.5 * PI,
         -4.0 * PI / 3.0 - p3 / 48.0,
         -2.0 * PI / 3.0 + 13.0 * p3 / 30.0 - 59.0 * p5 / 3840.0,
-        -6.176_023,
-        4.441_12,
-        -1.534_0,
-        -2.070_0,
-        4.684,
-        -3.95,
-        -1.32,
     ];
     let f22 = [
         1.0,
         -4.0 - 3.0 * p2 / 8.0,
         8.0 / 3.0 + 29.0 * p2 / 18.0 - 5.0 * p4 / 128.0,
         -32.0 / 15.0 - 4.0 * p2 / 9.0 - 1159.0 * p4 / 7200.0 + 119.0 * p6 / 15_360.0,
-        10.582_54,
-        -4.785_11,
-        -1.880_4,
-        7.280,
-        -7.591,
-        0.25,
-        12.5,
     ];
     let m = angle / PI;
-    [[even(&f11, m), odd(&f12, m)], [odd(&f21, m), even(&f22, m)]]
+    [[even(&f11, &F11, m), odd(&f12, &F12, m)], [odd(&f21, &F21, m), even(&f22, &F22, m)]]
 }
 
 /// G_II: K_II that a straight increment of unit length under T = 1 gets beside that of its kink.
 fn turned_back(angle: f64) -> f64 {
     let root = (2.0 * PI).sqrt();
-    let coefficients = [
-        -2.0 * root,
-        12.0 * root,
-        -59.565_733,
-        61.174_444,
-        -39.902_49,
-        15.622_2,
-        3.034_3,
-        -12.781,
-        9.69,
-        6.62,
-    ];
-    odd(&coefficients, angle / PI)[0]
+    odd(&[-2.0 * root, 12.0 * root], &G2, angle / PI)[0]
 }
 
-/// Σ c_k m^2k, and its derivative by the angle.
-fn even(coefficients: &[f64], m: f64) -> [f64; 2] {
+/// Σ c_k m^2k, and its derivative by the angle, of coefficients in two parts.
+fn even(first: &[f64], others: &[f64], m: f64) -> [f64; 2] {
     let (square, mut value, mut slope) = (m * m, 0.0, 0.0);
-    for c in coefficients.iter().rev() {
+    for c in first.iter().chain(others).rev() {
         // d/dm = 2m d/dm²
         slope = slope * square + value;
         value = value * square + c;
@@ -295,8 +264,8 @@ fn even(coefficients: &[f64], m: f64) -> [f64; 2] {
 }
 
 /// Σ c_k m^(2k + 1), and its derivative by the angle.
-fn odd(coefficients: &[f64], m: f64) -> [f64; 2] {
-    let [value, slope] = even(coefficients, m);
+fn odd(first: &[f64], others: &[f64], m: f64) -> [f64; 2] {
+    let [value, slope] = even(first, others, m);
     [m * value, m * slope + value / PI]
 }
 
@@ -308,7 +277,7 @@ mod tests {
 
     const ALL: [Criterion; 3] = [Criterion::Hoop, Criterion::LocalSymmetry, Criterion::Energy];
 
-    fn of(criterion: Criterion, k1: f64, k2: f64) -> Option<KinkDirection> {
+    fn of(criterion: Criterion, k1: f64, k2: f64) -> Option<KinkPrediction> {
         let tip = TipId { crack: 0, end: End::Last };
         kink(criterion, &TipIntensity::new(tip, k1, k2))
     }
@@ -373,7 +342,7 @@ mod tests {
     fn properties() {
         let mut random = Random(4);
         for criterion in ALL {
-            assert_eq!(of(criterion, 3.0, 0.0), Some(KinkDirection { angle: 0.0, k_eq: 3.0 }));
+            assert_eq!(of(criterion, 3.0, 0.0), Some(KinkPrediction { angle: 0.0, k_eq: 3.0 }));
             assert_eq!(of(criterion, -1.0, 0.5), None);
             for _ in 0..100 {
                 let (k1, k2) = (random.between(0.1, 1.0), random.between(-1.0, 1.0));

@@ -1,7 +1,7 @@
 //! Decides the next increments of the tips of a solved step: who grows, how far, and where to.
 
 use super::criterion::Drive;
-use super::path::{IncrementArc, way};
+use super::path::go;
 use crate::solve::SolveError;
 use ppum::crack::{Crack, End, TipId, tips};
 use ppum::dataset::{Growth, GrowthStop, TipIncrement, TipIntensity, TipStatus};
@@ -37,13 +37,6 @@ const ROUNDING: f64 = 1e-9;
 
 /// Part of an increment from which on growth that is due is made.
 const DUE: f64 = 0.5;
-
-/// The decisions of a step.
-pub(super) struct Decision {
-    pub(super) growth: Growth,
-    /// The factor of the load.
-    pub(super) load: f64,
-}
 
 /// A tip with what drives it.
 struct DrivenTip<'a> {
@@ -97,7 +90,7 @@ pub enum GrowthDataError {
 const FARTHEST: f64 = 1e60;
 
 /// Decides what the tips do, from their factors under the loads of the problem and from what was
-/// decided in the step before.
+/// decided in the step before; with it the factor of the loads.
 ///
 /// # Errors
 /// A toughness, a load or a number of cycles that is none.
@@ -106,7 +99,7 @@ pub(super) fn decide(
     rule: &GrowthRule,
     factors: &[TipIntensity],
     before: Option<&Growth>,
-) -> Result<Decision, GrowthDataError> {
+) -> Result<(Growth, f64), GrowthDataError> {
     let mut driven: Vec<_> = tips(problem.cracks())
         .map(|tip| DrivenTip::new(problem, rule, tip, factors, before))
         .collect();
@@ -123,14 +116,14 @@ pub(super) fn decide(
         growth.tips.push(row);
     }
     growth.stop = stop(rule, &driven, &growth);
-    Ok(Decision { growth, load })
+    Ok((growth, load))
 }
 
 /// The problem with the cracks that follow from what was decided.
 ///
 /// # Errors
 /// The rules that these cracks break.
-pub(super) fn grown(problem: &Problem, growth: &Growth) -> Result<Problem, SolveError> {
+pub(super) fn grow_cracks(problem: &Problem, growth: &Growth) -> Result<Problem, SolveError> {
     let mut cracks = problem.cracks().to_vec();
     growth.tips.iter().for_each(|row| extend(&mut cracks[row.tip.crack as usize], row));
     let lines = cracks.into_iter().map(|crack| crack.points).collect();
@@ -150,7 +143,7 @@ fn extend(crack: &mut Crack, row: &TipIncrement) {
 /// The factors of a crack whose faces may touch, which has no negative K_I; none if nothing but
 /// their error is left, as where the faces stick. Where they are closed T does not act on free
 /// faces: under pressure from all sides it turns nothing.
-fn pressed(factors: &TipIntensity) -> Option<TipIntensity> {
+fn closed_factors(factors: &TipIntensity) -> Option<TipIntensity> {
     let error = factors.error.unwrap_or(0.0);
     let t_stress = factors.t_stress.filter(|_| factors.k1 > error);
     let open = TipIntensity { k1: factors.k1.max(0.0), t_stress, ..factors.clone() };
@@ -169,7 +162,7 @@ impl<'a> DrivenTip<'a> {
         let (at, along) = (crack.end_point(tip.end), crack.growth_direction(tip.end));
         let factors = factors.iter().find(|found| found.tip == tip);
         let drive = factors.and_then(|factors| match face_law(problem, tip.crack) {
-            Some(_) => Drive::new(rule.criterion, &pressed(factors)?),
+            Some(_) => Drive::new(rule.criterion, &closed_factors(factors)?),
             None => Drive::new(rule.criterion, factors),
         });
         let fate = match (factors, drive) {
@@ -191,9 +184,8 @@ impl<'a> DrivenTip<'a> {
 
     /// Asks whether the toughness at the tip is one, if there is any.
     fn check(&self) -> Result<(), GrowthDataError> {
-        let is_one = self.toughness.is_none_or(|k| k > 0.0 && k.is_finite());
-        let refused = |toughness| GrowthDataError::Toughness { at: self.at, toughness };
-        if is_one { Ok(()) } else { Err(refused(self.toughness.unwrap_or(0.0))) }
+        let bad = self.toughness.filter(|k| !(*k > 0.0 && k.is_finite()));
+        bad.map_or(Ok(()), |toughness| Err(GrowthDataError::Toughness { at: self.at, toughness }))
     }
 
     fn k_eq(&self) -> f64 {
@@ -219,7 +211,7 @@ impl<'a> DrivenTip<'a> {
         } else {
             drive.next_turn(&self.path, length)
         };
-        let direction = turned(0.0, self.axis + turn.at_start);
+        let direction = turn_between(0.0, self.axis + turn.at_start);
         let curvature = turn.along / length + self.drift(drive, direction);
         let bound = LARGEST_TURN / length;
         (direction, curvature.clamp(-bound, bound))
@@ -232,11 +224,11 @@ impl<'a> DrivenTip<'a> {
     fn drift(&self, drive: &Drive, direction: f64) -> f64 {
         let is_smooth = self.angle().abs() < SHARP;
         self.last().filter(|_| is_smooth).map_or(0.0, |row| {
-            let found = turned(row.direction, direction) / row.length;
+            let found = turn_between(row.direction, direction) / row.length;
             let explained = if row.extension == 0.0 && drive.turns_back() {
                 row.curvature
             } else {
-                drive.bend(&behind(&self.path, row.length), row.length, 0.0) / row.length
+                drive.bend(&path_behind(&self.path, row.length), row.length, 0.0) / row.length
             };
             0.5 * (found + row.curvature) - explained
         })
@@ -278,7 +270,7 @@ impl<'a> DrivenTip<'a> {
 }
 
 /// A path without its first piece of a given length.
-fn behind(path: &[Vec2], length: f64) -> Vec<Vec2> {
+fn path_behind(path: &[Vec2], length: f64) -> Vec<Vec2> {
     let mut left = length;
     for (k, ends) in path.windows(2).enumerate() {
         let piece = ends[1] - ends[0];
@@ -294,7 +286,11 @@ fn behind(path: &[Vec2], length: f64) -> Vec<Vec2> {
 
 /// Returns the growth of a step with other curvatures of some arcs, which are given with their
 /// tips.
-pub(super) fn bent(problem: &Problem, growth: &Growth, curvatures: &[(TipId, f64)]) -> Growth {
+pub(super) fn with_curvatures(
+    problem: &Problem,
+    growth: &Growth,
+    curvatures: &[(TipId, f64)],
+) -> Growth {
     let mut so_far = problem.cracks().to_vec();
     let mut bent = growth.clone();
     for row in &mut bent.tips {
@@ -318,16 +314,8 @@ fn is_joined(problem: &Problem, cracks: &[Crack], tip: TipId) -> bool {
         .any(|end| end == at)
 }
 
-/// Sends a tip along its arc, among the cracks as they are.
-fn go(problem: &Problem, cracks: &[Crack], length: f64, row: &mut TipIncrement) {
-    let from = problem.cracks()[row.tip.crack as usize].end_point(row.tip.end);
-    let arc = IncrementArc { from, direction: row.direction, curvature: row.curvature, length };
-    let way = way(problem, cracks, row.tip, arc);
-    (row.length, row.fate, row.path) = (way.length, way.fate, way.path);
-}
-
 /// The turn from one direction to another, between −π and π.
-fn turned(from: f64, to: f64) -> f64 {
+fn turn_between(from: f64, to: f64) -> f64 {
     let turn = to - from;
     turn - std::f64::consts::TAU * (turn / std::f64::consts::TAU).round()
 }

@@ -18,18 +18,18 @@ mod path;
 mod settle;
 mod step;
 
-pub use criterion::{KinkDirection, kink};
+pub use criterion::{KinkPrediction, kink};
 pub use decision::GrowthDataError;
 
 use crate::solve::SolveError;
-use decision::grown;
+use decision::grow_cracks;
 use ppum::dataset::{Dataset, Step};
 use ppum::progress::Watcher;
 use ppum_problem::{GrowthRule, Problem, ProblemData};
-use ppum_solve::watched::CycleWatcher;
-use settle::settled;
+use ppum_solve::watched::StepWatcher;
+use settle::solve_step;
 use std::convert::Infallible;
-use step::{GrowthSeries, PreviousStep, closed};
+use step::{GrowthSeries, PreviousStep, end_series};
 
 /// A series that has ended before its end.
 #[derive(Debug, thiserror::Error)]
@@ -79,26 +79,28 @@ pub fn grow<E>(
     };
     let mut done: Option<Dataset> = None;
     while number <= rule.steps {
-        let here = CycleWatcher { watcher, step: number };
+        let here = StepWatcher { watcher, step: number };
         let plan = series.plan(&current, &here);
         if let Some(dataset) = done.take() {
-            let (dataset, ends) = closed(dataset, plan.as_ref().err());
+            let (dataset, ends) = end_series(dataset, plan.as_ref().err());
             keep(dataset).map_err(GrowthError::Kept)?;
             if ends {
                 return Ok(());
             }
         }
         let plan = plan?;
-        let (cracks, dataset) = settled(plan, before.as_ref(), &series, &here)?;
+        let (cracks, dataset) = solve_step(plan, before.as_ref(), &series, &here)?;
         current = current.with_cracks(cracks);
         let growth_before = before.as_ref().map(|before| &before.growth);
-        let (dataset, growth) = series.decided(&current, dataset, growth_before)?;
+        let (dataset, growth) = series.with_decision(&current, dataset, growth_before)?;
         if growth.stop.is_some() || number == rule.steps {
             return keep(dataset).map_err(GrowthError::Kept);
         }
-        let next = match grown(&current, &growth) {
+        let next = match grow_cracks(&current, &growth) {
             Ok(next) => next,
-            Err(error) => return keep(closed(dataset, Some(&error)).0).map_err(GrowthError::Kept),
+            Err(error) => {
+                return keep(end_series(dataset, Some(&error)).0).map_err(GrowthError::Kept);
+            }
         };
         before = Some(PreviousStep { problem: std::mem::replace(&mut current, next), growth });
         (done, number) = (Some(dataset), number + 1);
@@ -150,6 +152,6 @@ fn start(problem: &Problem, last: Option<ResumePoint<'_>>) -> Result<Option<Next
     let going_on = step.growth.as_ref().filter(|growth| growth.stop.is_none());
     let Some(growth) = going_on.cloned() else { return Ok(None) };
     let problem = problem.with_cracks(step.cracks.clone());
-    let next = grown(&problem, &growth)?;
+    let next = grow_cracks(&problem, &growth)?;
     Ok(Some((number + 1, next, Some(PreviousStep { problem, growth }))))
 }

@@ -2,32 +2,12 @@
 
 use ppum::border::touch;
 use ppum::crack::{Crack, End, TipId, tips};
-use ppum::dataset::TipStatus;
+use ppum::dataset::{TipIncrement, TipStatus};
 use ppum::domain::Hole;
 use ppum::line::Line;
 use ppum::segment::{Segment, distance};
 use ppum::vec2::{Rect, Vec2};
 use ppum_problem::{DomainEdge, Problem, arc_from};
-
-/// The arc along which a tip would go on.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct IncrementArc {
-    /// The tip.
-    pub(super) from: Vec2,
-    /// Angle to the x axis at the tip.
-    pub(super) direction: f64,
-    /// Positive where it turns left.
-    pub(super) curvature: f64,
-    pub(super) length: f64,
-}
-
-/// The way that a tip goes: the vertices after the tip, and what it comes to.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct IncrementPath {
-    pub(super) path: Vec<Vec2>,
-    pub(super) length: f64,
-    pub(super) fate: TipStatus,
-}
 
 /// Part of an increment that may not be left between the new tip and what is ahead of it: the way
 /// there is divided in two equal ones instead, each more than half of what was asked for.
@@ -37,44 +17,28 @@ const LEFT: f64 = 0.5;
 /// ones would leave a sliver between them that no cell resolves.
 const JOINS: f64 = 0.25;
 
-/// The way of a tip along an arc, among the cracks as they are.
-pub(super) fn way(
-    problem: &Problem,
-    cracks: &[Crack],
-    tip: TipId,
-    arc: IncrementArc,
-) -> IncrementPath {
-    let ahead = Ahead { problem, cracks, tip, reach: JOINS * arc.length };
+/// Sends a tip along an arc of a length, among the cracks as they are: its row gets the vertices
+/// after the tip, the length, and what it comes to.
+pub(super) fn go(problem: &Problem, cracks: &[Crack], length: f64, row: &mut TipIncrement) {
+    let tip = row.tip;
+    let from = problem.cracks()[tip.crack as usize].end_point(tip.end);
     // along an edge rounding must not lead out of the body
     let edge = problem.body.line_of(tip.crack as usize).and_then(|line| DomainEdge::of_line(&line));
     let bounds = &problem.domain().bounds;
-    let on_edge = |points: Vec<Vec2>| match edge {
-        Some(edge) => points.iter().map(|p| edge.point(bounds, edge.coordinate(*p))).collect(),
-        None => points,
+    let on_edge = |p: Vec2| edge.map_or(p, |edge| edge.point(bounds, edge.coordinate(p)));
+    let arc = |from, direction, curvature, length| -> Vec<Vec2> {
+        arc_from(from, direction, curvature, length).into_iter().map(on_edge).collect()
     };
-    let path = on_edge(arc.points());
-    if let Some(hit) = ahead.first(arc.from, &path) {
-        return hit.way(path);
+    let ahead = Ahead { problem, cracks, tip, reach: JOINS * length };
+    row.path = arc(from, row.direction, row.curvature, length);
+    (row.length, row.fate) = (length, TipStatus::Grows);
+    if let Some(hit) = ahead.first(from, &row.path) {
+        return hit.end(row);
     }
-    let end = arc.direction + arc.curvature * arc.length;
-    let beyond = arc_from(*path.last().unwrap_or(&arc.from), end, 0.0, LEFT * arc.length);
-    let beyond = on_edge(beyond);
-    match ahead.first(*path.last().unwrap_or(&arc.from), &beyond) {
-        None => IncrementPath { path, length: arc.length, fate: TipStatus::Grows },
-        Some(hit) => {
-            let length = 0.5 * (arc.length + hit.distance);
-            IncrementPath {
-                path: on_edge(IncrementArc { length, ..arc }.points()),
-                length,
-                fate: TipStatus::Grows,
-            }
-        }
-    }
-}
-
-impl IncrementArc {
-    fn points(&self) -> Vec<Vec2> {
-        arc_from(self.from, self.direction, self.curvature, self.length)
+    let (end, at_end) = (*row.path.last().unwrap_or(&from), row.direction + row.curvature * length);
+    if let Some(hit) = ahead.first(end, &arc(end, at_end, 0.0, LEFT * length)) {
+        row.length = 0.5 * (length + hit.distance);
+        row.path = arc(from, row.direction, row.curvature, row.length);
     }
 }
 
@@ -99,14 +63,16 @@ struct Hit {
 }
 
 impl Hit {
-    /// The way up to the place.
-    fn way(self, mut path: Vec<Vec2>) -> IncrementPath {
+    /// Ends the way of a tip here.
+    fn end(self, row: &mut TipIncrement) {
+        row.fate = self.fate;
         if self.fate == TipStatus::MeetsItself {
-            return IncrementPath { path: Vec::new(), length: 0.0, fate: self.fate };
+            (row.path, row.length) = (Vec::new(), 0.0);
+            return;
         }
-        path.truncate(self.segment);
-        path.push(self.at);
-        IncrementPath { path, length: self.distance, fate: self.fate }
+        row.path.truncate(self.segment);
+        row.path.push(self.at);
+        row.length = self.distance;
     }
 }
 
@@ -131,10 +97,10 @@ impl Ahead<'_> {
     fn meets(&self, s: Segment) -> impl Iterator<Item = (f64, Vec2, TipStatus)> + '_ {
         let domain = self.problem.domain();
         let near = touch(&domain.bounds);
-        let border = leaves(s, &domain.bounds).map(|(t, at)| (t, at, TipStatus::LeavesPlate));
+        let border = leaves(s, &domain.bounds).map(|(t, at)| (t, at, TipStatus::LeavesBody));
         let holes = (0u32..).zip(&domain.holes).filter_map(move |(k, hole)| {
             let fate =
-                if hole.is_outside() { TipStatus::LeavesPlate } else { TipStatus::MeetsHole(k) };
+                if hole.is_outside() { TipStatus::LeavesBody } else { TipStatus::MeetsHole(k) };
             enters(s, hole).map(|t| (t, on(s, t), fate))
         });
         let others = (0u32..).zip(self.cracks).flat_map(move |(k, crack)| {
@@ -239,14 +205,11 @@ mod tests {
 
     const TIP: TipId = TipId { crack: 0, end: End::Last };
 
-    fn from_origin(
-        problem: &Problem,
-        direction: f64,
-        curvature: f64,
-        length: f64,
-    ) -> IncrementPath {
-        let arc = IncrementArc { from: vec2(0.0, 0.0), direction, curvature, length };
-        way(problem, problem.cracks(), TIP, arc)
+    fn from_origin(problem: &Problem, direction: f64, curvature: f64, length: f64) -> TipIncrement {
+        let staying = TipIncrement::staying(TIP, TipStatus::Grows);
+        let mut row = TipIncrement { direction, curvature, ..staying };
+        go(problem, problem.cracks(), length, &mut row);
+        row
     }
 
     /// Ways end exactly on the boundary, and not shortly before it.
@@ -258,7 +221,7 @@ mod tests {
             let direction = random.between(-1.5, 1.5);
             let reach = 1.0 / direction.cos().max(direction.sin().abs());
             let long = from_origin(&problem, direction, 0.0, reach * random.between(1.01, 3.0));
-            assert_eq!(long.fate, TipStatus::LeavesPlate);
+            assert_eq!(long.fate, TipStatus::LeavesBody);
             let end = long.path[0];
             assert!(end.x.abs() == 1.0 || end.y.abs() == 1.0, "{end:?}");
             assert!((long.length - reach).abs() < 1e-14);

@@ -8,7 +8,7 @@
 //! is told.
 
 use super::criterion::kink;
-use super::decision::{SHARP, bent, grown};
+use super::decision::{SHARP, grow_cracks, with_curvatures};
 use super::step::{GrowthSeries, PreviousStep};
 use crate::solve::{Plan, SolveError};
 use ppum::crack::{Crack, TipId};
@@ -26,38 +26,38 @@ const SYMMETRIC: f64 = 1e-4;
 const ROUNDS: usize = 8;
 
 /// The solution of a step, and its cracks, whose last arcs are bent if the criterion asks for it.
-pub(super) fn settled(
+pub(super) fn solve_step(
     plan: Plan<'_>,
     before: Option<&PreviousStep>,
     series: &GrowthSeries<'_>,
     watcher: &dyn Watcher,
 ) -> Result<(Vec<Crack>, Dataset), SolveError> {
-    let cracks = plan.problem().cracks().to_vec();
+    let cracks = plan.problem.cracks().to_vec();
     let Some(PreviousStep { problem: base, growth }) = before else {
         return Ok((cracks, plan.solve(watcher)?));
     };
     if series.rule.criterion != Criterion::LocalSymmetry {
-        return Ok((cracks, warned(plan.solve(watcher)?, growth, SHARP)));
+        return Ok((cracks, with_warnings(plan.solve(watcher)?, growth, SHARP)));
     }
-    let (mut growth, mut problem) = (growth.clone(), plan.problem().clone());
+    let (mut growth, mut problem) = (growth.clone(), plan.problem.clone());
     let mut tried = plan.attempt(watcher, &|factors| is_settled(&growth, factors))?;
     let mut known = Vec::new();
     for round in 1.. {
         let factors = match tried {
             Ok(dataset) => {
-                return Ok((problem.cracks().to_vec(), warned(dataset, &growth, SYMMETRIC)));
+                return Ok((problem.cracks().to_vec(), with_warnings(dataset, &growth, SYMMETRIC)));
             }
             Err(factors) => factors,
         };
         let found: Vec<_> = angles(&growth, &factors).map(CurvatureTrial::new).collect();
         let curvatures: Vec<_> = found.iter().map(|bend| (bend.tip, bend.next(&known))).collect();
         known = found;
-        let next = bent(base, &growth, &curvatures);
-        let bent = grown(base, &next).ok();
+        let next = with_curvatures(base, &growth, &curvatures);
+        let bent = grow_cracks(base, &next).ok();
         let Some(plan) = bent.as_ref().and_then(|bent| series.plan(bent, watcher).ok()) else {
             // what it led to cannot be solved: the arcs stay as they were
             let dataset = Plan::new(&problem, series.memory, watcher)?.solve(watcher)?;
-            return Ok((problem.cracks().to_vec(), warned(dataset, &growth, SYMMETRIC)));
+            return Ok((problem.cracks().to_vec(), with_warnings(dataset, &growth, SYMMETRIC)));
         };
         // arcs that turn as much as they may do not change any more
         let is_last = round == ROUNDS || next == growth;
@@ -69,7 +69,7 @@ pub(super) fn settled(
 }
 
 /// A step with a warning for each arc behind which the path would turn by more than a limit.
-fn warned(mut dataset: Dataset, growth: &Growth, limit: f64) -> Dataset {
+fn with_warnings(mut dataset: Dataset, growth: &Growth, limit: f64) -> Dataset {
     let step = &mut dataset.steps[0];
     let left = angles(growth, &step.intensities).filter(|(_, angle)| angle.abs() > limit);
     let told = |(row, _): (&TipIncrement, f64)| unsettled(row, &step.intensities, limit);
@@ -91,13 +91,7 @@ fn unsettled(row: &TipIncrement, factors: &[TipIntensity], limit: f64) -> Option
         trimmed(at.x),
         trimmed(at.y),
     );
-    Some(Warning {
-        kind: WarningKind::Growth,
-        at: Some(at),
-        value: ratio,
-        limit: 0.5 * limit,
-        message,
-    })
+    Some(Warning::new(WarningKind::Growth, Some(at), [ratio, 0.5 * limit], message))
 }
 
 /// A curvature and the angle that was found with it.

@@ -1,6 +1,6 @@
 //! A step of a series: its plan, what is decided with it, and whether the series ends there.
 
-use super::decision::{Decision, GrowthDataError, decide};
+use super::decision::{GrowthDataError, decide};
 use crate::solve::{Plan, SolveError};
 use ppum::dataset::{Dataset, Growth, GrowthStop, Record, Step, Warning, WarningKind};
 use ppum::progress::Watcher;
@@ -20,7 +20,7 @@ pub(super) struct GrowthSeries<'a> {
 }
 
 /// A step that is complete, and whether the series ends with it because of what the next one meets.
-pub(super) fn closed(mut dataset: Dataset, obstacle: Option<&SolveError>) -> (Dataset, bool) {
+pub(super) fn end_series(mut dataset: Dataset, obstacle: Option<&SolveError>) -> (Dataset, bool) {
     let (stop, message) = match obstacle {
         None | Some(SolveError::Cancelled(_)) => return (dataset, false),
         Some(error @ SolveError::Unbalanced(_)) => (GrowthStop::PieceComesOff, error.to_string()),
@@ -34,7 +34,7 @@ pub(super) fn closed(mut dataset: Dataset, obstacle: Option<&SolveError>) -> (Da
 /// The warning that a series ends before its end.
 fn ending(stop: GrowthStop, message: &str) -> Warning {
     let message = format!("growth ends here, {}: {message}", stop.words());
-    Warning { kind: WarningKind::Growth, at: None, value: 0.0, limit: 0.0, message }
+    Warning::new(WarningKind::Growth, None, [0.0; 2], message)
 }
 
 impl GrowthSeries<'_> {
@@ -54,7 +54,7 @@ impl GrowthSeries<'_> {
     ///
     /// # Errors
     /// Nothing can be decided in the first step.
-    pub(super) fn decided(
+    pub(super) fn with_decision(
         &self,
         problem: &Problem,
         mut dataset: Dataset,
@@ -62,24 +62,24 @@ impl GrowthSeries<'_> {
     ) -> Result<(Dataset, Growth), GrowthDataError> {
         let step = &mut dataset.steps[0];
         let decision = decide(problem, self.rule, &step.intensities, before);
-        let Decision { growth, load } = match (decision, before) {
+        let (growth, load) = match (decision, before) {
             (Err(error), Some(Growth { cycles, .. })) => {
                 let stop = GrowthStop::Unsolvable;
                 step.warnings.push(ending(stop, &error.to_string()));
                 let mut growth = Growth::default();
                 (growth.cycles, growth.stop) = (*cycles, Some(stop));
-                Decision { growth, load: 1.0 }
+                (growth, 1.0)
             }
             (decision, _) => decision?,
         };
-        under(step, load);
+        scale_loads(step, load);
         step.growth = Some(growth.clone());
         Ok((dataset, growth))
     }
 }
 
 /// The step under a multiple of its loads.
-fn under(step: &mut Step, load: f64) {
+fn scale_loads(step: &mut Step, load: f64) {
     step.load *= load;
     if load == 1.0 {
         return;
@@ -88,15 +88,10 @@ fn under(step: &mut Step, load: f64) {
         field.coefficients.iter_mut().flatten().for_each(|c| *c *= load);
     }
     for tip in &mut step.intensities {
-        for k in
-            [&mut tip.k1, &mut tip.k2].into_iter().chain(&mut tip.t_stress).chain(&mut tip.error)
-        {
-            *k *= load;
-        }
+        let rings = tip.rings.iter_mut().flat_map(|ring| [&mut ring.k1, &mut ring.k2]);
+        let factors = [&mut tip.k1, &mut tip.k2].into_iter().chain(rings);
+        factors.chain(&mut tip.t_stress).chain(&mut tip.error).for_each(|k| *k *= load);
         tip.j.iter_mut().for_each(|j| *j *= load * load);
-        for ring in &mut tip.rings {
-            (ring.k1, ring.k2) = (load * ring.k1, load * ring.k2);
-        }
     }
     for reaction in &mut step.reactions {
         reaction.force.iter_mut().for_each(|force| *force *= load);

@@ -10,8 +10,8 @@ use ppum::field::LocalField;
 use ppum::jet::Jet;
 use ppum::real::{LaneJob, LaneNumber, Real};
 use ppum::vec2::Vec2;
-use ppum_solve::assembly::{FACTORS, ModeKernel};
-use ppum_solve::law::Coefficients;
+use ppum_solve::assembly::FACTORS;
+use ppum_solve::law::{Coefficients, Stress};
 use ppum_solve::quadrature::CellRule;
 
 /// Sums at a point: of each disc those of its modes, J and the energy.
@@ -63,7 +63,7 @@ impl<'b> PointBlock<'b> {
     pub(super) fn new(tip: &'b Interaction<'b>, anchor: Vec2, offsets: &'b [Vec2]) -> Self {
         let local = |&offset: &Vec2| tip.local(anchor + offset);
         let locals = tip.has_sources().then(|| offsets.iter().map(local).collect());
-        Self { tip, local_tip: tip.course.at(anchor), anchor, offsets, locals }
+        Self { tip, local_tip: tip.path.at(anchor), anchor, offsets, locals }
     }
 
     /// The integrals of a field with these jets, the two components of a point beside each other.
@@ -91,7 +91,7 @@ impl<'b> PointBlock<'b> {
     }
 
     /// G of both modes, times the weights.
-    pub(super) fn kernels(&self, weights: &[f64]) -> Vec<[ModeKernel; FACTORS]> {
+    pub(super) fn kernels(&self, weights: &[f64]) -> Vec<[Stress; FACTORS]> {
         f64::dispatch(Kernels { block: self, weights })
     }
 
@@ -272,7 +272,7 @@ struct Kernels<'b> {
 }
 
 impl LaneJob<f64> for Kernels<'_> {
-    type Output = Vec<[ModeKernel; FACTORS]>;
+    type Output = Vec<[Stress; FACTORS]>;
 
     #[inline(always)]
     fn run<R: Real<Scalar = f64>>(self, zero: R) -> Self::Output {
@@ -282,15 +282,15 @@ impl LaneJob<f64> for Kernels<'_> {
 
 impl Kernels<'_> {
     #[inline(always)]
-    fn over<R: Real<Scalar = f64>, const D: usize>(&self, zero: R) -> Vec<[ModeKernel; FACTORS]> {
-        let mut all = vec![[[Vec2::ZERO; 2]; FACTORS]; self.weights.len()];
+    fn over<R: Real<Scalar = f64>, const D: usize>(&self, zero: R) -> Vec<[Stress; FACTORS]> {
+        let mut all = vec![[Stress::default(); FACTORS]; self.weights.len()];
         for (first, kernels) in (0..).step_by(R::LANES).zip(all.chunks_mut(R::LANES)) {
             for (component, [x, y]) in self.densities::<R, D>(first, zero).into_iter().enumerate() {
                 for (mode, (x, y)) in x.into_iter().zip(y).enumerate() {
                     let (x, y) = (x.lanes(), y.lanes());
                     for (k, kernel) in kernels.iter_mut().enumerate() {
                         let weight = self.weights[first + k];
-                        kernel[mode][component] = Vec2 { x: weight * x[k], y: weight * y[k] };
+                        kernel[mode].0[component] = [weight * x[k], weight * y[k]];
                     }
                 }
             }

@@ -20,7 +20,8 @@ use ppum::jet::Jet;
 use ppum::mesh::ElementField;
 use ppum::progress::Cancelled;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_solve::quadrature::{CrackFace, EdgeRule, QuadratureError, gauss};
+use ppum_problem::geometry::around;
+use ppum_solve::quadrature::{CrackFace, EdgeRule, QuadratureErrorEstimate, gauss};
 use ppum_solve::watched::WorkPhase;
 use rayon::prelude::*;
 
@@ -150,7 +151,7 @@ impl Interaction<'_> {
             |[x, y]: [Vec2; 2]| (x - first[0]).length() + (y - first[1]).length() <= SAME * size;
         let is_linear = corners.iter().map(columns).all(is_first);
         let mut polygons = vec![corners];
-        for part in self.course.parts().filter(|_| is_linear) {
+        for part in self.path.parts().filter(|_| is_linear) {
             polygons = polygons
                 .into_iter()
                 .flat_map(|polygon| self.cut(element, polygon, part.ends))
@@ -169,17 +170,11 @@ impl Interaction<'_> {
     ) -> Vec<Vec<Vec2>> {
         let [from, to] = ends.map(|p| p - self.center);
         let offsets: Vec<Vec2> = polygon.iter().map(|p| element.point(*p).offset).collect();
-        let bounds = |points: &[Vec2]| {
-            let first = (points[0], points[0]);
-            let (low, high) =
-                points.iter().fold(first, |(low, high), p| (low.min(*p), high.max(*p)));
-            Rect::new(low, high)
-        };
         let along = (to - from).unit();
         let depths: Vec<f64> = offsets.iter().map(|p| along.cross(*p - from)).collect();
         let size = depths.iter().fold(0.0f64, |m, d| m.max(d.abs()));
         let is_beyond = |sign: f64| depths.iter().any(|depth| sign * depth > SAME * size);
-        let is_near = bounds(&offsets).overlaps(&bounds(&[from, to]));
+        let is_near = around(&offsets).overlaps(&around(&[from, to]));
         if !(is_beyond(1.0) && is_beyond(-1.0) && is_near) {
             return vec![polygon];
         }
@@ -210,7 +205,7 @@ impl Interaction<'_> {
 
     /// The rule on a part of a face.
     fn face_rule(&self, ends: [Vec2; 2], segment: u32, side: Side) -> EdgeRule {
-        let segment = SegmentId { crack: self.course.tip().crack, segment };
+        let segment = SegmentId { crack: self.path.tip().crack, segment };
         let points = &self.field.step.cracks[segment.crack as usize].points;
         let [first, last] = [0, 1].map(|k| points[segment.segment as usize + k]);
         let left = (last - first).unit().left();
@@ -226,7 +221,7 @@ impl Interaction<'_> {
             weights,
             patches: Vec::new(),
             face: Some(CrackFace { segment, side }),
-            doubt: QuadratureError::default(),
+            doubt: QuadratureErrorEstimate::default(),
         }
     }
 

@@ -1,12 +1,10 @@
 //! The interaction integral over the cells of a space.
 
 use super::auxiliary::{Auxiliary, TipMaterialBody, difference};
-use super::course::{BentPiece, CourseSegment, TipPath};
-use super::faces::{TipFaces, pressed};
+use super::face_loads::{TipFaces, pressed};
 use super::loads::TipLoads;
-use super::sums::{
-    Gradients, Integrals, MODES, Modes, RINGS, gradient, in_frame, tensor_in_frame, turned,
-};
+use super::path::{CrackPiece, PathSegment, TipPath};
+use super::sums::{Gradients, Integrals, MODES, Modes, RINGS, in_frame, tensor_in_frame, turned};
 use ppum::crack::{Side, TipId, TipPoint};
 use ppum::dataset::{Ring, TipIntensity};
 use ppum::field::{Field, LocalField};
@@ -16,8 +14,8 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::Symmetry;
 use ppum_problem::geometry::{BoxList, around};
 use ppum_solve::assembly::FACTORS;
-use ppum_solve::law::{Coefficients, EnergySlope, FaceLocation, Law};
-use ppum_solve::quadrature::{CellRule, Disc, EdgeRule, Quadrature, QuadratureError};
+use ppum_solve::law::{Coefficients, EnergySlope, FaceLocation, Law, Strain};
+use ppum_solve::quadrature::{CellRule, Disc, EdgeRule, Quadrature, QuadratureErrorEstimate};
 use ppum_solve::space::TrialSpace;
 use ppum_solve::terms::{FaceLaw, FaceTraction};
 use ppum_solve::watched::WorkPhase;
@@ -39,7 +37,7 @@ pub(super) struct TipIntegrals {
     /// See [`TipResult::energy_scale`](super::TipResult::energy_scale).
     pub(super) energy_scale: f64,
     /// Errors that quadrature leaves in the discs.
-    pub(super) doubt: QuadratureError,
+    pub(super) doubt: QuadratureErrorEstimate,
 }
 
 impl TipIntegrals {
@@ -60,7 +58,7 @@ pub(super) struct Interaction<'a> {
     /// The body of the material at the tip that the auxiliary fields are in.
     pub(super) body: TipMaterialBody,
     /// The crack in the discs.
-    pub(super) course: TipPath,
+    pub(super) path: TipPath,
     pub(super) center: Vec2,
     /// The direction of growth.
     pub(super) axis: Vec2,
@@ -92,27 +90,27 @@ impl<'a> Interaction<'a> {
         loads: &'a dyn TipLoads,
     ) -> Option<Self> {
         let crack = &field.step.cracks[tip.crack as usize];
-        let course = TipPath::new(crack, tip, radii[RINGS - 1]);
-        let center = course.center();
+        let path = TipPath::new(crack, tip, radii[RINGS - 1]);
+        let center = path.center();
         let body = TipMaterialBody::new(&field.equation.elastic()?.at(center));
         let slope = EnergySlope::new(law.clone(), center, radii[RINGS - 1]);
         let axis = crack.growth_direction(tip.end);
-        let free = law.at(center).elastic(&[Vec2::ZERO; 2]).map(|row| -row);
+        let free = law.at(center).elastic(&Strain::default()).in_plane().map(|row| -row);
         let is_finite = |g: &Gradients| g.as_flattened().iter().all(|e| e.is_finite());
         let shift = Some(tensor_in_frame(&free, axis)).filter(is_finite).unwrap_or_default();
         let half = loads.symmetry(tip);
         let is_loaded = loads.traction(tip.crack, Side::Above, center).is_some();
-        let pressed = if is_loaded { pressed(&course, loads, half) } else { Some(0.0) };
+        let pressed = if is_loaded { pressed(&path, loads, half) } else { Some(0.0) };
         let face_law = loads.face_law(tip.crack);
         let between =
-            face_law.map_or(0.0, |of| of.pressed(field, law, course.behind_tip(0.0), radii[0]));
+            face_law.map_or(0.0, |of| of.pressed(field, law, path.behind_tip(0.0), radii[0]));
         Some(Self {
             field,
             space,
             law,
             face_law,
             body,
-            course,
+            path,
             center,
             axis,
             shift,
@@ -132,7 +130,7 @@ impl<'a> Interaction<'a> {
     /// True if the faces touch at the tip or within a quarter of a cell of this size from it.
     pub(super) fn touches(&self, cell: f64) -> bool {
         let is_closed = |of: FaceLaw| {
-            let points = [0.0, 0.125, 0.25].map(|part| self.course.behind_tip(part * cell));
+            let points = [0.0, 0.125, 0.25].map(|part| self.path.behind_tip(part * cell));
             let pressed = |at| of.pressed(self.field, self.law, at, self.radii[0]);
             points.into_iter().any(|at| pressed(at) < 0.0)
         };
@@ -149,23 +147,23 @@ impl<'a> Interaction<'a> {
 
     /// The pieces of the crack that are not along the axis, or loaded, in all cells that they
     /// may meet.
-    fn bends(&self, cells: &BoxList<usize>) -> Vec<BentPiece> {
-        let in_cells = |(part, ends): (CourseSegment, [Vec2; 2])| {
+    fn crack_pieces(&self, cells: &BoxList<usize>) -> Vec<CrackPiece> {
+        let in_cells = |(part, ends): (PathSegment, [Vec2; 2])| {
             let near = cells.near(&around(&ends));
-            near.map(move |&cell| BentPiece { part, ends, cell }).collect::<Vec<_>>()
+            near.map(move |&cell| CrackPiece { part, ends, cell }).collect::<Vec<_>>()
         };
         self.pieces_of_faces().into_iter().flat_map(in_cells).collect()
     }
 
     /// The pieces of the crack that are not along the axis, or loaded.
-    pub(super) fn pieces_of_faces(&self) -> Vec<(CourseSegment, [Vec2; 2])> {
+    pub(super) fn pieces_of_faces(&self) -> Vec<(PathSegment, [Vec2; 2])> {
         let faces = self.faces();
         let mut all = Vec::new();
         let is_loaded = faces.is_some() || self.face_law.is_some();
-        for part in self.course.parts().filter(|part| !part.is_first || is_loaded) {
+        for part in self.path.parts().filter(|part| !part.is_first || is_loaded) {
             let loads = faces.as_ref().map_or_else(Vec::new, |faces| faces.breaks(&part));
             let at: Vec<f64> = loads.into_iter().chain(self.radii).collect();
-            all.extend(self.course.pieces(&part, &at).into_iter().map(|ends| (part, ends)));
+            all.extend(self.path.pieces(&part, &at).into_iter().map(|ends| (part, ends)));
         }
         all
     }
@@ -181,10 +179,10 @@ impl<'a> Interaction<'a> {
     }
 
     fn faces(&self) -> Option<TipFaces<'_>> {
-        let Self { course, body, radii, pressed, .. } = self;
+        let Self { path, body, radii, pressed, .. } = self;
         let (is_balanced, is_half) = (pressed.is_some(), self.half.is_some());
-        self.loads.traction(course.tip().crack, Side::Above, self.center)?;
-        Some(TipFaces { course, body, radii, load: self.loads, is_balanced, is_half })
+        self.loads.traction(path.tip().crack, Side::Above, self.center)?;
+        Some(TipFaces { path, body, radii, load: self.loads, is_balanced, is_half })
     }
 
     fn cell(
@@ -209,7 +207,7 @@ impl<'a> Interaction<'a> {
             order: ORDER,
             least: self.space.degree() + 4,
         };
-        quadrature.disc(&self.space.partition().cell[c], &self.space.covering_patches[c], disc)
+        quadrature.disc(self.space.cell(c), disc)
     }
 
     /// The number of halves, alike in the integrals of symmetric and of antisymmetric fields, that
@@ -247,13 +245,14 @@ impl<'a> Interaction<'a> {
         if !self.law.has_initial_stress() {
             return in_frame(u, axis);
         }
-        tensor_in_frame(&self.law.on(world, face).elastic(&gradient(u)), axis)
+        let law = self.law.on(world, face);
+        tensor_in_frame(&law.elastic(&law.strain(u)).in_plane(), axis)
     }
 
     /// E_j,j of the flow of energy: W_,1 at a fixed ∇u, and what the body force adds to it, b_i
     /// u_i,1.
     pub(super) fn energy_source(&self, world: Vec2, force: [f64; 2], u: &[Jet<f64>]) -> f64 {
-        let slope = self.slope.as_ref().map_or(0.0, |s| s.at(world, self.axis, &gradient(u)));
+        let slope = self.slope.as_ref().map_or(0.0, |s| s.at(world, self.axis, u));
         let shifted = self.gradient(u, self.axis);
         slope + force[0] * shifted[0][0] + force[1] * shifted[1][0]
     }
@@ -298,7 +297,7 @@ impl<'a> Interaction<'a> {
 }
 
 /// Divisions of cells with formulas that vary fast, for all discs together. A cell in a layer takes
-/// some hundred; a [`QuadratureError`] reports the errors that more of them would remove.
+/// some hundred; a [`QuadratureErrorEstimate`] reports the errors that more of them would remove.
 const MOST_DIVISIONS: usize = 50_000;
 
 /// The limit in operations of the formulas: a division evaluates them at this many points.
@@ -311,7 +310,7 @@ const BATCH: usize = 1 << 14;
 /// A region to integrate over at a tip, which its number gives.
 enum TipRegion {
     Cell(usize, usize),
-    Bend(usize, BentPiece),
+    Crack(usize, CrackPiece),
     /// All elements of a mesh.
     Mesh(usize),
 }
@@ -331,7 +330,9 @@ pub(super) fn integrate_tips<'a>(
             return vec![TipRegion::Mesh(k)];
         }
         let of_cells = tip.cells(&near).map(|c| TipRegion::Cell(k, c));
-        of_cells.chain(tip.bends(&near).into_iter().map(|bend| TipRegion::Bend(k, bend))).collect()
+        of_cells
+            .chain(tip.crack_pieces(&near).into_iter().map(|bend| TipRegion::Crack(k, bend)))
+            .collect()
     };
     let work: Vec<Vec<TipRegion>> = tips.par_iter().enumerate().map(of_tip).collect();
     let count = |is_counted: fn(&TipRegion) -> bool| {
@@ -354,7 +355,7 @@ pub(super) fn integrate_tips<'a>(
             stage.advance(1)?;
             Ok::<_, Cancelled>(match work {
                 TipRegion::Cell(k, c) => (*k, tips[*k].cell(&quadrature, seen, *c)),
-                TipRegion::Bend(k, bend) => (*k, tips[*k].bend(&finer, bend)),
+                TipRegion::Crack(k, bend) => (*k, tips[*k].on_crack(&finer, bend)),
                 TipRegion::Mesh(k) => (*k, tips[*k].mesh(&stage)?),
             })
         };

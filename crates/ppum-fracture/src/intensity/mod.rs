@@ -63,20 +63,20 @@
 //! that there is no J where the material jumps in the disc.
 
 mod auxiliary;
-mod bent;
 mod block;
-mod border;
+mod boundary;
 mod cells;
-mod course;
 mod elements;
-mod faces;
+mod face_integrals;
+mod face_loads;
 mod integral;
 mod loads;
+mod path;
 mod resolve;
 mod sensitivity;
 mod sums;
 
-use border::border_distance;
+use boundary::boundary_distance;
 pub(crate) use cells::with_cells;
 use integral::{Interaction, integrate_tips};
 pub use loads::{LoadCase, TipLoads};
@@ -89,7 +89,7 @@ use ppum_problem::geometry::{AMPLE_CLEARANCE, interface_distance};
 pub use ppum_problem::geometry::{TipClearance, TipObstacle};
 use ppum_problem::{Problem, Symmetry};
 use ppum_solve::law::{Law, Temperature};
-pub use ppum_solve::quadrature::QuadratureError;
+pub use ppum_solve::quadrature::QuadratureErrorEstimate;
 use ppum_solve::space::TrialSpace;
 pub use ppum_solve::terms::FaceLaw;
 use ppum_solve::watched::WorkPhase;
@@ -131,7 +131,7 @@ pub struct TipResult {
     /// without factors.
     pub energy_scale: f64,
     /// Errors that quadrature leaves in the discs.
-    pub doubt: QuadratureError,
+    pub doubt: QuadratureErrorEstimate,
 }
 
 impl TipResult {
@@ -260,7 +260,7 @@ fn clearance_in(dataset: &Dataset, field: &Field<'_>, tip: TipId, cell: f64) -> 
         return clear;
     }
     let at = field.step.cracks[tip.crack as usize].end_point(tip.end);
-    let radius = border_distance(field, at, clear.radius);
+    let radius = boundary_distance(field, at, clear.radius);
     if radius < clear.radius { TipClearance { radius, end: TipObstacle::Border } } else { clear }
 }
 
@@ -355,7 +355,7 @@ impl TipResult {
             factors: None,
             touches: false,
             energy_scale: 0.0,
-            doubt: QuadratureError::default(),
+            doubt: QuadratureErrorEstimate::default(),
         }
     }
 }

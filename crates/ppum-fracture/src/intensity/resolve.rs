@@ -2,7 +2,7 @@
 
 use super::sums::Integrals;
 use ppum::vec2::Vec2;
-use ppum_solve::quadrature::QuadratureError;
+use ppum_solve::quadrature::QuadratureErrorEstimate;
 
 /// Change of the integrals by a division that is nothing, in parts of their size.
 const ACCURACY: f64 = 1e-11;
@@ -51,7 +51,7 @@ impl<P> Integration<'_, P> {
         }
         for (_, whole, change) in open {
             sum = sum.plus(whole);
-            sum.doubt.add(&QuadratureError::of_functions(change, self.at));
+            sum.doubt.add(&QuadratureErrorEstimate::of_functions(change, self.at));
         }
         sum
     }

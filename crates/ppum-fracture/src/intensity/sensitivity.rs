@@ -14,7 +14,8 @@ use super::block::PointBlock;
 use super::integral::Interaction;
 use ppum::vec2::Vec2;
 use ppum_problem::geometry::BoxList;
-use ppum_solve::assembly::{FACTORS, LinearFunctional, ModeKernel};
+use ppum_solve::assembly::{FACTORS, LinearFunctional};
+use ppum_solve::law::Stress;
 use ppum_solve::quadrature::CellRule;
 
 /// The factors of one tip as functionals.
@@ -39,7 +40,7 @@ impl LinearFunctional for Sensitivity<'_> {
         self.0.cells(cells).collect()
     }
 
-    fn kernels(&self, rule: &CellRule) -> Vec<[ModeKernel; FACTORS]> {
+    fn kernels(&self, rule: &CellRule) -> Vec<[Stress; FACTORS]> {
         PointBlock::new(&self.0, rule.anchor, &rule.offsets).kernels(&rule.weights)
     }
 }

@@ -4,7 +4,7 @@ use ppum::crack::TipPoint;
 use ppum::jet::Jet;
 use ppum::real::Real;
 use ppum::vec2::{Vec2, vec2};
-use ppum_solve::quadrature::QuadratureError;
+use ppum_solve::quadrature::QuadratureErrorEstimate;
 
 /// Exponent of the cut-off q = (1 − r²/R²)^m, which [`cut_off`] multiplies out. It is smooth enough
 /// for plain Gauss rules across r = R: with m = 4 their error is seen at 1e-7, with more at 1e-10.
@@ -28,7 +28,7 @@ pub(super) struct Integrals {
     /// Twice the strain energy in the largest disc.
     pub(super) energy: f64,
     /// Errors that the rules leave.
-    pub(super) doubt: QuadratureError,
+    pub(super) doubt: QuadratureErrorEstimate,
 }
 
 /// The gradient of each component, in the tip's frame.
@@ -55,7 +55,7 @@ impl Integrals {
             modes,
             j: self.j.abs(),
             energy: self.energy.abs(),
-            doubt: QuadratureError::default(),
+            doubt: QuadratureErrorEstimate::default(),
         }
     }
 
@@ -105,12 +105,7 @@ pub(super) fn turned(axis: Vec2, vector: [f64; 2]) -> Vec2 {
 
 /// The displacement gradient in a frame with the given x axis.
 pub(super) fn in_frame(u: &[Jet<f64>], axis: Vec2) -> Gradients {
-    tensor_in_frame(&gradient(u), axis)
-}
-
-/// The displacement gradient of jets.
-pub(super) fn gradient(u: &[Jet<f64>]) -> [Vec2; 2] {
-    [0, 1].map(|i| vec2(u[i].x, u[i].y))
+    tensor_in_frame(&[0, 1].map(|i| vec2(u[i].x, u[i].y)), axis)
 }
 
 /// A gradient or strain in a frame with the given x axis.

@@ -3,7 +3,6 @@
 use super::SolveError;
 use super::clock::Clock;
 use super::diagnosed::{Diagnosed, GoalError};
-use super::discretised::Discretised;
 use super::plan::{Plan, most_cells};
 use super::solved::Solved;
 use ppum::dataset::Dataset;
@@ -13,35 +12,30 @@ use ppum_problem::{Adaptivity, StepsKept};
 use ppum_solve::adapt::{Adviser, mark};
 use ppum_solve::report::StopReason;
 use ppum_solve::space::{CellChange, CoverMesh};
-use ppum_solve::watched::{CycleWatcher, WorkPhase};
-
-/// The next step, or why there is none.
-enum NextCycle<'p> {
-    Plan(Box<Plan<'p>>),
-    Stop(StopReason),
-}
+use ppum_solve::watched::{StepWatcher, WorkPhase};
 
 /// Solves step by step: solve, estimate, mark, improve, from a plan of the first step.
 ///
 /// # Errors
 /// See [`SolveError`].
-pub(super) fn adapted(
+pub(super) fn solve_adaptively(
     first: Plan<'_>,
     set: &Adaptivity,
     watcher: &dyn Watcher,
 ) -> Result<Dataset, SolveError> {
-    let (mut plan, mut kept) = (first, Vec::new());
-    for step in 0.. {
-        let here = CycleWatcher { watcher, step };
+    let (mut plan, mut kept, mut step) = (first, Vec::new(), 0);
+    loop {
+        let here = StepWatcher { watcher, step };
         let diagnosed = Diagnosed::new(Solved::new(plan, &here)?, &here)?;
-        match diagnosed.next(set, step, &CycleWatcher { watcher, step: step + 1 })? {
-            NextCycle::Plan(next) => {
+        step += 1;
+        match diagnosed.next(set, step, &StepWatcher { watcher, step })? {
+            Ok(next) => {
                 if set.keep == StepsKept::All {
                     kept.append(&mut diagnosed.dataset(None, &here)?.steps);
                 }
-                plan = *next;
+                plan = next;
             }
-            NextCycle::Stop(stop) => {
+            Err(stop) => {
                 let mut dataset = diagnosed.dataset(Some(stop), &here)?;
                 kept.append(&mut dataset.steps);
                 dataset.steps = kept;
@@ -49,18 +43,17 @@ pub(super) fn adapted(
             }
         }
     }
-    unreachable!("steps have no end but that of the loop")
 }
 
 impl<'p> Diagnosed<'p> {
-    /// The plan of the step after this one, or what ends the adaptation.
+    /// The plan of the step with this number, or what ends the adaptation.
     fn next(
         &self,
         set: &Adaptivity,
-        step: usize,
+        number: usize,
         watcher: &dyn Watcher,
-    ) -> Result<NextCycle<'p>, SolveError> {
-        let error = self.report.estimated_error.unwrap_or(0.0);
+    ) -> Result<Result<Plan<'p>, StopReason>, SolveError> {
+        let error = self.solved.report.estimated_error.unwrap_or(0.0);
         let GoalError { of_cells, of_segments, cells: parts } = self.goal();
         // cells take nothing of what segments err by
         let is_out_of_reach = set.accuracy.is_some_and(|most| of_segments >= most);
@@ -75,34 +68,34 @@ impl<'p> Diagnosed<'p> {
         if error == 0.0 || is_enough {
             let is_reached = error == 0.0 || !is_out_of_reach;
             let stop = if is_reached { StopReason::Tolerance } else { StopReason::Segments };
-            return Ok(NextCycle::Stop(stop));
+            return Ok(Err(stop));
         }
-        if step >= set.steps {
-            return Ok(NextCycle::Stop(StopReason::Steps));
+        if number > set.steps {
+            return Ok(Err(StopReason::Steps));
         }
         let clock = Clock::new();
         let stage = WorkPhase::uncounted(watcher, Phase::Cover)?;
         let parts = if set.accuracy.is_some() { &parts } else { &self.squares };
         let Some(mesh) = self.improved(set, parts)? else {
-            return Ok(NextCycle::Stop(StopReason::Limits));
+            return Ok(Err(StopReason::Limits));
         };
-        let Plan { discretised: Discretised { problem, .. }, memory, .. } = self.plan;
+        let Plan { problem, memory, .. } = self.solved.plan;
         if mesh.n_cells() > most_cells(problem, memory) {
-            return Ok(NextCycle::Stop(StopReason::Memory));
+            return Ok(Err(StopReason::Memory));
         }
         match Plan::on(problem, mesh, memory, (clock, &stage)) {
-            Err(SolveError::TooLarge { .. }) => Ok(NextCycle::Stop(StopReason::Memory)),
+            Err(SolveError::TooLarge { .. }) => Ok(Err(StopReason::Memory)),
             Ok(plan) if plan.estimate.unknowns > set.max_unknowns as f64 => {
-                Ok(NextCycle::Stop(StopReason::Unknowns))
+                Ok(Err(StopReason::Unknowns))
             }
-            other => Ok(NextCycle::Plan(Box::new(other?))),
+            other => other.map(Ok),
         }
     }
 
     /// The mesh of the next step, given the parts that the cells have in the error; none if nothing
     /// can be improved where it is needed.
     fn improved(&self, set: &Adaptivity, parts: &[f64]) -> Result<Option<CoverMesh>, SolveError> {
-        let Discretised { problem, mesh, dataset, space, .. } = &self.plan.discretised;
+        let Plan { problem, mesh, dataset, space, .. } = &self.solved.plan;
         let field = Field::new(dataset, 0)?;
         let adviser = Adviser::new(set.kind, problem, &field, space);
         let mut changes = vec![CellChange::Keep; parts.len()];

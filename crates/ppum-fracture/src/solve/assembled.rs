@@ -1,25 +1,26 @@
 //! The system of a discretised problem, in the stable basis.
 
 use super::SolveError;
-use super::clock::Clock;
-use super::discretised::Discretised;
+use super::plan::Plan;
 use crate::intensity::{LoadCase, Sensitivity, TipDisc, sensitivities};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
+use ppum_problem::Problem;
 use ppum_solve::assembly::{
-    Assembly, Duals, FaceContacts, FreeModes, Functionals, LinearFunctional, NullSpaceConstraint,
-    System, slivers, values_at,
+    Assembly, DualLoads, FaceContacts, FreeModes, Functionals, LinearFunctional,
+    NullSpaceConstraint, System, slivers, values_at,
 };
 use ppum_solve::basis::StableBasis;
-use ppum_solve::equilibrium::Plate;
+use ppum_solve::equilibrium::BodyEquilibrium;
 use ppum_solve::law::Law;
 use ppum_solve::quadrature::CrackFace;
+use ppum_solve::space::TrialSpace;
 use ppum_solve::terms::known_fields;
 use ppum_solve::watched::WorkPhase;
 
 /// The system in the stable basis, without the penalty of the constraint.
 pub(super) struct Assembled {
-    pub(super) plate: Plate,
+    pub(super) plate: BodyEquilibrium,
     pub(super) basis: StableBasis,
     pub(super) system: System,
     pub(super) constraint: NullSpaceConstraint,
@@ -35,24 +36,23 @@ impl Assembled {
     /// # Errors
     /// Loads without restraint, data and functions that are not finite; cancelled.
     pub(super) fn new(
-        discretised: &Discretised<'_>,
+        plan: &mut Plan<'_>,
         law: &Law<'_>,
-        clock: &mut Clock,
         watcher: &dyn Watcher,
     ) -> Result<Self, SolveError> {
-        let Discretised { problem, dataset, space, .. } = discretised;
-        let (given, plate) = discretised.loaded(watcher)?;
+        let (given, plate) = plan.loaded(watcher)?;
+        let Plan { problem, dataset, space, clock, .. } = plan;
         let field = Field::new(dataset, 0)?;
         // loads change no sensitivity
         let loads = LoadCase { problem: Some(problem), factor: 0.0 };
         let tips = sensitivities(dataset, &field, space, law, &loads);
-        let basis = stable_basis(discretised, law, watcher)?;
+        let basis = stable_basis(problem, space, law, watcher)?;
         clock.lap(Phase::Basis);
         let assembly = Assembly { problem, space, basis: &basis, law };
         let stage = WorkPhase::new(watcher, Phase::Assembly, assembly.n_cells())?;
         let free = FreeModes::new(&plate);
         let duals =
-            Duals::new(tips.iter().map(|tip| tip as &dyn LinearFunctional).collect(), space);
+            DualLoads::new(tips.iter().map(|tip| tip as &dyn LinearFunctional).collect(), space);
         let functionals = Functionals { free: &free, duals: &duals };
         let system = System::new(assembly, &given, functionals, &stage);
         let mut system = system.map_err(SolveError::of_data)?;
@@ -82,7 +82,8 @@ fn add_known(assembly: Assembly<'_>, system: &mut System) {
 
 /// The stable basis, damped where the boundary cuts slivers.
 fn stable_basis(
-    Discretised { problem, space, .. }: &Discretised<'_>,
+    problem: &Problem,
+    space: &TrialSpace<'_>,
     law: &Law<'_>,
     watcher: &dyn Watcher,
 ) -> Result<StableBasis, SolveError> {
@@ -90,6 +91,6 @@ fn stable_basis(
     let mut basis = StableBasis::new(space, &stage).map_err(SolveError::of_basis)?;
     let assembly = Assembly { problem, space, basis: &basis, law };
     let slivers = slivers(assembly, &stage).map_err(SolveError::of_data)?;
-    basis.damp(space, &slivers).map_err(SolveError::of_basis)?;
+    basis.rescale(space, &slivers).map_err(SolveError::of_basis)?;
     Ok(basis)
 }

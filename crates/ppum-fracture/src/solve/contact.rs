@@ -30,6 +30,7 @@ use faer::{Col, Mat};
 use ppum_linear::{BlockMatrix, Cholesky, LinearError, LinearSolver as _};
 use ppum_solve::assembly::{FaceContacts, FaceState, NullSpaceConstraint, RowFactors, System};
 use ppum_solve::watched::WorkPhase;
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 /// Most fields u₀, and steps from each, before the states must have settled.
@@ -60,7 +61,7 @@ const FLAT: f64 = 1e-8;
 ///
 /// # Errors
 /// A system that cannot be solved, states that do not settle; cancelled.
-pub(super) fn close(
+pub(super) fn solve_contact(
     contacts: &FaceContacts,
     constraint: &NullSpaceConstraint,
     System { matrix, load, .. }: &mut System,
@@ -69,7 +70,7 @@ pub(super) fn close(
 ) -> Result<usize, SolveError> {
     let factor = |matrix: BlockMatrix| {
         stage.advance(0)?;
-        Cholesky::owned(matrix).map_err(located)
+        Cholesky::of(Cow::Owned(matrix)).map_err(located)
     };
     let spring = constraint.spring(matrix);
     if spring.is_empty() {
@@ -99,12 +100,11 @@ pub(super) fn close(
             (known, _) = reference(start.states())?;
             factors += 1;
         }
-        let way = known.way(&start).map_err(located)?;
-        let mut descent = Descent::new(&faces, &start, &known.states, &way);
+        let mut descent = Descent::new(&faces, &start, &mut known).map_err(located)?;
         let fall;
-        (fall, is_far) = descent.run(&mut known).map_err(located)?;
+        (fall, is_far) = descent.run().map_err(located)?;
         let is_short = fall.is_some_and(|fall| fall.abs() <= SMALL * start.energy);
-        descent.add_to(&mut field, &known, &way).map_err(located)?;
+        descent.add_to(&mut field).map_err(located)?;
         if is_far {
             continue;
         }
@@ -191,11 +191,6 @@ impl Reference {
         Ok(self.solver.solve_roughly(&[load])?.remove(0))
     }
 
-    /// −K_R⁻¹ g₀
-    fn way(&self, start: &FaceField<'_>) -> Result<Vec<f64>, LinearError> {
-        self.solve(start.gradient.iter().map(|g| -g).collect())
-    }
-
     /// Finds the columns of rows; false if a new factor takes less time.
     fn extend(&mut self, rows: &[usize], faces: &ContactSystem<'_>) -> Result<bool, LinearError> {
         let is_new = |row: &usize| !self.columns.contains_key(row);
@@ -217,9 +212,9 @@ impl Reference {
 struct Descent<'a> {
     faces: &'a ContactSystem<'a>,
     start: &'a FaceField<'a>,
-    /// True for rows that are tied in K_R.
-    is_tied: Vec<bool>,
-    /// Changes of P_d by −K_R⁻¹ g₀, and the slope of the functional along it at u₀.
+    known: &'a mut Reference,
+    /// −K_R⁻¹ g₀, the changes of P_d by it, and the slope of the functional along it at u₀.
+    direction: Vec<f64>,
     way: Vec<f64>,
     fall: f64,
     /// τ
@@ -240,31 +235,25 @@ impl<'a> Descent<'a> {
     fn new(
         faces: &'a ContactSystem<'a>,
         start: &'a FaceField<'a>,
-        states: &[FaceState],
-        way: &[f64],
-    ) -> Self {
-        Self {
-            faces,
-            start,
-            is_tied: states.iter().map(|state| state.is_tied()).collect(),
-            fall: dot(&start.gradient, way),
-            way: faces.contacts.changes(&faces.matrix, way),
-            part: 0.0,
-            forces: vec![0.0; faces.rows.len()],
-            projections: start.projections.clone(),
-        }
+        known: &'a mut Reference,
+    ) -> Result<Self, LinearError> {
+        let direction = known.solve(start.gradient.iter().map(|g| -g).collect())?;
+        let way = faces.contacts.changes(&faces.matrix, &direction);
+        let fall = dot(&start.gradient, &direction);
+        let (forces, projections) = (vec![0.0; faces.rows.len()], start.projections.clone());
+        Ok(Self { faces, start, known, direction, way, fall, part: 0.0, forces, projections })
     }
 
     /// Goes on until the states have settled, or until a new factor takes less time: true then.
     /// With it the slope of the functional along the first step.
-    fn run(&mut self, known: &mut Reference) -> Result<(Option<f64>, bool), LinearError> {
+    fn run(&mut self) -> Result<(Option<f64>, bool), LinearError> {
         let mut first = None;
         for _ in 0..MOST_STEPS {
             let rows = self.rows();
-            if !known.extend(&rows, self.faces)? {
+            if !self.known.extend(&rows, self.faces)? {
                 return Ok((first, true));
             }
-            let step = self.step(&rows, known);
+            let step = self.step(&rows);
             let fall = self.slope(&step, 0.0);
             first = first.or(Some(fall));
             if fall.abs() <= EXACT * self.start.energy {
@@ -288,21 +277,22 @@ impl<'a> Descent<'a> {
     /// ρ of a row.
     fn excess(&self, k: usize, projection: f64) -> f64 {
         let ([low, high], before) = (self.start.intervals[k], self.start.projections[k]);
-        let tied = if self.is_tied[k] { projection - before } else { 0.0 };
+        let tied = if self.known.states[k].is_tied() { projection - before } else { 0.0 };
         let found = projection.clamp(low, high) - before.clamp(low, high);
         self.faces.rows[k].force * (tied - found)
     }
 
     /// The derivative of ρ by P_d.
     fn gain(&self, k: usize) -> f64 {
-        let is_tied = FaceState::new(self.projections[k], self.start.intervals[k]).is_tied();
-        self.faces.rows[k].force * (f64::from(self.is_tied[k]) - f64::from(is_tied))
+        let state = FaceState::new(self.projections[k], self.start.intervals[k]);
+        let [before, now] = [self.known.states[k], state].map(|state| f64::from(state.is_tied()));
+        self.faces.rows[k].force * (before - now)
     }
 
     /// Newton's step: λ + δλ = ρ + ρ′ δP.
-    fn step(&self, rows: &[usize], known: &Reference) -> DescentStep {
+    fn step(&self, rows: &[usize]) -> DescentStep {
         let rest = 1.0 - self.part;
-        let columns: Vec<&[f64]> = rows.iter().map(|row| &known.columns[row][..]).collect();
+        let columns: Vec<&[f64]> = rows.iter().map(|row| &self.known.columns[row][..]).collect();
         let matrix = Mat::from_fn(rows.len(), rows.len(), |a, b| {
             f64::from(a == b) - self.gain(rows[a]) * columns[b][rows[a]]
         });
@@ -351,11 +341,10 @@ impl<'a> Descent<'a> {
     }
 
     /// Adds the way that was gone to the field u₀.
-    fn add_to(&self, field: &mut [f64], known: &Reference, way: &[f64]) -> Result<(), LinearError> {
-        let by_forces = known.solve(self.faces.load(&self.forces))?;
-        for (u, (way, other)) in field.iter_mut().zip(way.iter().zip(&by_forces)) {
-            *u += self.part * way + other;
-        }
+    fn add_to(&self, field: &mut [f64]) -> Result<(), LinearError> {
+        let by_forces = self.known.solve(self.faces.load(&self.forces))?;
+        let ways = self.direction.iter().zip(&by_forces);
+        field.iter_mut().zip(ways).for_each(|(u, (way, other))| *u += self.part * way + other);
         Ok(())
     }
 }

@@ -1,19 +1,17 @@
 //! A solution with its estimated error, and what is made of it.
 
 use super::SolveError;
-use super::discretised::Discretised;
-use super::goal::Goal;
+use super::goal::FactorErrors;
 use super::plan::Plan;
 use super::solved::Solved;
-use crate::diagnostics::{DiagnosedSolution, error_of_segments};
-use crate::intensity::TipResult;
+use crate::diagnostics::{DiagnosedField, error_of_segments};
 use ppum::dataset::{Attribute, Dataset, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
 use ppum_solve::adapt::{ErrorEstimate, LocalFields, estimated};
-use ppum_solve::law::{Law, Temperature};
+use ppum_solve::law::Law;
 use ppum_solve::norms::energy;
-use ppum_solve::report::{SolverReport, StopReason, UnresolvedIntegrand};
+use ppum_solve::report::StopReason;
 use ppum_solve::space::TrialSpace;
 use ppum_solve::terms::known_fields;
 use ppum_solve::watched::WorkPhase;
@@ -28,16 +26,10 @@ const ROUNDING: f64 = 1e-20;
 
 /// A solution whose errors are estimated.
 pub(super) struct Diagnosed<'p> {
-    pub(super) plan: Plan<'p>,
-    temperature: Option<Temperature>,
-    pub(super) report: SolverReport,
-    /// Integrands that quadrature did not resolve.
-    unresolved: Vec<UnresolvedIntegrand>,
+    pub(super) solved: Solved<'p>,
     /// The squares of the estimated error, cell by cell.
     pub(super) squares: Vec<f64>,
-    /// The results of the tips.
-    tips: Vec<TipResult>,
-    goal: Goal,
+    goal: FactorErrors,
 }
 
 /// The largest estimated error of the factors of a tip, as a part of their size; without tips that
@@ -56,20 +48,18 @@ impl<'p> Diagnosed<'p> {
     ///
     /// # Errors
     /// Data that are not finite; cancelled.
-    pub(super) fn new(solved: Solved<'p>, watcher: &dyn Watcher) -> Result<Self, SolveError> {
-        let Solved { mut plan, temperature, mut report, local, unresolved, sole_support, .. } =
-            solved;
-        let (contact, mut tips) = (solved.contact, solved.tips);
-        let Plan { discretised: Discretised { problem, dataset, space, .. }, clock, .. } =
-            &mut plan;
+    pub(super) fn new(mut solved: Solved<'p>, watcher: &dyn Watcher) -> Result<Self, SolveError> {
+        let Solved { plan, temperature, report, local, sole_support, discs, contact, tips } =
+            &mut solved;
+        let Plan { problem, dataset, space, clock, .. } = plan;
         let stage = WorkPhase::new(watcher, Phase::Estimation, 2 * space.partition().len())?;
         let field = Field::new(dataset, 0)?;
         let law = &Law::new(&problem.equation).heated(temperature.as_ref());
-        let fields = LocalFields { space, law, coefficients: &local, sole_support: &sole_support };
+        let coefficients = std::mem::take(local);
+        let fields = LocalFields { space, law, coefficients: &coefficients, sole_support };
         let found = estimated(problem, &field, fields, &stage).map_err(SolveError::of_data)?;
         let cells = &space.partition().cell;
-        let mut goal = Goal::new(&solved.dual_tips, cells, &found.products, &contact);
-        goal.add_own(&tips);
+        let goal = FactorErrors::new(discs, cells, &found.products, contact, tips);
         let factors = tips.iter_mut().filter_map(|outcome| outcome.factors.as_mut());
         for (factors, error) in factors.zip(&goal.errors) {
             let of_segments = of_segments(dataset, factors);
@@ -92,33 +82,32 @@ impl<'p> Diagnosed<'p> {
             report.estimated_error = Some((squares.iter().sum::<f64>() / (2.0 * energy)).sqrt());
             dataset.steps[0].attributes.push(indicator(&squares, energy));
         }
-        let mut diagnosed = Self { plan, temperature, report, unresolved, squares, tips, goal };
+        let mut diagnosed = Self { solved, squares, goal };
         if !diagnosed.goal.errors.is_empty() {
             let GoalError { of_cells, of_segments, .. } = diagnosed.goal();
-            diagnosed.report.factor_error = Some(of_cells + of_segments);
+            diagnosed.solved.report.factor_error = Some(of_cells + of_segments);
         }
         Ok(diagnosed)
     }
 
     /// The estimated error that an accuracy bounds.
     pub(super) fn goal(&self) -> GoalError {
-        let with_factors =
-            self.tips.iter().filter_map(|o| Some((o.energy_scale, o.factors.as_ref()?)));
-        let (strengths, sizes): (Vec<_>, Vec<_>) =
-            with_factors.map(|(energy_scale, factors)| (energy_scale, size(factors))).unzip();
-        let largest = strengths.into_iter().fold(0.0, f64::max);
+        let Solved { plan, report, tips, .. } = &self.solved;
+        let factors = || tips.iter().filter_map(|outcome| outcome.factors.as_ref());
+        let scales = tips.iter().filter(|outcome| outcome.factors.is_some());
+        let largest = scales.fold(0.0_f64, |most, outcome| most.max(outcome.energy_scale));
         if largest == 0.0 {
-            let of_cells = self.report.estimated_error.unwrap_or(0.0).powi(2);
+            let of_cells = report.estimated_error.unwrap_or(0.0).powi(2);
             return GoalError { of_cells, of_segments: 0.0, cells: self.squares.clone() };
         }
+        let sizes: Vec<f64> = factors().map(size).collect();
         let relative = |tip: usize, error: f64| error / sizes[tip].max(NOTHING * largest);
         let errors = self.goal.errors.iter().enumerate().map(|(tip, error)| relative(tip, *error));
         let cells = self.goal.cells.iter().map(|(tip, part)| relative(*tip, *part));
-        let dataset = &self.plan.discretised.dataset;
-        let factors = self.tips.iter().filter_map(|outcome| outcome.factors.as_ref());
+        let of_segments = factors().map(|found| of_segments(&plan.dataset, found));
         GoalError {
             of_cells: errors.fold(0.0, f64::max),
-            of_segments: factors.map(|found| of_segments(dataset, found)).fold(0.0, f64::max),
+            of_segments: of_segments.fold(0.0, f64::max),
             cells: cells.collect(),
         }
     }
@@ -130,23 +119,13 @@ impl<'p> Diagnosed<'p> {
         stop: Option<StopReason>,
         watcher: &dyn Watcher,
     ) -> Result<Dataset, SolveError> {
-        let Self { plan, temperature, mut report, unresolved, tips, .. } = self;
-        let Plan { discretised, mut clock, .. } = plan;
-        let Discretised { problem, mut dataset, ref space, crossed_twice, .. } = discretised;
-        let field = Field::new(&dataset, 0)?;
+        let Solved { plan, temperature, mut report, tips, .. } = self.solved;
+        let Plan { problem, mut dataset, ref space, crossed_twice, mut clock, .. } = plan;
+        let (field, temperature) = (&Field::new(&dataset, 0)?, temperature.as_ref());
         report.crossed_twice = Some(crossed_twice as u64);
         report.stop = stop;
-        let case = DiagnosedSolution {
-            dataset: &dataset,
-            step: 0,
-            field: &field,
-            space,
-            law: &Law::new(&problem.equation).heated(temperature.as_ref()),
-            temperature: temperature.as_ref(),
-            problem: Some(problem),
-            report: &report,
-            unresolved: &unresolved,
-        };
+        let case =
+            DiagnosedField { field, space, temperature, problem: Some(problem), report: &report };
         let diagnosis = case.diagnose(&tips, watcher)?;
         clock.lap(Phase::Estimation);
         report.rounding = Some(diagnosis.rounding);

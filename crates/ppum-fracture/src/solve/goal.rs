@@ -54,7 +54,7 @@ const KNOWN: f64 = 0.5;
 
 /// The estimated errors of factors.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Goal {
+pub(super) struct FactorErrors {
     /// The errors of (K_I, K_II) of each tip with factors, in their order.
     pub(super) errors: Vec<f64>,
     /// The contribution of each cell to the error of the nearest tip, and the number of that tip.
@@ -84,15 +84,16 @@ impl ErrorSum {
     }
 }
 
-impl Goal {
+impl FactorErrors {
     /// Computes the contributions of cells to the errors of the factors of tips, from the products
-    /// of the disagreements of the solution and the dual solutions, and where faces touch; none
-    /// without tips.
+    /// of the disagreements of the solution and the dual solutions, where faces touch, and their
+    /// own results; none without tips.
     pub(super) fn new(
         tips: &[TipDisc],
         cells: &[Rect],
         products: &[Mat<f64>],
         touching: &[CellErrors],
+        results: &[TipResult],
     ) -> Self {
         if tips.is_empty() {
             return Self::default();
@@ -107,7 +108,8 @@ impl Goal {
             let parts: [f64; FACTORS] = std::array::from_fn(|mode| products[(0, mode + 1)]);
             let distance = |disc: &TipDisc| (disc.tip - cell.center()).length();
             let distances: Vec<f64> = tips.iter().map(distance).collect();
-            let nearest = nearest(&distances);
+            let by_distance = |a: &usize, b: &usize| distances[*a].total_cmp(&distances[*b]);
+            let nearest = (0..tips.len()).min_by(by_distance).unwrap_or(0);
             for ((sums, disc), distance) in sums.iter_mut().zip(tips).zip(&distances) {
                 let nearer = (distances[nearest] / distance).min(1.0);
                 let known = (distance / disc.radius - KNOWN).clamp(0.0, 1.0);
@@ -119,20 +121,13 @@ impl Goal {
             let [one, two] = [0, 1].map(|mode| parts[mode].abs() + contact[mode]);
             of_cells.push((nearest, one.hypot(two)));
         }
-        let errors = sums.into_iter().map(|[one, two]| one.error().hypot(two.error())).collect();
-        Self { errors, cells: of_cells }
-    }
-
-    /// Adds what the factors themselves tell of their errors.
-    pub(super) fn add_own(&mut self, tips: &[TipResult]) {
-        let factors = tips.iter().filter_map(|tip| Some((tip, tip.factors.as_ref()?)));
-        for (error, (tip, factors)) in self.errors.iter_mut().zip(factors) {
+        // the factors themselves tell of their errors, too
+        let own = results.iter().filter_map(|tip| Some((tip, tip.factors.as_ref()?)));
+        let errors = sums.into_iter().zip(own).map(|([one, two], (tip, factors))| {
             let of_tip = if tip.touches { factors.k1.abs() } else { 0.0 };
-            *error += OF_DISCS * factors.largest_difference().max(0.0) + of_tip;
-        }
+            let of_discs = OF_DISCS * factors.largest_difference().max(0.0);
+            one.error().hypot(two.error()) + (of_discs + of_tip)
+        });
+        Self { errors: errors.collect(), cells: of_cells }
     }
-}
-
-fn nearest(distances: &[f64]) -> usize {
-    (0..distances.len()).min_by(|&a, &b| distances[a].total_cmp(&distances[b])).unwrap_or(0)
 }

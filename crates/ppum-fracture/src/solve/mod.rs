@@ -1,9 +1,8 @@
 //! From a problem to a dataset, stage by stage:
 //!
 //! ```text
-//! Plan          whether it can be solved: unknowns, memory, linear solver
-//! Discretised   cover, local spaces, pieces of the plate and their loads
-//! Assembled     stable basis, system, constraint
+//! Plan          cover, local spaces; unknowns, memory, linear solver
+//! Assembled     pieces of the plate and their loads; stable basis, system, constraint
 //! Solved        unknowns, coefficients, stress intensity factors
 //! Diagnosed     estimated errors; then warnings and the report
 //! ```
@@ -13,24 +12,20 @@ mod assembled;
 mod clock;
 mod contact;
 mod diagnosed;
-mod discretised;
-mod error;
-mod estimate;
 mod goal;
 mod plan;
 mod solved;
 mod unknowns;
 
-pub use error::SolveError;
-pub use estimate::Estimate;
+pub use crate::error::SolveError;
+pub use crate::estimate::Estimate;
 pub use plan::Plan;
 pub use ppum_linear::{EigenError, LinearError, Spectrum};
 pub use ppum_problem::geometry::Vicinity;
 pub use ppum_solve::equilibrium::{SupportError, UnbalancedError};
 
-use adaptive::adapted;
+use adaptive::solve_adaptively;
 use assembled::Assembled;
-use clock::Clock;
 use diagnosed::Diagnosed;
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::{Phase, Watcher};
@@ -59,9 +54,8 @@ pub fn solve(problem: &Problem, watcher: &dyn Watcher) -> Result<Dataset, SolveE
 /// # Errors
 /// See [`SolveError`].
 pub fn spectrum(problem: &Problem, watcher: &dyn Watcher) -> Result<Spectrum, SolveError> {
-    let plan = Plan::new(problem, None, watcher)?;
-    let law = &Law::new(&problem.equation);
-    let assembled = Assembled::new(&plan.discretised, law, &mut Clock::new(), watcher)?;
+    let mut plan = Plan::new(problem, None, watcher)?;
+    let assembled = Assembled::new(&mut plan, &Law::new(&problem.equation), watcher)?;
     let Assembled { mut system, constraint, .. } = assembled;
     constraint.add_penalty(&mut system.matrix);
     let stage = WorkPhase::uncounted(watcher, Phase::Solution)?;
@@ -75,8 +69,8 @@ impl Plan<'_> {
     /// # Errors
     /// See [`SolveError`].
     pub fn solve(self, watcher: &dyn Watcher) -> Result<Dataset, SolveError> {
-        match &self.problem().adaptivity {
-            Some(set) => adapted(self, set, watcher),
+        match &self.problem.adaptivity {
+            Some(set) => solve_adaptively(self, set, watcher),
             None => Diagnosed::new(Solved::new(self, watcher)?, watcher)?.dataset(None, watcher),
         }
     }
@@ -91,7 +85,7 @@ impl Plan<'_> {
         watcher: &dyn Watcher,
         is_wanted: &dyn Fn(&[TipIntensity]) -> bool,
     ) -> Result<Result<Dataset, Vec<TipIntensity>>, SolveError> {
-        if self.problem().adaptivity.is_some() {
+        if self.problem.adaptivity.is_some() {
             let mut dataset = self.solve(watcher)?;
             let factors = &mut dataset.steps[0].intensities;
             return Ok(if is_wanted(factors) { Ok(dataset) } else { Err(std::mem::take(factors)) });

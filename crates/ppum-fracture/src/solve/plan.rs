@@ -1,13 +1,17 @@
-//! The cost of a solution, known before it is made.
+//! A problem on a cover: its local spaces, the data that act on it, its pieces, and the cost of its
+//! solution.
 
 use super::SolveError;
 use super::clock::Clock;
-use super::discretised::Discretised;
-use super::estimate::Estimate;
-use ppum::dataset::Dataset;
+use crate::estimate::Estimate;
+use ppum::dataset::{Dataset, Step};
 use ppum::progress::{Phase, Watcher};
 use ppum_problem::Problem;
-use ppum_solve::space::{CoverMesh, TrialSpace};
+use ppum_solve::assembly::PrescribedData;
+use ppum_solve::equilibrium::{BodyEquilibrium, BodyPieces};
+use ppum_solve::refine::n_crossed_twice;
+use ppum_solve::space::{CoverMesh, SpaceError, TrialSpace, discretise_on};
+use ppum_solve::terms::known_fields;
 use ppum_solve::watched::WorkPhase;
 
 /// A problem whose cover and functions are known, and with them what its solution takes.
@@ -33,7 +37,14 @@ use ppum_solve::watched::WorkPhase;
 /// # Ok::<(), SolveError>(())
 /// ```
 pub struct Plan<'p> {
-    pub(super) discretised: Discretised<'p>,
+    pub(crate) problem: &'p Problem,
+    pub(super) mesh: CoverMesh,
+    /// The dataset, whose coefficients are zero until the system is solved.
+    pub(super) dataset: Dataset,
+    /// The space of its step: the only one from here to the last warning.
+    pub(super) space: TrialSpace<'p>,
+    /// Number of patches that a crack or rim crosses twice.
+    pub(super) crossed_twice: usize,
     /// The memory that may be used \[bytes\].
     pub(super) memory: Option<u64>,
     pub(super) estimate: Estimate,
@@ -65,10 +76,31 @@ impl<'p> Plan<'p> {
         memory: Option<u64>,
         (mut clock, stage): (Clock, &WorkPhase<'_>),
     ) -> Result<Self, SolveError> {
-        let mut discretised = Discretised::new(problem, mesh, stage)?;
-        let estimate = fits(estimate(&mut discretised, memory)?, memory)?;
+        let step = discretise_on(problem, &mesh, stage)?;
+        let crossed_twice = n_crossed_twice(problem, step.partition.boxes());
+        let dataset = dataset(problem, step.clone());
+        dataset.check()?;
+        stage.advance(0)?;
+        let heat = problem.heat().map(|heat| Ok((heat, discretise_on(heat, &mesh, stage)?)));
+        let heat = heat.transpose().map_err(SolveError::of_heat)?;
+        let space = TrialSpace::of_problem(problem, step, heat.as_ref().map(|(_, step)| step))?;
+        let bounds = &problem.domain().bounds;
+        let mut known = known_fields(problem).into_iter();
+        if let Some(field) = known.find(|field| !field.fits(space.partition(), bounds)) {
+            let (at, reach) = (field.at, field.reach);
+            let is_refined = problem.discretization.refine;
+            return Err(SpaceError::Reach { at, reach, is_refined }.into());
+        }
+        let mut needs = Estimate::of_space(problem, &space, memory);
+        if let Some((heat, step)) = heat {
+            let space = TrialSpace::of_problem(heat, step, None)?;
+            needs = needs.after(&Estimate::of_space(heat, &space, memory));
+        }
+        if let Some(memory) = memory.filter(|memory| needs.memory > *memory as f64) {
+            return Err(SolveError::TooLarge { needs, memory });
+        }
         clock.lap(Phase::Cover);
-        Ok(Self { discretised, memory, estimate, clock })
+        Ok(Self { problem, mesh, dataset, space, crossed_twice, memory, estimate: needs, clock })
     }
 
     /// The unknowns of the solution, and the memory that it takes.
@@ -80,12 +112,7 @@ impl<'p> Plan<'p> {
     /// The dataset before the solution is known: all coefficients are zero.
     #[must_use]
     pub fn dataset(&self) -> &Dataset {
-        &self.discretised.dataset
-    }
-
-    /// The problem.
-    pub(crate) fn problem(&self) -> &'p Problem {
-        self.discretised.problem
+        &self.dataset
     }
 
     /// Looks whether the loads on each piece of the body balance, or something holds it. That
@@ -94,14 +121,12 @@ impl<'p> Plan<'p> {
     /// # Errors
     /// Loads without restraint, data that are not finite; cancelled.
     pub fn check(&self, watcher: &dyn Watcher) -> Result<(), SolveError> {
-        if let Some(heat) = self.problem().heat() {
+        if let Some(heat) = self.problem.heat() {
             self.of_heat(heat, watcher)?.check(watcher).map_err(SolveError::of_heat)?;
         }
-        self.discretised.loaded(watcher).map(drop)
+        self.loaded(watcher).map(drop)
     }
-}
 
-impl Plan<'_> {
     /// The plan of the problem of a temperature on the cells of this one.
     ///
     /// # Errors
@@ -112,29 +137,44 @@ impl Plan<'_> {
         watcher: &dyn Watcher,
     ) -> Result<Plan<'h>, SolveError> {
         let stage = WorkPhase::uncounted(watcher, Phase::Cover)?;
-        let mesh = self.discretised.mesh.clone();
+        let mesh = self.mesh.clone();
         Plan::on(heat, mesh, self.memory, (Clock::new(), &stage)).map_err(SolveError::of_heat)
     }
-}
 
-/// The estimate of a solution, and of the temperature that is solved for before it.
-fn estimate(
-    discretised: &mut Discretised<'_>,
-    memory: Option<u64>,
-) -> Result<Estimate, SolveError> {
-    let Discretised { problem, space, heat, .. } = discretised;
-    let own = Estimate::of_space(problem, space, memory);
-    let Some((heat, step)) = problem.heat().zip(heat.take()) else { return Ok(own) };
-    let space = TrialSpace::of_problem(heat, step, None)?;
-    Ok(own.after(&Estimate::of_space(heat, &space, memory)))
-}
-
-/// The estimate, if what it needs is there.
-fn fits(needs: Estimate, memory: Option<u64>) -> Result<Estimate, SolveError> {
-    match memory {
-        Some(memory) if needs.memory > memory as f64 => Err(SolveError::TooLarge { needs, memory }),
-        _ => Ok(needs),
+    /// The data of the problem, and the body that they act on.
+    ///
+    /// # Errors
+    /// Loads without restraint, data that are not finite; cancelled.
+    pub(super) fn loaded(
+        &self,
+        watcher: &dyn Watcher,
+    ) -> Result<(PrescribedData<'p>, BodyEquilibrium), SolveError> {
+        let Self { problem, space, .. } = self;
+        let pieces = BodyPieces::new(problem.domain(), problem.cracks());
+        if pieces.all().is_empty() {
+            return Err(SpaceError::Nothing.into());
+        }
+        let stage = WorkPhase::uncounted(watcher, Phase::Basis)?;
+        let given = PrescribedData::new(problem, space, &stage).map_err(SolveError::of_data)?;
+        let balances = given.balance(space, &pieces, &stage).map_err(SolveError::of_data)?;
+        let plate = BodyEquilibrium::new(pieces, balances, problem)?;
+        plate.conditions(&problem.supports)?;
+        Ok((given, plate))
     }
+}
+
+fn dataset(problem: &Problem, step: Step) -> Dataset {
+    let mut dataset =
+        Dataset::new(problem.domain().clone(), problem.equation.clone()).with_step(step);
+    dataset.title.clone_from(&problem.title);
+    dataset.program = concat!("ppum ", env!("CARGO_PKG_VERSION")).into();
+    dataset.problem.clone_from(&problem.text);
+    // those of a temperature have no meaning before it is known
+    if problem.temperature.is_none() {
+        dataset.quantities.clone_from(&problem.quantities);
+    }
+    dataset.tables.clone_from(&problem.tables);
+    dataset
 }
 
 /// The cells that a memory holds at most.

@@ -2,7 +2,6 @@
 
 use super::SolveError;
 use super::assembled::Assembled;
-use super::discretised::Discretised;
 use super::plan::Plan;
 use super::unknowns::Unknowns;
 use crate::intensity::{LoadCase, TipDisc, TipResult, intensities_by};
@@ -12,7 +11,7 @@ use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
 use ppum_solve::assembly::CellErrors;
 use ppum_solve::law::{Law, Temperature};
-use ppum_solve::report::{ASSEMBLY_SECONDS, SolverReport, UnresolvedIntegrand};
+use ppum_solve::report::{ASSEMBLY_SECONDS, SolverReport};
 use ppum_solve::space::TrialSpace;
 
 /// A solution with the stress intensity factors of its tips.
@@ -20,18 +19,15 @@ pub(super) struct Solved<'p> {
     pub(super) plan: Plan<'p>,
     /// The temperature that strains the body, if one does.
     pub(super) temperature: Option<Temperature>,
-    /// The numbers of the report that are known with the solution.
     pub(super) report: SolverReport,
     /// The coefficients of the functions that the solver evaluates, for each patch: a row for each
     /// component of the solution and of the dual solutions.
     pub(super) local: Vec<Mat<f64>>,
-    /// Integrands that quadrature did not resolve.
-    pub(super) unresolved: Vec<UnresolvedIntegrand>,
     /// For each patch, the first functions of components whose support lies almost entirely under
     /// other patches.
     pub(super) sole_support: Vec<Vec<usize>>,
     /// The discs of the tips whose factors have dual solutions.
-    pub(super) dual_tips: Vec<TipDisc>,
+    pub(super) discs: Vec<TipDisc>,
     /// The cells in which contact ends.
     pub(super) contact: Vec<CellErrors>,
     /// The findings about all tips.
@@ -45,53 +41,18 @@ impl<'p> Solved<'p> {
     /// See [`SolveError`].
     pub(super) fn new(mut plan: Plan<'p>, watcher: &dyn Watcher) -> Result<Self, SolveError> {
         let temperature = temperature(&plan, watcher)?;
-        let law = Law::new(&plan.problem().equation).heated(temperature.as_ref());
-        let Plan { discretised, estimate, clock, .. } = &mut plan;
-        let mut assembled = Assembled::new(discretised, &law, clock, watcher)?;
-        let unknowns = Unknowns::new(discretised, &mut assembled, estimate, watcher)?;
-        clock.lap(Phase::Solution);
-        let mut solved = Self::without_factors(plan, assembled, unknowns);
-        let Plan { discretised: Discretised { problem, dataset, space, .. }, clock, .. } =
-            &mut solved.plan;
+        let law = Law::new(&plan.problem.equation).heated(temperature.as_ref());
+        let mut assembled = Assembled::new(&mut plan, &law, watcher)?;
+        let Unknowns { all, contact, report } = Unknowns::new(&plan, &mut assembled, watcher)?;
+        plan.clock.lap(Phase::Solution);
+        let report = assembled.report(report, plan.problem.components());
+        let (local, sole_support, discs) = write(&mut plan, assembled, &all);
+        let Plan { problem, dataset, space, clock, .. } = &mut plan;
         let field = Field::new(dataset, 0)?;
         let loads = LoadCase { problem: Some(problem), factor: field.step.load };
-        solved.tips = intensities_by(&law, dataset, &field, space, &loads, watcher)?;
+        let tips = intensities_by(&law, dataset, &field, space, &loads, watcher)?;
         clock.lap(Phase::Intensity);
-        Ok(Self { temperature, ..solved })
-    }
-
-    /// Writes the solution into the dataset of its plan.
-    fn without_factors(mut plan: Plan<'p>, assembled: Assembled, unknowns: Unknowns) -> Self {
-        let Discretised { problem, space, dataset, .. } = &mut plan.discretised;
-        let components = problem.components();
-        let report = report(&assembled, unknowns.report, components);
-        let Assembled { basis, mut system, tips: dual_tips, .. } = assembled;
-        let (solution, step) = (&unknowns.all[0], &mut dataset.steps[0]);
-        write_coefficients(&mut step.fields[0], &basis.plain(space, solution, components));
-        step.reactions = system.reactions.of(problem, &basis, &system.matrix, solution);
-        let cut_off = basis.cut_off(components).map(|n| n as f64).collect();
-        step.attributes.extend([
-            attribute("cut-off", cut_off),
-            attribute("least-eigenvalue", basis.least()),
-            attribute("quadrature-points", system.points()),
-            attribute(ASSEMBLY_SECONDS, system.seconds()),
-        ]);
-        let mut local = basis.local_coefficients(&unknowns.all, components);
-        write_known(space, &mut step.fields[0], &mut local);
-        let unresolved = std::mem::take(&mut system.unresolved);
-        let (sole_support, tips, contact) = (basis.sole_support, Vec::new(), unknowns.contact);
-        let temperature = None;
-        Self {
-            plan,
-            temperature,
-            report,
-            local,
-            unresolved,
-            sole_support,
-            dual_tips,
-            contact,
-            tips,
-        }
+        Ok(Self { plan, temperature, report, local, sole_support, discs, contact, tips })
     }
 
     /// The factors of the tips that have any.
@@ -100,41 +61,61 @@ impl<'p> Solved<'p> {
     }
 }
 
-/// The temperature that strains the body, if another problem gives it: solved on the same cells.
-fn temperature(plan: &Plan<'_>, watcher: &dyn Watcher) -> Result<Option<Temperature>, SolveError> {
-    let problem = plan.problem();
-    let Some(heat) = problem.heat() else { return Ok(None) };
-    let solved = Solved::new(plan.of_heat(heat, watcher)?, watcher).map_err(SolveError::of_heat)?;
-    let Solved { plan, report, unresolved, .. } = solved;
-    let equation = problem.dataset_equation().into_owned();
-    Ok(Some(Temperature::new(plan.discretised.dataset, equation, report, unresolved)?))
+/// Writes the solution into the dataset of its plan, and returns what [`Solved`] keeps of the
+/// system: its matrix takes most of the memory.
+fn write(
+    plan: &mut Plan<'_>,
+    Assembled { basis, system, tips, .. }: Assembled,
+    all: &[Vec<f64>],
+) -> (Vec<Mat<f64>>, Vec<Vec<usize>>, Vec<TipDisc>) {
+    let Plan { problem, space, dataset, .. } = plan;
+    let (solution, components, step) = (&all[0], problem.components(), &mut dataset.steps[0]);
+    write_coefficients(&mut step.fields[0], &basis.plain(space, solution, components));
+    step.reactions = system.reactions.of(problem, &basis, &system.matrix, solution);
+    let cut_off = basis.cut_off(components).map(|n| n as f64).collect();
+    step.attributes.extend([
+        attribute("cut-off", cut_off),
+        attribute("least-eigenvalue", basis.least()),
+        attribute("quadrature-points", system.points()),
+        attribute(ASSEMBLY_SECONDS, system.seconds()),
+    ]);
+    let mut local = basis.local_coefficients(all, components);
+    write_known(space, &mut step.fields[0], &mut local);
+    (local, basis.sole_support, tips)
 }
 
-/// The report of a linear solver, with the numbers of the system.
-fn report(assembled: &Assembled, solver: SolverReport, components: usize) -> SolverReport {
-    let Assembled { plate, basis, system, constraint, .. } = assembled;
-    let cut_off = basis.cut_off(components).sum::<usize>() as u64;
-    let kept = basis.unknowns(components).sum::<usize>() as u64;
-    let (all, left) = (kept + cut_off, kept - solver.dependent.unwrap_or(0));
-    let mut bytes =
-        vec![(Phase::Basis, basis.bytes() as f64), (Phase::Assembly, system.bytes() as f64)];
-    bytes.extend(solver.solver_bytes.map(|held| (Phase::Solution, held as f64)));
-    SolverReport {
-        unknowns: Some(all),
-        cut_off: Some(cut_off),
-        bytes,
-        worked: vec![
-            (Phase::Cover, all as f64),
-            (Phase::Basis, all as f64),
-            (Phase::Assembly, kept as f64),
-            (Phase::Solution, left as f64),
-        ],
-        nitsche: Some(system.nitsche),
-        pieces: Some(plate.pieces.all().len() as u64),
-        free_modes: Some(constraint.n_free() as u64),
-        imbalance: Some(plate.imbalance()),
-        quadrature_points: Some(system.points().iter().sum::<f64>() as u64),
-        ..solver
+/// The temperature that strains the body, if another problem gives it: solved on the same cells.
+fn temperature(plan: &Plan<'_>, watcher: &dyn Watcher) -> Result<Option<Temperature>, SolveError> {
+    let Some(heat) = plan.problem.heat() else { return Ok(None) };
+    let solved = Solved::new(plan.of_heat(heat, watcher)?, watcher).map_err(SolveError::of_heat)?;
+    let equation = plan.problem.dataset_equation().into_owned();
+    Ok(Some(Temperature::new(solved.plan.dataset, equation, solved.report)?))
+}
+
+impl Assembled {
+    /// The report of a linear solver, with the numbers of the system.
+    fn report(&mut self, solver: SolverReport, components: usize) -> SolverReport {
+        let Self { plate, basis, system, constraint, .. } = self;
+        let cut_off = basis.cut_off(components).sum::<usize>() as u64;
+        let kept = basis.unknowns(components).sum::<usize>() as u64;
+        let (all, left) = (kept + cut_off, kept - solver.dependent.unwrap_or(0));
+        let mut bytes =
+            vec![(Phase::Basis, basis.bytes() as f64), (Phase::Assembly, system.bytes() as f64)];
+        bytes.extend(solver.solver_bytes.map(|held| (Phase::Solution, held as f64)));
+        let phases = [Phase::Cover, Phase::Basis, Phase::Assembly, Phase::Solution];
+        SolverReport {
+            unknowns: Some(all),
+            cut_off: Some(cut_off),
+            bytes,
+            worked: phases.into_iter().zip([all, all, kept, left].map(|n| n as f64)).collect(),
+            nitsche: Some(system.nitsche),
+            pieces: Some(plate.pieces.all().len() as u64),
+            free_modes: Some(constraint.n_free() as u64),
+            imbalance: Some(plate.imbalance()),
+            quadrature_points: Some(system.points().iter().sum::<f64>() as u64),
+            unresolved: std::mem::take(&mut system.unresolved),
+            ..solver
+        }
     }
 }
 

@@ -2,9 +2,8 @@
 
 use super::SolveError;
 use super::assembled::Assembled;
-use super::contact::close;
-use super::discretised::Discretised;
-use super::estimate::Estimate;
+use super::contact::solve_contact;
+use super::plan::Plan;
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum_linear::{Cholesky, LinearError, LinearSolution, LinearSolver, Multilevel};
 use ppum_solve::assembly::CellErrors;
@@ -30,15 +29,13 @@ impl Unknowns {
     /// # Errors
     /// A system that is singular or too large, a load that is not finite; cancelled.
     pub(super) fn new(
-        discretised: &Discretised<'_>,
+        plan: &Plan<'_>,
         assembled: &mut Assembled,
-        estimate: &Estimate,
         watcher: &dyn Watcher,
     ) -> Result<Self, SolveError> {
-        match Self::of_kind(estimate.solver, discretised, assembled, watcher) {
-            Err(error) if estimate.falls_back && is_of_levels(&error) => {
-                let direct = LinearKind::Direct;
-                let mut unknowns = Self::of_kind(direct, discretised, assembled, watcher)?;
+        match Self::of_kind(plan.estimate.solver, plan, assembled, watcher) {
+            Err(error) if plan.estimate.falls_back && is_of_levels(&error) => {
+                let mut unknowns = Self::of_kind(LinearKind::Direct, plan, assembled, watcher)?;
                 unknowns.report.fallback = true;
                 Ok(unknowns)
             }
@@ -48,7 +45,7 @@ impl Unknowns {
 
     fn of_kind(
         kind: LinearKind,
-        Discretised { problem, mesh, space, .. }: &Discretised<'_>,
+        Plan { problem, mesh, space, .. }: &Plan<'_>,
         Assembled { plate, basis, system, constraint, contacts, .. }: &mut Assembled,
         watcher: &dyn Watcher,
     ) -> Result<Self, SolveError> {
@@ -61,7 +58,8 @@ impl Unknowns {
             LinearKind::Direct => {
                 constraint.add_penalty(&mut system.matrix);
                 if !contacts.is_empty() {
-                    contact_steps = Some(close(contacts, constraint, system, &located, &stage)?);
+                    contact_steps =
+                        Some(solve_contact(contacts, constraint, system, &located, &stage)?);
                 }
                 Box::new(Cholesky::new(&system.matrix).map_err(located)?)
             }
@@ -102,30 +100,28 @@ fn report(kind: LinearKind, solver: &dyn LinearSolver, solution: &LinearSolution
         solver_bytes: Some(solver.bytes() as u64),
         ..SolverReport::default()
     };
-    let Some(course) = &solution.course else { return report };
+    let Some(history) = &solution.history else { return report };
+    let level_size = |of: [usize; 4]| {
+        let [patches, unknowns, values, bytes] = of.map(|n| n as f64);
+        LevelSize { patches, unknowns, values, bytes }
+    };
     let levels: Vec<_> = solver.level_sizes().into_iter().map(level_size).collect();
     SolverReport {
         solver_levels: Some(levels.len() as u64),
-        iterations: Some(course.residuals.len().saturating_sub(1) as u64),
-        preconditioned_condition: Some(course.condition),
+        iterations: Some(history.residuals.len().saturating_sub(1) as u64),
+        preconditioned_condition: Some(history.condition),
         levels,
-        residuals: course.residuals.clone(),
-        level_residuals: course.levels.clone(),
+        residuals: history.residuals.clone(),
+        level_residuals: history.levels.clone(),
         ..report
     }
-}
-
-fn level_size(of: [usize; 4]) -> LevelSize {
-    let [patches, unknowns, values, bytes] = of.map(|n| n as f64);
-    LevelSize { patches, unknowns, values, bytes }
 }
 
 /// The error at the place of its patch.
 fn located(error: LinearError, space: &TrialSpace<'_>) -> SolveError {
     match error.patch() {
         Some(patch) => {
-            let around = space.partition().support(patch).into();
-            SolveError::Singular { around, error }
+            SolveError::Singular { around: space.partition().support(patch).into(), error }
         }
         None if error == LinearError::Stopped => Cancelled.into(),
         None => SolveError::Factor(error),

@@ -1,7 +1,7 @@
 //! Cracks where meshes would have a hard time: short ones, ones that nearly touch a border or each
 //! other, sharp kinks; very long plates.
 
-use ppum::dataset::{Dataset, TipIntensity};
+use ppum::dataset::Dataset;
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::solve::solve;
@@ -12,6 +12,7 @@ use ppum_testkit::exact::{CrackInPlane, ExactField};
 use crate::studies::exact_fields::{MATERIAL, SQUARE, TipProblem, held};
 use crate::studies::plates::{pulled, traction};
 use crate::studies::support::{checked, solved};
+use crate::support::{apart, factors_of};
 
 /// Width of a cell when an edge of [−1, 1]² has twelve.
 const CELL: f64 = 1.0 / 6.0;
@@ -20,16 +21,11 @@ fn twelve() -> Discretization {
     Discretization::new(BaseCells::Grid([12, 12]))
 }
 
-/// Distance of (K_I, K_II) from what it should be, relative to the latter.
-fn error(tip: &TipIntensity, [k1, k2]: [f64; 2]) -> f64 {
-    (tip.k1 - k1).hypot(tip.k2 - k2) / k1.hypot(k2)
-}
-
 /// The largest error of the factors that a solution has; it must have some.
 fn error_of_k(name: &str, dataset: &Dataset, exact: [f64; 2]) -> f64 {
     let tips = &dataset.steps[0].intensities;
     assert!(!tips.is_empty(), "{name}: no factors");
-    let worst = tips.iter().map(|tip| error(tip, exact)).fold(0.0, f64::max);
+    let worst = tips.iter().map(|tip| apart(factors_of(tip), exact)).fold(0.0, f64::max);
     let cells = dataset.steps[0].partition.len();
     println!("{name}: K of {} tips off by {worst:.1e}, {cells} cells", tips.len());
     worst
@@ -189,7 +185,7 @@ fn assert_independent_of_cells(crack: &[[f64; 2]]) {
     let [coarse, fine] = [4, 9].map(solution);
     let tips = coarse.steps[0].intensities.iter().zip(&fine.steps[0].intensities);
     for (a, b) in tips {
-        let difference = error(a, [b.k1, b.k2]);
+        let difference = apart(factors_of(a), factors_of(b));
         println!("K {:.4} {:.4}, differing by {difference:.1e}", b.k1, b.k2);
         assert!(difference < 2e-2, "{a:?} {b:?}");
     }

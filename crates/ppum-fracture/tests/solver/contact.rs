@@ -2,15 +2,16 @@
 
 use crate::SQUARE_BODY;
 use crate::studies::support::{checked, parsed, quantity, record, solved};
+use crate::support::{square, stressed};
 use ppum::dataset::{Dataset, Material, StressState, TipIntensity, TipStatus, WarningKind};
 use ppum::progress::unwatched;
-use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::vec2::{Vec2, vec2};
 use ppum_fracture::diagnostics::recompute;
 use ppum_fracture::growth::series;
 use ppum_fracture::solve::{SolveError, solve};
 use ppum_problem::{
-    BaseCells, BoundaryPart, Condition, Discretization, DomainEdge, GrowthRule, PolynomialOrder,
-    ProblemData, SolverKind, Support,
+    BaseCells, BoundaryPart, Discretization, DomainEdge, GrowthRule, PolynomialOrder, ProblemData,
+    SolverKind, Support,
 };
 use ppum_solve::report::strip_timings;
 use ppum_testkit::random::Random;
@@ -21,43 +22,20 @@ const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressSta
 /// Rounding of stresses at points, in the corner of a cell or near a tip.
 const AT_A_POINT: f64 = 1e-7;
 
-/// A stress that is the same everywhere.
-#[derive(Clone, Copy, Debug)]
-struct Stress {
-    xx: f64,
-    yy: f64,
-    xy: f64,
-}
-
-const PRESSURE: Stress = Stress { xx: -1.0, yy: -1.0, xy: 0.0 };
-const PRESSED_ALONG_Y: Stress = Stress { xx: 0.0, yy: -1.0, xy: 0.0 };
-
-impl Stress {
-    fn times(self, factor: f64) -> Self {
-        Self { xx: factor * self.xx, yy: factor * self.yy, xy: factor * self.xy }
-    }
-
-    /// The tractions on an edge.
-    fn on(self, edge: DomainEdge) -> Vec<Condition> {
-        let n = edge.normal();
-        let t = [self.xx * n.x + self.xy * n.y, self.xy * n.x + self.yy * n.y];
-        t.map(|t| Condition::Neumann(t.into())).to_vec()
-    }
-}
+/// Stresses σ_xx, σ_yy and σ_xy that are the same everywhere.
+const PRESSURE: [f64; 3] = [-1.0, -1.0, 0.0];
+const PRESSED_ALONG_Y: [f64; 3] = [0.0, -1.0, 0.0];
 
 /// The points of a crack.
 type Line = Vec<[f64; 2]>;
 
 /// A free square plate under the tractions of a stress, with cracks.
-fn plate(half: f64, cells: u32, cracks: &[Line], stress: Stress) -> ProblemData {
-    let bounds = Rect::new(vec2(-half, -half), vec2(half, half));
+fn plate(half: f64, cells: u32, cracks: &[Line], stress: [f64; 3]) -> ProblemData {
     let mut set = Discretization::new(BaseCells::Grid([cells, cells]));
     set.order = PolynomialOrder::Uniform(2);
-    let problem = ProblemData::elasticity(bounds, MATERIAL, set);
+    let problem = ProblemData::elasticity(square(half), MATERIAL, set);
     let problem = cracks.iter().fold(problem, |problem, crack| problem.with_crack(crack));
-    let load =
-        |problem: ProblemData, edge: DomainEdge| problem.with_boundary(edge, stress.on(edge));
-    DomainEdge::ALL.into_iter().fold(problem, load)
+    stressed(problem, stress, &DomainEdge::ALL)
 }
 
 /// The problem with all faces touching.
@@ -85,12 +63,12 @@ fn all_kinds(random: &mut Random) -> Vec<Vec<Line>> {
 }
 
 /// The largest difference from a uniform stress at some points.
-fn difference(dataset: &Dataset, stress: Stress) -> f64 {
+fn difference(dataset: &Dataset, stress: [f64; 3]) -> f64 {
     let mut random = Random(3);
     let points = (0..20).map(|_| vec2(random.between(-0.9, 0.9), random.between(-0.9, 0.9)));
     let all = points.flat_map(|at: Vec2| {
         let [xx, yy, xy] = ["sxx", "syy", "sxy"].map(|name| quantity(dataset, name, at));
-        [xx - stress.xx, yy - stress.yy, xy - stress.xy]
+        [xx - stress[0], yy - stress[1], xy - stress[2]]
     });
     all.fold(0.0, |most: f64, d| most.max(d.abs()))
 }
@@ -131,7 +109,7 @@ fn pressed_faces_are_not_seen() {
 /// What friction holds does not slide: any stress whose shear on the faces it carries.
 #[test]
 fn faces_with_much_friction_stick() {
-    let stress = Stress { xx: -0.4, yy: -1.0, xy: 0.2 };
+    let stress = [-0.4, -1.0, 0.2];
     let cracks = &all_kinds(&mut Random(2))[0];
     let dataset = solved(&touching(plate(1.0, 9, cracks, stress), 0.9));
     let found = difference(&dataset, stress);
@@ -141,7 +119,7 @@ fn faces_with_much_friction_stick() {
 /// Faces that do not overlap are not tied: the solution has the bits that it has without contact.
 #[test]
 fn open_cracks_are_as_without_contact() {
-    let stress = Stress { xx: 0.1, yy: 1.0, xy: 0.3 };
+    let stress = [0.1, 1.0, 0.3];
     let free = plate(1.0, 9, &all_kinds(&mut Random(3))[0], stress);
     let [free, touching] = [free.clone(), touching(free, 0.3)].map(|problem| solved(&problem));
     let coefficients = |dataset: &Dataset| dataset.steps[0].fields[0].coefficients.clone();
@@ -185,8 +163,8 @@ fn slanted_cracks_slide() {
 #[test]
 fn states_do_not_depend_on_size_way_or_place() {
     let crack: Line = vec![[-0.43, -0.31], [-0.05, 0.1], [0.52, 0.33]];
-    let stress = Stress { xx: -0.3, yy: -1.0, xy: 0.2 };
-    let factors = |crack: &[[f64; 2]], stress: Stress| {
+    let stress = [-0.3, -1.0, 0.2];
+    let factors = |crack: &[[f64; 2]], stress: [f64; 3]| {
         let dataset = solved(&touching(plate(1.0, 11, &[crack.to_vec()], stress), 0.0));
         assert!(record(&dataset.steps[0], "contact steps") > 0.0);
         let mut all: Vec<_> = tips(&dataset).iter().map(|tip| (tip.k1, tip.k2)).collect();
@@ -196,9 +174,9 @@ fn states_do_not_depend_on_size_way_or_place() {
     let known = factors(&crack, stress);
     let turned: Line = crack.iter().map(|[x, y]| [-y, *x]).collect();
     let reversed: Line = crack.iter().rev().copied().collect();
-    let over = Stress { xx: stress.yy, yy: stress.xx, xy: -stress.xy };
+    let over = [stress[1], stress[0], -stress[2]];
     let half: Vec<_> =
-        factors(&crack, stress.times(2.0)).iter().map(|(a, b)| (0.5 * a, 0.5 * b)).collect();
+        factors(&crack, stress.map(|s| 2.0 * s)).iter().map(|(a, b)| (0.5 * a, 0.5 * b)).collect();
     for other in [half, factors(&turned, over), factors(&reversed, stress)] {
         for (a, b) in known.iter().zip(&other) {
             assert!((a.0 - b.0).hypot(a.1 - b.1) < 1e-6, "{known:?} {other:?}");
@@ -303,7 +281,7 @@ fn several_cracks_open_and_close() {
         vec![[0.2, 0.5], [0.65, 0.55]],
         vec![[-0.02, -0.2], [0.01, 0.25]],
     ];
-    let stress = Stress { xx: 0.5, yy: -1.0, xy: 0.1 };
+    let stress = [0.5, -1.0, 0.1];
     let problem = touching(plate(1.0, 16, &cracks, stress), 0.0);
     let [first, mut again] = [0; 2].map(|_| solved(&problem));
     let mut first = first;
@@ -420,7 +398,7 @@ fn pieces_hold_each_other_where_they_touch() {
     let mut through = || [random.between(-0.2, 0.2), random.between(-0.2, 0.2)];
     let mut cases = vec![
         (vec![cut(0.0, through())], PRESSED_ALONG_Y, 0.0),
-        (vec![cut(0.0, through())], Stress { xx: -1.0, yy: 0.0, xy: 0.0 }, 0.0),
+        (vec![cut(0.0, through())], [-1.0, 0.0, 0.0], 0.0),
         (vec![cut(30.0, through()), cut(110.0, through())], PRESSURE, 0.0),
         (vec![cut(0.0, [0.0, -0.4]), cut(0.0, [0.0, 0.3])], PRESSED_ALONG_Y, 0.0),
         (vec![vec![[-1.0, 0.1], [-0.2, 0.3], [0.3, -0.2], [1.0, 0.0]]], PRESSURE, 0.0),
@@ -428,7 +406,7 @@ fn pieces_hold_each_other_where_they_touch() {
     for degrees in [-35.0, -12.0, 5.0, 20.0, 35.0] {
         cases.push((vec![cut(degrees, through())], PRESSURE, 0.0));
         cases.push((vec![cut(degrees, through())], PRESSED_ALONG_Y, 0.8));
-        let slanted = Stress { xx: -0.7, yy: -1.0, xy: 0.1 };
+        let slanted = [-0.7, -1.0, 0.1];
         cases.push((vec![cut(degrees + 90.0, through())], slanted, 0.8));
     }
     for (cracks, stress, friction) in cases {
@@ -437,7 +415,7 @@ fn pieces_hold_each_other_where_they_touch() {
         assert!(found < AT_A_POINT, "{cracks:?}, {stress:?}, {friction}: {found:e}");
         let step = &dataset.steps[0];
         assert!(record(step, "overlap of faces") < AT_A_POINT, "{cracks:?}");
-        if stress.yy < 0.0 {
+        if stress[1] < 0.0 {
             assert!((record(step, "closed faces") - 1.0).abs() < 1e-9, "{cracks:?}");
         }
     }
@@ -452,7 +430,7 @@ fn pieces_that_slide_away_are_told() {
         (20.0, PRESSED_ALONG_Y, 0.0),
         (-20.0, PRESSED_ALONG_Y, 0.3),
         (35.0, PRESSED_ALONG_Y, 0.69),
-        (0.0, PRESSED_ALONG_Y.times(-1.0), 0.5),
+        (0.0, PRESSED_ALONG_Y.map(|s| -s), 0.5),
     ] {
         let problem = touching(plate(1.0, 9, &[cut(degrees, [0.0, 0.0])], stress), friction);
         let error = solve(&checked(&problem), unwatched()).expect_err("a piece that moves");
@@ -465,9 +443,9 @@ fn pieces_that_slide_away_are_told() {
         let (along, off) = (vec2(cos, sin), vec2(-sin, cos) * if is_above { 1.0 } else { -1.0 });
         let force = told.force.unit();
         let turned = (off.dot(force)).atan2(along.dot(force).abs());
-        let expected = if stress.yy > 0.0 { PI / 2.0 } else { friction.atan() };
+        let expected = if stress[1] > 0.0 { PI / 2.0 } else { friction.atan() };
         assert!((turned - expected).abs() < 0.06, "{degrees}, {friction}: {told}");
-        assert!(stress.yy > 0.0 || force.x * degrees > 0.0, "{degrees}, {friction}: {told}");
+        assert!(stress[1] > 0.0 || force.x * degrees > 0.0, "{degrees}, {friction}: {told}");
         let text = told.to_string();
         assert!(text.contains("slides or falls away") && text.contains("[[boundary]]"), "{text}");
     }

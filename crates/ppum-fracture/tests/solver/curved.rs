@@ -1,6 +1,7 @@
 //! Cracks and holes given as curves, which the program divides into segments.
 
 use crate::studies::support::{parsed, solved};
+use crate::support::{apart, factors};
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, WarningKind};
 use ppum::domain::Hole;
@@ -33,14 +34,6 @@ fn arc(center: [f64; 2], radius: f64, [from, to]: [f64; 2], more: &str) -> Strin
     format!(
         "[[crack]]\narc = {{ center = {center:?}, radius = {radius:?}, from = {from:?}, to = {to:?} }}\n{more}\n"
     )
-}
-
-fn factors(dataset: &Dataset) -> Vec<[f64; 2]> {
-    dataset.steps[0].intensities.iter().map(|tip| [tip.k1, tip.k2]).collect()
-}
-
-fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1]) / b[0].hypot(b[1])
 }
 
 /// The arc of examples/arc-crack.toml against its closed form; the plate adds a few parts in 10⁴.

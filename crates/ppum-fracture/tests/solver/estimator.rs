@@ -7,11 +7,8 @@
 use crate::studies::exact_fields::{MATERIAL, OBLIQUE, SQUARE, discretization, expressions, held};
 use crate::studies::plates::pulled;
 use crate::studies::support::{Both, both, errors, parsed, record, solved};
-use ppum::crack::Side;
 use ppum::dataset::Dataset;
 use ppum::domain::{Domain, Hole};
-use ppum::field::Field;
-use ppum::jet::Jet;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::{BaseCells, DomainEdge, PolynomialOrder, ProblemData};
 use ppum_testkit::exact::{ExactField as _, RoundHole, Smooth};
@@ -263,33 +260,6 @@ fn sharp_kinks() {
 fn sharp_kinks_at_higher_orders() {
     assert_effective_at_kinks(&KINKS[1..3], 8, 2);
     assert_effective_at_kinks(&KINKS[3..], 8, 3);
-}
-
-/// The parts of a field, which the estimate compares, add up to the field, and their shares to one.
-#[test]
-fn parts_add_up_to_the_field() {
-    let dataset = solved(&pulled(SQUARE, [4, 4], &[&[[-0.4, -0.3], [0.4, 0.3]]]));
-    let field = Field::new(&dataset, 0).expect("a field");
-    let (mut random, mut parts) = (Random(3), Vec::new());
-    for _ in 0..200 {
-        let anchor = vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
-        let mut patches = Vec::new();
-        field.tree.query_point(anchor, &mut patches);
-        let mut local = field.at(anchor);
-        local.parts::<1>(Vec2::ZERO, Side::Above, &patches, &mut parts);
-        let mut u = [Jet::constant(0.0); 2];
-        assert!(local.evaluate::<1>(Vec2::ZERO, Side::Above, &mut u));
-        for (k, u) in u.iter().enumerate() {
-            let sum = parts.iter().fold(Jet::constant(0.0), |sum, part| {
-                sum.plus::<1>(part.share.times::<1>(part.local[k]))
-            });
-            // gradients of single parts are up to a hundred times those of the field
-            let difference = (sum.v - u.v).abs().max((sum.x - u.x).abs()).max((sum.y - u.y).abs());
-            assert!(difference < 1e-12 * (1.0 + u.x.hypot(u.y)), "{anchor:?}: {difference:e}");
-        }
-        let shares = parts.iter().fold(Jet::constant(0.0), |sum, part| sum.plus::<1>(part.share));
-        assert!((shares.v - 1.0).abs() < 1e-14 && shares.x.hypot(shares.y) < 1e-12);
-    }
 }
 
 /// The squares of the attribute add up to the square of the estimated error.

@@ -6,6 +6,7 @@
 //! whatever the cells.
 
 use crate::studies::support::{parsed, solved, strain_energy};
+use crate::support::factors;
 use ppum::crack::{End, SegmentId, Side};
 use ppum::dataset::{Dataset, Material, StressState};
 use ppum::domain::{Domain, Hole};
@@ -196,11 +197,6 @@ impl Case {
 fn value(field: &Field<'_>, name: &str, p: Vec2) -> f64 {
     let quantity = Quantity::parse(name, field).expect("a quantity");
     quantity.at(&mut field.at(p), Vec2::ZERO, Side::Above)
-}
-
-/// K of all tips.
-fn factors(dataset: &Dataset) -> Vec<[f64; 2]> {
-    dataset.steps[0].intensities.iter().map(|tip| [tip.k1, tip.k2]).collect()
 }
 
 #[track_caller]

@@ -2,6 +2,7 @@
 
 use crate::studies::exact_fields::{OBLIQUE, discretization};
 use crate::studies::support::{parsed, solved};
+use crate::support::{TENSION, apart, factors_of};
 use ppum::crack::Side;
 use ppum::dataset::{
     Dataset, Elasticity, Equation, Material, Ring, Step, StressState, TipIntensity, WarningKind,
@@ -215,9 +216,6 @@ const PLATE: Plate<'_> = Plate {
     refine: true,
 };
 
-const TENSION: &str = "[[boundary]]\non = \"bottom\"\ntraction = [0, -1]\n[[boundary]]\non = \"top\"\n\
-                       traction = [0, 1]\n";
-
 impl Plate<'_> {
     fn solve(&self) -> Dataset {
         let Self { young, poisson, state, half, crack, rest, level, order, refine } = self;
@@ -240,10 +238,6 @@ fn size(tip: &TipIntensity) -> f64 {
     tip.k1.hypot(tip.k2)
 }
 
-fn distance(tip: &TipIntensity, [k1, k2]: [f64; 2]) -> f64 {
-    (tip.k1 - k1).hypot(tip.k2 - k2) / k1.hypot(k2)
-}
-
 /// Largest difference of two radii, relative to |K|.
 fn spread(tip: &TipIntensity) -> f64 {
     let from_last = |ring: &Ring| (ring.k1 - tip.k1).hypot(ring.k2 - tip.k2);
@@ -260,7 +254,7 @@ fn convergence_along_a_grading() {
         let crack = "[[0.0, 0.0], [0.5, 0.0]]";
         let strip = Plate { young: "exp(1.5*x)", half: true, crack, level, order, ..PLATE };
         let [tip] = strip.tips().try_into().expect("a tip");
-        (distance(&tip, EXACT), spread(&tip))
+        (apart(factors_of(&tip), EXACT), spread(&tip))
     };
     let [coarse, fine, best] = [(3, 2), (4, 2), (3, 3)].map(|(level, order)| strip(level, order));
     println!("{coarse:?} {fine:?} {best:?}");
@@ -279,7 +273,7 @@ fn assert_references(cases: &[Case<'_>]) {
         let tips = plate.tips();
         assert_eq!(tips.len(), expected.len());
         for (tip, expected) in tips.iter().zip(expected) {
-            let (error, spread) = (distance(tip, *expected), spread(tip));
+            let (error, spread) = (apart(factors_of(tip), *expected), spread(tip));
             println!("{name}: {error:.1e}, radii {spread:.1e}");
             assert!(error < 2e-3 && spread < 2e-4, "{name}: {tip:?} instead of {expected:?}");
         }
@@ -386,7 +380,8 @@ fn assert_turned_and_mirrored(state: &str, random: &mut Random) {
     let turned = solve("let p = y; let q = -x;", &|p| vec2(-p.y, p.x), &lying);
     let mirrored = solve("let p = -x; let q = y;", &|p| vec2(-p.x, p.y), &upright);
     for ((own, turned), mirrored) in own.iter().zip(&turned).zip(&mirrored) {
-        let errors = [distance(turned, [own.k1, own.k2]), distance(mirrored, [own.k1, -own.k2])];
+        let errors = [(turned, own.k2), (mirrored, -own.k2)]
+            .map(|(tip, k2)| apart(factors_of(tip), [own.k1, k2]));
         println!("{errors:?}");
         assert!(own.k2.abs() > 1e-2 && errors.iter().all(|e| *e < 1e-9), "{own:?} {errors:?}");
     }
@@ -439,7 +434,7 @@ fn before_interface(gap: f64) -> Step {
 /// from the interface.
 fn assert_before_interface(gap: f64, expected: [f64; 2]) {
     let step = before_interface(gap);
-    let error = distance(&step.intensities[1], expected);
+    let error = apart(factors_of(&step.intensities[1]), expected);
     println!("{gap}: {error:.1e}");
     assert!(error < 2e-3 && step.warnings.is_empty(), "{gap}: {error:.1e} {:?}", step.warnings);
 }

@@ -7,7 +7,7 @@ use ppum::dataset::{Dataset, GrowthStop, Step, TipIncrement, TipIntensity, TipSt
 use ppum::progress::{Progress, Verdict, unwatched};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::diagnostics::recompute;
-use ppum_fracture::growth::{GrowthError, KinkDirection, ResumePoint, grow, kink, series};
+use ppum_fracture::growth::{GrowthError, KinkPrediction, ResumePoint, grow, kink, series};
 use ppum_fracture::solve::SolveError;
 use ppum_problem::{Criterion, Problem};
 use ppum_solve::report::strip_timings;
@@ -109,7 +109,7 @@ fn kinks_of_local_symmetry() {
     let k = [1.0, ratio];
     let factors = TipIntensity::new(TipId { crack: 0, end: End::Last }, k[0], k[1]);
     let found = kink(Criterion::LocalSymmetry, &factors).expect("an open crack");
-    let KinkDirection { angle, k_eq: strength } = found;
+    let KinkPrediction { angle, k_eq: strength } = found;
     let [long, short] = [0.04, 0.02].map(|length| kinked(k, angle, length));
     let limit = [0, 1].map(|i| 2.0 * short[i] - long[i]);
     println!(
@@ -349,7 +349,7 @@ fn pieces_come_off() {
     let steps = grown(&text.replace(", refine = false", ""));
     assert_eq!(stop(&steps), Some(GrowthStop::PieceComesOff));
     let last = steps.last().expect("steps");
-    assert_eq!(row(last, 0, End::Last).fate, TipStatus::LeavesPlate);
+    assert_eq!(row(last, 0, End::Last).fate, TipStatus::LeavesBody);
     let words = &last.warnings.last().expect("a warning").message;
     assert!(words.contains("a piece comes off") && words.contains("do not balance"), "{words}");
     assert!(steps.len() == 3 || steps.len() == 4, "{}", steps.len());

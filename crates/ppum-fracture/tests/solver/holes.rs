@@ -1,6 +1,7 @@
 //! Plates with holes, and loads on rims and faces.
 
 use crate::studies::support::{both, checked, errors, solved};
+use crate::support::{pulled, square};
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Material, StressState};
 use ppum::domain::{Domain, Hole};
@@ -19,10 +20,6 @@ use ppum_testkit::exact::{ElasticField, ExactField as _, RoundHole};
 const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 /// In general position.
 const CENTER: Vec2 = vec2(0.03, 0.041);
-
-fn square(half: f64) -> Rect {
-    Rect::new(vec2(-half, -half), vec2(half, half))
-}
 
 fn set(cells: u32, order: usize) -> Discretization {
     Discretization {
@@ -114,11 +111,7 @@ fn pressure_on_faces() {
         ..Discretization::new(BaseCells::Level(4))
     };
     let plate = ProblemData::elasticity(square(8.0), MATERIAL, set).with_crack(&crack);
-    let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-    let pulled = plate
-        .clone()
-        .with_boundary(DomainEdge::Top, pull(1.0))
-        .with_boundary(DomainEdge::Bottom, pull(-1.0));
+    let pulled = pulled(plate.clone());
     let pressed = plate.with_pressure(BoundaryPart::Crack { crack: 0, face: None }, 1.0);
     let factors = |problem: &ProblemData| {
         let dataset = solved(problem);
@@ -209,10 +202,7 @@ fn cracks_from_a_hole() {
             order: PolynomialOrder::Uniform(3),
             ..Discretization::new(BaseCells::Points(around_a_hole()))
         };
-        let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-        let problem = plate(square(64.0), hole, set)
-            .with_boundary(DomainEdge::Top, pull(1.0))
-            .with_boundary(DomainEdge::Bottom, pull(-1.0));
+        let problem = pulled(plate(square(64.0), hole, set));
         let problem = cracks.iter().fold(problem, |p, points| p.with_crack(points));
         let dataset = solved(&problem);
         let tips = &dataset.steps[0].intensities;

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use ppum::progress::unwatched;
-use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::vec2::Vec2;
 use ppum_fracture::solve::{Plan, spectrum};
 use ppum_problem::{
     BaseCells, Condition, Discretization, DomainEdge, PolynomialOrder, ProblemData,
@@ -11,6 +11,7 @@ use ppum_problem::{
 
 use crate::studies::exact_fields::MATERIAL;
 use crate::studies::support::{checked, record, solved, strain_energy};
+use crate::support::{self, pulled, square, stressed};
 use ppum_testkit::random::Random;
 
 type Line = Vec<[f64; 2]>;
@@ -20,25 +21,17 @@ type Case = (&'static str, Vec<Line>, Vec<[f64; 2]>);
 
 /// A square plate with these cracks under tension in y, and in x too if it is pulled all round.
 fn plate(half: f64, lines: &[Line], all_round: bool, level: u32, order: usize) -> ProblemData {
-    let domain = Rect::around(Vec2::ZERO, vec2(half, half));
-    let pull = |x: f64, y: f64| vec![Condition::Neumann(x.into()), Condition::Neumann(y.into())];
     let mut set = Discretization::new(BaseCells::Level(level));
     set.order = PolynomialOrder::Uniform(order);
-    let mut problem = ProblemData::elasticity(domain, MATERIAL, set)
-        .with_boundary(DomainEdge::Bottom, pull(0.0, -1.0))
-        .with_boundary(DomainEdge::Top, pull(0.0, 1.0));
-    if all_round {
-        problem = problem
-            .with_boundary(DomainEdge::Left, pull(-1.0, 0.0))
-            .with_boundary(DomainEdge::Right, pull(1.0, 0.0));
-    }
+    let problem = pulled(ProblemData::elasticity(square(half), MATERIAL, set));
+    let sides: &[_] = if all_round { &[DomainEdge::Left, DomainEdge::Right] } else { &[] };
+    let problem = stressed(problem, [1.0, 0.0, 0.0], sides);
     lines.iter().fold(problem, |problem, line| problem.with_crack(line))
 }
 
 /// K_I and K_II of all tips.
 fn factors(problem: &ProblemData) -> Vec<[f64; 2]> {
-    let dataset = solved(problem);
-    dataset.steps[0].intensities.iter().map(|tip| [tip.k1, tip.k2]).collect()
+    support::factors(&solved(problem))
 }
 
 fn polar(radius: f64, angle: f64) -> [f64; 2] {

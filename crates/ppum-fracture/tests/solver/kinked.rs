@@ -2,37 +2,23 @@
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization};
 use crate::studies::support::solved;
+use crate::support::{apart, factors, square, stressed};
 use ppum::crack::{End, TipId};
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, vec2};
 use ppum_fracture::intensity::{clearance, on_circle};
-use ppum_problem::{BaseCells, BoundaryPart, Condition, Discretization, DomainEdge, ProblemData};
-
-const PLATE: Rect = Rect::new(vec2(-2.0, -2.0), vec2(2.0, 2.0));
+use ppum_problem::{BaseCells, BoundaryPart, Discretization, DomainEdge, ProblemData};
 
 /// A cracked plate under normal tractions of the given sizes along x and along y.
 fn pulled(domain: Rect, points: &[[f64; 2]], [x, y]: [f64; 2], set: Discretization) -> ProblemData {
-    let load = |x: f64, y: f64| vec![Condition::Neumann(x.into()), Condition::Neumann(y.into())];
-    ProblemData::elasticity(domain, MATERIAL, set)
-        .with_crack(points)
-        .with_boundary(DomainEdge::Left, load(-x, 0.0))
-        .with_boundary(DomainEdge::Right, load(x, 0.0))
-        .with_boundary(DomainEdge::Bottom, load(0.0, -y))
-        .with_boundary(DomainEdge::Top, load(0.0, y))
-}
-
-fn factors(dataset: &Dataset) -> Vec<[f64; 2]> {
-    dataset.steps[0].intensities.iter().map(|tip| [tip.k1, tip.k2]).collect()
+    let plate = ProblemData::elasticity(domain, MATERIAL, set).with_crack(points);
+    stressed(plate, [x, y, 0.0], &DomainEdge::ALL)
 }
 
 fn circle(dataset: &Dataset, end: End, radius: f64) -> TipIntensity {
     let tip = TipId { crack: 0, end };
     on_circle(dataset, 0, tip, radius, None, unwatched()).expect("room")
-}
-
-fn apart(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1]) / b[0].hypot(b[1])
 }
 
 /// Vertices on a straight crack change nothing but rounding: the discs go on beyond them.
@@ -42,7 +28,7 @@ fn vertices_on_a_straight_crack() {
     let solution = |parts: &[f64]| {
         let points: Vec<[f64; 2]> =
             parts.iter().map(|s| (from + (to - from) * *s).into()).collect();
-        solved(&pulled(PLATE, &points, [0.3, 1.0], discretization(BaseCells::Level(4), 2)))
+        solved(&pulled(square(2.0), &points, [0.3, 1.0], discretization(BaseCells::Level(4), 2)))
     };
     let straight = solution(&[0.0, 1.0]);
     let divided = solution(&[0.0, 0.1, 0.15, 0.5, 0.83, 0.97, 1.0]);
@@ -117,8 +103,8 @@ fn the_radius_that_is_allowed() {
 fn pressure_on_faces_behind_kinks() {
     let points = [[-0.5, 0.1], [-0.2, -0.05], [0.1, 0.0], [0.45, 0.25]];
     let set = || discretization(BaseCells::Level(4), 2);
-    let pulled_out = factors(&solved(&pulled(PLATE, &points, [1.0, 1.0], set())));
-    let pressed = pulled(PLATE, &points, [0.0, 0.0], set())
+    let pulled_out = factors(&solved(&pulled(square(2.0), &points, [1.0, 1.0], set())));
+    let pressed = pulled(square(2.0), &points, [0.0, 0.0], set())
         .with_pressure(BoundaryPart::Crack { crack: 0, face: None }, 1.0);
     let dataset = solved(&pressed);
     let without = circle(&dataset, End::Last, 0.5);

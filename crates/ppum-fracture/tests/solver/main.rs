@@ -45,6 +45,7 @@ mod sides;
 mod slivers;
 #[path = "../studies/mod.rs"]
 mod studies;
+mod support;
 mod supports;
 mod tip_terms;
 mod visible;

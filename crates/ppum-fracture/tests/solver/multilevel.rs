@@ -4,6 +4,7 @@
 //! Covers have at least 3,000 unknowns, below which a system is its own coarsest level.
 
 use crate::studies::support::{checked, parsed, record, solved, unknowns};
+use crate::support::TENSION;
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, WarningKind};
 use ppum::field::Field;
@@ -20,7 +21,6 @@ use ppum_testkit::random::Random;
 const HEAD: &str = "[domain]\nmin = [-1.0, -1.0]\nmax = [1.0, 1.0]\n";
 const STEEL: &str = "[material]\nyoung = 1.0\npoisson = 0.3\nstate = \"plane-strain\"\n";
 /// Pure traction: three free motions.
-const PULLED: &str = "[[boundary]]\non = \"bottom\"\ntraction = [0.0, -1.0]\n[[boundary]]\non = \"top\"\ntraction = [0.0, 1.0]\n";
 const HELD: &str = "[[boundary]]\non = \"bottom\"\ndisplacement = [0.0, 0.0]\n[[boundary]]\non = \"top\"\ntraction = [0.3, 1.0]\n";
 
 fn crack(points: &str) -> String {
@@ -118,14 +118,14 @@ fn assert_bounded(text: &str, level: u32, order: usize) {
 #[test]
 fn steps_do_not_grow_with_the_level() {
     let middle = crack("[[-0.5, 0.013], [0.5, 0.013]]");
-    assert_bounded(&format!("{HEAD}{STEEL}{PULLED}{middle}"), 4, 2);
+    assert_bounded(&format!("{HEAD}{STEEL}{TENSION}{middle}"), 4, 2);
 }
 
 #[test]
 #[ignore = "slow: level 6"]
 fn steps_do_not_grow_up_to_level_six() {
     let middle = crack("[[-0.5, 0.013], [0.5, 0.013]]");
-    for text in [HELD.to_owned(), format!("{PULLED}{middle}")] {
+    for text in [HELD.to_owned(), format!("{TENSION}{middle}")] {
         assert_bounded(&format!("{HEAD}{STEEL}{text}"), 5, 1);
     }
 }
@@ -133,7 +133,7 @@ fn steps_do_not_grow_up_to_level_six() {
 #[test]
 fn uniform_covers() {
     agree("held", &parse(&format!("{HEAD}{STEEL}{HELD}"), 4, 2));
-    agree("pure traction", &parse(&format!("{HEAD}{STEEL}{PULLED}"), 4, 3));
+    agree("pure traction", &parse(&format!("{HEAD}{STEEL}{TENSION}"), 4, 3));
     let wide = "[domain]\nmin = [0.0, 0.0]\nmax = [5.0, 1.0]\n";
     let strip = format!("{wide}{STEEL}{HELD}[discretization]\ncells = [51, 13]\norder = 1\n");
     let strip = parsed(&strip);
@@ -150,21 +150,24 @@ fn branch() -> String {
 #[test]
 fn cracks() {
     let two = crack("[[-0.6, -0.11], [0.4, 0.12]]") + &crack("[[0.02, -0.5], [-0.03, 0.45]]");
-    agree("two that cross", &parse(&format!("{HEAD}{STEEL}{PULLED}{two}"), 4, 1));
+    agree("two that cross", &parse(&format!("{HEAD}{STEEL}{TENSION}{two}"), 4, 1));
     agree("a branch", &parse(&format!("{HEAD}{STEEL}{HELD}{}", branch()), 4, 2));
 }
 
 #[test]
 #[ignore = "slow: free motions at order 2"]
 fn free_cracks() {
-    agree("a branch in pure traction", &parse(&format!("{HEAD}{STEEL}{PULLED}{}", branch()), 4, 2));
+    agree(
+        "a branch in pure traction",
+        &parse(&format!("{HEAD}{STEEL}{TENSION}{}", branch()), 4, 2),
+    );
     let star: String = (0..5)
         .map(|k| {
             let (y, x) = (0.3 + 0.4 * std::f64::consts::PI * f64::from(k)).sin_cos();
             crack(&format!("[[0.01, 0.02], [{}, {}]]", 0.01 + 0.5 * x, 0.02 + 0.5 * y))
         })
         .collect();
-    agree("a star in pure traction", &parse(&format!("{HEAD}{STEEL}{PULLED}{star}"), 4, 2));
+    agree("a star in pure traction", &parse(&format!("{HEAD}{STEEL}{TENSION}{star}"), 4, 2));
     let through = crack("[[-1.0, 0.013], [1.0, 0.013]]");
     let ends = "[[boundary]]\non = \"left\"\ntraction = [-1.0, 0.0]\n[[boundary]]\non = \"right\"\n\
                 traction = [1.0, 0.0]\n";
@@ -197,7 +200,7 @@ fn junctions_cost_no_steps_on_fine_covers() {
 #[test]
 fn holes_and_other_equations() {
     let hole = "[[hole]]\ncenter = [0.13, -0.07]\nradius = 0.31\n";
-    agree("a hole", &parse(&format!("{HEAD}{STEEL}{PULLED}{hole}"), 4, 1));
+    agree("a hole", &parse(&format!("{HEAD}{STEEL}{TENSION}{hole}"), 4, 1));
     let slit = "[equation]\nkind = \"poisson\"\n[source]\nvalue = \"x + 2\"\n[[boundary]]\non = \"left\"\nvalue = 0.0\n";
     let slit = format!("{HEAD}{slit}{}", crack("[[-0.5, 0.01], [0.5, 0.01]]"));
     agree("a potential", &parse(&slit, 5, 1));
@@ -216,7 +219,7 @@ fn contrast_and_other_weights() {
 /// The bits of a solution on one thread and on three.
 #[test]
 fn threads_do_not_matter() {
-    let text = format!("{HEAD}{STEEL}{PULLED}{}", crack("[[-0.5, 0.013], [0.5, 0.213]]"));
+    let text = format!("{HEAD}{STEEL}{TENSION}{}", crack("[[-0.5, 0.013], [0.5, 0.213]]"));
     let problem = parse(&text, 4, 2);
     let on = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
@@ -270,7 +273,7 @@ fn the_direct_solver_takes_its_place() {
     let between =
         |n: u32| crack(&format!("[[-0.6, {y}], [0.6, {y}]]", y = 0.04 * f64::from(n) - 0.097));
     let cracks: String = (0..6).map(between).collect();
-    let mut problem = parse(&format!("{HEAD}{STEEL}{PULLED}{cracks}"), 4, 3);
+    let mut problem = parse(&format!("{HEAD}{STEEL}{TENSION}{cracks}"), 4, 3);
     let direct = by(SolverKind::Direct, &problem);
     problem.solver.kind = SolverKind::Multilevel;
     let step = &solved(&problem).steps[0];

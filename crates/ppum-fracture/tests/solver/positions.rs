@@ -14,6 +14,7 @@ use ppum_testkit::random::Random;
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization, held};
 use crate::studies::support::{checked, solved};
+use crate::support::{apart, factors};
 
 /// Half the crack's length: three cells.
 const HALF_LENGTH: f64 = 3.0 * CELL;
@@ -86,10 +87,9 @@ impl Position {
 
 /// Largest error of K of both tips, relative to √(K_I² + K_II²).
 fn error_of_k(position: &Position) -> f64 {
-    let [k1, k2] = position.field().intensities();
-    let dataset = solved(&position.problem());
-    let error = |t: &ppum::dataset::TipIntensity| (t.k1 - k1).hypot(t.k2 - k2) / k1.hypot(k2);
-    dataset.steps[0].intensities.iter().map(error).fold(0.0, f64::max)
+    let exact = position.field().intensities();
+    let found = factors(&solved(&position.problem())).into_iter();
+    found.map(|k| apart(k, exact)).fold(0.0, f64::max)
 }
 
 fn condition(problem: &ProblemData) -> f64 {

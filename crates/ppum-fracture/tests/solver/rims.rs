@@ -1,12 +1,13 @@
 //! Stresses at the rims of holes in the cells that the program chooses, at the default order.
 
 use crate::studies::support::{checked, solved};
+use crate::support::{self, square};
 use ppum::crack::Side;
 use ppum::dataset::{Dataset, Material, StressState, WarningKind};
 use ppum::domain::{Domain, Hole};
 use ppum::field::Field;
 use ppum::quantity::{Axis, Quantity};
-use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::vec2::{Vec2, vec2};
 use ppum_problem::{
     BaseCells, Condition, Discretization, DomainEdge, Expression, LocalRefinement, PolynomialOrder,
     ProblemData, RefinementRegion,
@@ -19,10 +20,6 @@ const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressSta
 
 /// Part of the largest stress that stresses at rims may be off by.
 const AIM: f64 = 0.01;
-
-fn square(half: f64) -> Rect {
-    Rect::new(vec2(-half, -half), vec2(half, half))
-}
 
 fn tractions(field: &RoundHole, edge: DomainEdge) -> Vec<Condition> {
     let n = edge.normal();
@@ -148,10 +145,8 @@ fn pulled(holes: Numbers<'_>, level: u32) -> ProblemData {
         radius: *radius,
     };
     let domain = Domain { bounds: square(1.0), holes: holes.iter().map(hole).collect() };
-    let load = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-    ProblemData::elasticity(domain, MATERIAL, Discretization::new(BaseCells::Level(level)))
-        .with_boundary(DomainEdge::Bottom, load(-1.0))
-        .with_boundary(DomainEdge::Top, load(1.0))
+    let set = Discretization::new(BaseCells::Level(level));
+    support::pulled(ProblemData::elasticity(domain, MATERIAL, set))
 }
 
 /// Asserts values of σ_yy by finite elements of order 10 (NGSolve 6.2.2608, geometric meshes),

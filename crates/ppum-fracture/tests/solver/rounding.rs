@@ -3,24 +3,22 @@
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization};
 use crate::studies::support::{checked, solved};
+use crate::support::pulled;
 use ppum::dataset::Step;
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::growth::series;
-use ppum_problem::{BaseCells, Condition, DomainEdge, GrowthRule, Paris, ProblemData};
+use ppum_problem::{BaseCells, GrowthRule, Paris, ProblemData};
 use ppum_testkit::random::Random;
 
 type Lines = Vec<Vec<Vec2>>;
 
 /// In coarse cells, which cracks refine or not.
 fn plate(lines: &Lines, shift: Vec2, refine: bool) -> ProblemData {
-    let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
     let domain = Rect::new(SQUARE.min + shift, SQUARE.max + shift);
     let mut set = discretization(BaseCells::Level(3), 1);
     set.refine = refine;
-    let plate = ProblemData::elasticity(domain, MATERIAL, set)
-        .with_boundary(DomainEdge::Bottom, pull(-1.0))
-        .with_boundary(DomainEdge::Top, pull(1.0));
+    let plate = pulled(ProblemData::elasticity(domain, MATERIAL, set));
     lines.iter().fold(plate, |plate, line| {
         let points: Vec<[f64; 2]> = line.iter().map(|p| (*p + shift).into()).collect();
         plate.with_crack(&points)

@@ -10,12 +10,13 @@ use ppum::progress::unwatched;
 use ppum::vec2::{Vec2, vec2};
 use ppum::weight::WeightFunction;
 use ppum_fracture::diagnostics::{FEW_DIGITS, recompute, rounding};
-use ppum_problem::{BaseCells, Condition, DomainEdge, ProblemData};
+use ppum_problem::{BaseCells, ProblemData};
 use ppum_testkit::extended::{ExtendedField, point};
 use ppum_testkit::random::Random;
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization};
 use crate::studies::support::solved;
+use crate::support::pulled;
 
 /// Cells along an edge of [−1, 1]², and the half-size of a patch.
 const CELLS: u32 = 8;
@@ -32,11 +33,7 @@ fn centre() -> Vec2 {
 fn cracked(weight: &str, order: usize, crack: &[[f64; 2]]) -> ProblemData {
     let mut set = discretization(BaseCells::Grid([CELLS; 2]), order);
     set.weight = WeightFunction::from_library(weight).expect("of the library");
-    let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-    ProblemData::elasticity(SQUARE, MATERIAL, set)
-        .with_crack(crack)
-        .with_boundary(DomainEdge::Bottom, pull(-1.0))
-        .with_boundary(DomainEdge::Top, pull(1.0))
+    pulled(ProblemData::elasticity(SQUARE, MATERIAL, set).with_crack(crack))
 }
 
 /// One whose crack leaves `part` of the patch beyond it, in its upper right corner.
@@ -79,7 +76,8 @@ fn assert_twelve_digits<'a>(cases: impl Iterator<Item = (&'a str, usize)>) {
         let angle = random.between(0.3, 1.27);
         let dataset = solved(&plate(weight, order, part, angle));
         let error = measured(&dataset, &mut random);
-        let reported = rounding(&dataset, 0).expect("a field").largest;
+        let reported =
+            rounding(&Field::new(&dataset, 0).expect("a field")).expect("a field").largest;
         println!("{weight} {order} {part:.0e}: {error:.1e}, reported {reported:.1e}");
         assert!(error < 1e-12, "{weight} {order} {part:e}: {error:e}");
         assert!(error < 10.0 * reported.max(1e-13), "{error:e}, reported {reported:e}");
@@ -100,7 +98,7 @@ fn parts_are_of_the_size_of_the_field() {
         }
         let points: Vec<[f64; 2]> = points.into_iter().map(Into::into).collect();
         let dataset = solved(&cracked(weight, order, &points));
-        let double = rounding(&dataset, 0).expect("a field").largest;
+        let double = rounding(&Field::new(&dataset, 0).expect("a field")).expect("a field").largest;
         let single = double * f64::from(f32::EPSILON) / f64::EPSILON;
         println!("{weight} {order}, {} segments: {single:.1e}", points.len() - 1);
         assert!(single < 1e-3, "{weight} {order} {points:?}: {single:e}");
@@ -150,7 +148,7 @@ fn slivers_of_other_smooth_weights_do_not_change_k() {
 #[test]
 fn coefficients_that_cancel_are_reported_with_their_place() {
     let mut dataset = solved(&plate("linear", 2, 1e-4, 0.7));
-    let before = rounding(&dataset, 0).expect("a field").largest;
+    let before = rounding(&Field::new(&dataset, 0).expect("a field")).expect("a field").largest;
     assert!(before < 1e-10, "{before}");
     let step = &mut dataset.steps[0];
     let patch = step.partition.boxes().center.iter().position(|c| (*c - centre()).length() < 1e-9);

@@ -2,6 +2,7 @@
 
 use crate::studies::exact_fields::{MATERIAL, OBLIQUE, SQUARE, discretization, held};
 use crate::studies::support::solved;
+use crate::support::stressed;
 use ppum::crack::{End, TipId};
 use ppum::dataset::{Dataset, TipIntensity};
 use ppum::progress::unwatched;
@@ -132,16 +133,10 @@ fn loads_with_a_resultant_at_the_tip_have_no_t() {
 }
 
 /// Loads of an invariance: σ_xx, σ_yy, σ_xy on all edges.
-fn plate(domain: Rect, points: &[Vec2], [xx, yy, xy]: [f64; 3], grid: [u32; 2]) -> Dataset {
-    let load = |x: f64, y: f64| vec![Condition::Neumann(x.into()), Condition::Neumann(y.into())];
+fn plate(domain: Rect, points: &[Vec2], stress: [f64; 3], grid: [u32; 2]) -> Dataset {
     let points: Vec<[f64; 2]> = points.iter().map(|&p| p.into()).collect();
-    let plate = ProblemData::elasticity(domain, MATERIAL, discretization(BaseCells::Grid(grid), 2))
-        .with_crack(&points)
-        .with_boundary(DomainEdge::Left, load(-xx, -xy))
-        .with_boundary(DomainEdge::Right, load(xx, xy))
-        .with_boundary(DomainEdge::Bottom, load(-xy, -yy))
-        .with_boundary(DomainEdge::Top, load(xy, yy));
-    solved(&plate)
+    let plate = ProblemData::elasticity(domain, MATERIAL, discretization(BaseCells::Grid(grid), 2));
+    solved(&stressed(plate.with_crack(&points), stress, &DomainEdge::ALL))
 }
 
 /// [K_I, K_II, T] and J of both tips.

@@ -5,7 +5,7 @@ use std::sync::Mutex;
 use crate::studies::support::{checked, parsed};
 use ppum::dataset::Dataset;
 use ppum::progress::{Cancelled, Phase, Progress, Verdict, Watcher, unwatched};
-use ppum_fracture::diagnostics::{RecomputeError, recompute};
+use ppum_fracture::diagnostics::recompute;
 use ppum_fracture::solve::{
     EigenError, LinearError, Plan, SolveError, UnbalancedError, solve, spectrum,
 };
@@ -151,7 +151,7 @@ fn other_long_calls_can_be_cancelled() {
     for at in [1, 20] {
         let watcher = Stopper::new(Some((Phase::Intensity, at)));
         let found = recompute(&dataset, 0, Some(&checked(&problem)), &watcher);
-        assert!(matches!(found, Err(RecomputeError::Cancelled(Cancelled))), "{at}");
+        assert!(matches!(found, Err(SolveError::Cancelled(Cancelled))), "{at}");
         assert!(watcher.heard().len() < at + 16);
     }
     for (phase, at) in PHASES.into_iter().take(4).zip([3, 10, 10, 5]) {
@@ -183,7 +183,6 @@ ppum_testkit::errors_cross_threads!(
     LinearError,
     EigenError,
     UnbalancedError,
-    RecomputeError,
     ProblemError,
     OrderError,
 );

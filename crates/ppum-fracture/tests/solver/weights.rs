@@ -4,12 +4,11 @@ use ppum::cover::OVERLAP;
 use ppum::library::WEIGHTS;
 use ppum::vec2::vec2;
 use ppum::weight::WeightFunction;
-use ppum_problem::{
-    BaseCells, Condition, Discretization, DomainEdge, PolynomialOrder, ProblemData,
-};
+use ppum_problem::{BaseCells, Discretization, PolynomialOrder, ProblemData};
 
 use crate::studies::exact_fields::{MATERIAL, SQUARE, discretization, held};
 use crate::studies::support::{errors, solved};
+use crate::support::pulled;
 
 /// Error of the displacement (0.3 (x² − c y²) + x − y/2, 0.7 x + y), which with c = (λ + 2μ)/μ
 /// needs no body force and is in the space: only quadrature is in the way.
@@ -45,12 +44,9 @@ fn k_is_right_at_the_bounds_of_the_overlap() {
     for alpha in [*OVERLAP.start(), *OVERLAP.end()] {
         let mut set = Discretization::new(BaseCells::Level(2));
         (set.order, set.overlap) = (PolynomialOrder::Uniform(4), alpha);
-        let pull = |t: f64| vec![Condition::Neumann(0.0.into()), Condition::Neumann(t.into())];
-        let problem = ProblemData::elasticity(SQUARE, MATERIAL, set)
-            .with_crack(&[[-0.5, 0.0], [0.5, 0.0]])
-            .with_boundary(DomainEdge::Bottom, pull(-1.0))
-            .with_boundary(DomainEdge::Top, pull(1.0));
-        for tip in &solved(&problem).steps[0].intensities {
+        let crack = [[-0.5, 0.0], [0.5, 0.0]];
+        let problem = ProblemData::elasticity(SQUARE, MATERIAL, set).with_crack(&crack);
+        for tip in &solved(&pulled(problem)).steps[0].intensities {
             let error = (tip.k1 / 1.671_560_3 - 1.0).hypot(tip.k2);
             println!("α = {alpha}: K off by {error:.1e}");
             assert!(error < 2e-5, "α = {alpha}: {error}");

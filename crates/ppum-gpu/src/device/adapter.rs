@@ -29,10 +29,9 @@ pub struct AdapterInfo {
 /// The adapters of this machine, in the order of the drivers. Empty if there is no driver.
 ///
 /// OpenGL is left out: it cannot draw to 32-bit floats everywhere. Takes some ten milliseconds.
-#[cfg(not(target_arch = "wasm32"))]
 #[must_use]
 pub fn adapters() -> Vec<AdapterInfo> {
-    pollster::block_on(enumerate()).iter().map(info).collect()
+    enumerate().iter().map(info).collect()
 }
 
 /// An instance without the validation layers of drivers, so that debug builds behave as others do.
@@ -44,18 +43,16 @@ fn instance() -> wgpu::Instance {
     })
 }
 
-#[cfg(not(target_arch = "wasm32"))]
-async fn enumerate() -> Vec<Adapter> {
-    instance().enumerate_adapters(Backends::PRIMARY).await
+fn enumerate() -> Vec<Adapter> {
+    pollster::block_on(instance().enumerate_adapters(Backends::PRIMARY))
 }
 
 /// The best adapter of a choice.
-#[cfg(not(target_arch = "wasm32"))]
-pub(crate) async fn choose(choice: AdapterChoice) -> Result<Adapter, GpuError> {
+pub(crate) fn choose(choice: AdapterChoice) -> Result<Adapter, GpuError> {
     if choice == AdapterChoice::Real && !may_have_card() {
         return Err(GpuError::NoAdapter { choice });
     }
-    let mut adapters = enumerate().await;
+    let mut adapters = enumerate();
     adapters.retain(|adapter| choice.accepts(kind(adapter)) && is_complete(adapter));
     adapters.into_iter().min_by_key(kind).ok_or(GpuError::NoAdapter { choice })
 }
@@ -63,7 +60,6 @@ pub(crate) async fn choose(choice: AdapterChoice) -> Result<Adapter, GpuError> {
 /// False if this machine has no graphics card for sure: drivers need not be opened to find none
 /// then, which takes time and makes them complain. On Linux cards have device nodes, lent ones too
 /// (`dxg` is that of Windows' own virtual machines); elsewhere the drivers have to be asked.
-#[cfg(not(target_arch = "wasm32"))]
 fn may_have_card() -> bool {
     let is_node = |entry: std::io::Result<std::fs::DirEntry>| {
         entry.is_ok_and(|entry| is_node_of_card(&entry.file_name().to_string_lossy()))
@@ -74,22 +70,9 @@ fn may_have_card() -> bool {
 }
 
 /// True for the names of device nodes that drivers of cards open.
-#[cfg(not(target_arch = "wasm32"))]
 fn is_node_of_card(name: &str) -> bool {
     const STARTS: [&str; 6] = ["renderD", "card", "nvidia", "dxg", "mali", "kgsl"];
     STARTS.iter().any(|start| name.starts_with(start))
-}
-
-/// The adapter the browser thinks the fastest: it tells nobody what there is.
-#[cfg(target_arch = "wasm32")]
-pub(crate) async fn choose(choice: AdapterChoice) -> Result<Adapter, GpuError> {
-    let options = wgpu::RequestAdapterOptions {
-        power_preference: wgpu::PowerPreference::HighPerformance,
-        ..Default::default()
-    };
-    let adapter =
-        instance().request_adapter(&options).await.map_err(|_| GpuError::NoAdapter { choice })?;
-    if is_complete(&adapter) { Ok(adapter) } else { Err(GpuError::NoAdapter { choice }) }
 }
 
 /// True if it has all that WebGPU promises.
@@ -98,7 +81,6 @@ fn is_complete(adapter: &Adapter) -> bool {
         && adapter.get_downlevel_capabilities().is_webgpu_compliant()
 }
 
-#[cfg(not(target_arch = "wasm32"))]
 fn kind(adapter: &Adapter) -> AdapterKind {
     kind_of(adapter.get_info().device_type)
 }

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use wgpu::{Adapter, Device, DeviceDescriptor, Features, Limits, Queue};
+use wgpu::{Device, DeviceDescriptor, Features, Limits, Queue};
 
 use super::adapter::{self, AdapterInfo};
 use crate::choice::AdapterChoice;
@@ -31,31 +31,19 @@ impl Gpu {
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`], or [`GpuError::Device`] if the driver refuses.
-    #[cfg(not(target_arch = "wasm32"))]
     pub fn open(choice: AdapterChoice) -> Result<Self, GpuError> {
-        pollster::block_on(Self::request(choice))
-    }
-
-    /// Opens the best adapter of a choice; in a browser the one that the browser chooses.
-    ///
-    /// # Errors
-    /// As [`Gpu::open`].
-    pub async fn request(choice: AdapterChoice) -> Result<Self, GpuError> {
-        Self::open_adapter(&adapter::choose(choice).await?).await
-    }
-
-    async fn open_adapter(adapter: &Adapter) -> Result<Self, GpuError> {
+        let adapter = adapter::choose(choice)?;
         let descriptor = DeviceDescriptor {
             label: Some("ppum"),
             required_features: adapter.features() & Features::FLOAT32_BLENDABLE,
             required_limits: limits(&adapter.limits()),
             ..Default::default()
         };
-        let opened = adapter.request_device(&descriptor).await;
+        let opened = pollster::block_on(adapter.request_device(&descriptor));
         let (device, queue) = opened.map_err(|error| device_error("open the device", &error))?;
         let state = Arc::new(DriverState::default());
         watch(&device, &state);
-        Ok(Self { device, queue, info: adapter::info(adapter), state })
+        Ok(Self { device, queue, info: adapter::info(&adapter), state })
     }
 
     /// The adapter that is opened.
@@ -116,7 +104,6 @@ impl Gpu {
     }
 
     /// The result of `f` and the first error in it.
-    #[cfg(not(target_arch = "wasm32"))]
     fn scoped<T>(&self, f: impl FnOnce() -> T) -> (T, Option<wgpu::Error>) {
         use wgpu::ErrorFilter;
         let filters = [ErrorFilter::Internal, ErrorFilter::OutOfMemory, ErrorFilter::Validation];
@@ -129,13 +116,7 @@ impl Gpu {
         (value, errors.into_iter().flatten().next())
     }
 
-    #[cfg(target_arch = "wasm32")]
-    fn scoped<T>(&self, f: impl FnOnce() -> T) -> (T, Option<wgpu::Error>) {
-        (f(), None)
-    }
-
     /// The first complaint of the driver, outside of [`Gpu::checked`], since this was asked last.
-    #[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a page asks later"))]
     pub(crate) fn verdict(&self) -> Result<(), GpuError> {
         let complaint = self.state.complaint.lock().unwrap_or_else(PoisonError::into_inner).take();
         match complaint {

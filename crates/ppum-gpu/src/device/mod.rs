@@ -2,7 +2,6 @@
 
 pub(crate) mod adapter;
 mod gpu;
-#[cfg(not(target_arch = "wasm32"))]
 pub(crate) mod read;
 
 pub use gpu::Gpu;

@@ -30,7 +30,6 @@ impl PixelArea {
     }
 
     /// The first pixel, with these terms.
-    #[cfg(not(target_arch = "wasm32"))]
     pub(crate) fn pixel(others: Others) -> Self {
         Self { rect: [0, 0, 1, 1], others }
     }

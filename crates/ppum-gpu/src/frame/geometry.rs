@@ -7,7 +7,7 @@
 use ppum::crack::{LocalCrack, LocalTip, SegmentId, TipId};
 use ppum::dataset::Step;
 use ppum::domain::{Domain, Hole, LocalRim, LocalSide, PolygonSide};
-use ppum::function::{Cut, CutSide, FunctionKind};
+use ppum::function::{Cut, CutBranch, FunctionKind};
 use ppum::vec2::{Vec2, vec2};
 
 use crate::error::GpuError;
@@ -88,7 +88,7 @@ pub(crate) fn constants() -> String {
         ("HOLE_SIDE_PAIRS", SIDE),
     ];
     let lengths = lengths.iter().map(|(name, length)| format!("const {name} = {length}u;\n"));
-    let inside = format!("const INDICATOR_INSIDE = {}.0;\n", CutSide::Inside.number());
+    let inside = format!("const INDICATOR_INSIDE = {}.0;\n", CutBranch::Inside.number());
     lengths.chain([inside]).collect()
 }
 

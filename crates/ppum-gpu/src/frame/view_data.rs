@@ -47,10 +47,8 @@ record! {
         n_holes: u32,
         /// The first texel of the bins' nodes in the region.
         nodes: u32,
-        /// The patch whose φ is wanted, by the address of its body.
+        /// The patch whose φ is drawn, by the address of its body.
         chosen: u32,
-        /// The component that is wanted.
-        component: u32,
         /// Colours: the kind of scale, its range and numbers.
         scale: u32,
         range_min: f32,

@@ -19,11 +19,11 @@ use output::{Colors, Output};
 use pipelines::Pipelines;
 
 /// A quantity of a scene compiled for the card, returned by
-/// [`Renderer::compile`](crate::Renderer::compile). It yields `O`: [`Values`](crate::Values),
-/// [`Colors`] or [`Derivatives`](crate::Derivatives).
+/// [`Renderer::compile`](crate::Renderer::compile). It yields `O`: [`Values`](crate::Values) or
+/// [`Colors`].
 ///
-/// When functions of the dataset are replaced, compile another program for the scene
-/// [with these functions](Scene::with_functions_of); this one keeps drawing the old ones.
+/// When functions of the dataset are replaced, upload the new field and compile another program;
+/// this one keeps drawing the old ones.
 ///
 /// The type of an image is that of its program's output; reading another type does not compile:
 ///
@@ -47,9 +47,9 @@ impl<'f, O: Output> Program<'f, O> {
     /// Composes the program; pipelines are made when they are needed.
     pub(crate) fn new(scene: &Scene<'f>, output: O, method: Method) -> Result<Self, RenderError> {
         let (scene, field) = (scene.clone(), scene.field());
-        output.check(field)?;
-        let wanted = (&output.quantity(), output.order());
-        let shader = ShaderText::new(scene.groups(), field, wanted, method, O::FINISH)?;
+        let quantity = output.quantity();
+        quantity.check(field)?;
+        let shader = ShaderText::new(scene.groups(), field, &quantity, method, O::FINISH)?;
         Ok(Self { scene, output, shader, pipelines: None })
     }
 

@@ -2,9 +2,9 @@
 
 use wgpu::{
     BindGroupLayout, BindGroupLayoutDescriptor, BindGroupLayoutEntry, BindingType, BlendComponent,
-    BlendFactor, BlendOperation, BlendState, BufferBindingType, ColorTargetState, ColorWrites,
-    RenderPipeline, ShaderStages, TextureFormat, TextureSampleType, TextureViewDimension,
-    VertexAttribute, VertexBufferLayout, VertexFormat, VertexStepMode,
+    BlendFactor, BlendState, BufferBindingType, ColorTargetState, ColorWrites, RenderPipeline,
+    ShaderStages, TextureSampleType, TextureViewDimension, VertexAttribute, VertexBufferLayout,
+    VertexFormat, VertexStepMode,
 };
 
 use crate::device::Gpu;
@@ -56,18 +56,6 @@ pub(crate) struct PipelineBuilder<'a> {
     pub(crate) data: &'a BindGroupLayout,
 }
 
-/// The properties in which pipelines differ.
-struct PipelineKey<'a> {
-    text: &'a str,
-    vertex: &'a str,
-    fragment: &'a str,
-    /// Instances of quads are drawn, else one triangle that covers the image.
-    has_quads: bool,
-    targets: Vec<Option<ColorTargetState>>,
-    /// The layout of group 1, if there is one.
-    textures: Option<&'a BindGroupLayout>,
-}
-
 impl PipelineBuilder<'_> {
     /// The pass that makes the output; `textures` is the layout of group 1.
     pub(crate) fn finish(
@@ -76,15 +64,8 @@ impl PipelineBuilder<'_> {
         text: &str,
         textures: &BindGroupLayout,
     ) -> Result<RenderPipeline, GpuError> {
-        let target = |&format: &TextureFormat| Some(format.into());
-        self.pipeline(&PipelineKey {
-            text,
-            vertex: "cover",
-            fragment: finish.entry,
-            has_quads: false,
-            targets: finish.formats.iter().map(target).collect(),
-            textures: Some(textures),
-        })
+        let target = Some(finish.format.into());
+        self.pipeline(text, ["cover", finish.entry], &[], &[target], Some(textures))
     }
 
     /// A pass that draws quads and adds up what they write.
@@ -95,31 +76,35 @@ impl PipelineBuilder<'_> {
         targets: u32,
         textures: Option<&BindGroupLayout>,
     ) -> Result<RenderPipeline, GpuError> {
-        let add = BlendComponent {
-            src_factor: BlendFactor::One,
-            dst_factor: BlendFactor::One,
-            operation: BlendOperation::Add,
-        };
+        let add = BlendComponent { dst_factor: BlendFactor::One, ..BlendComponent::REPLACE };
         let blend = Some(BlendState { color: add, alpha: add });
         let target = ColorTargetState { format: SUMS, blend, write_mask: ColorWrites::ALL };
         let targets = vec![Some(target); targets as usize];
-        let vertex = "splat_quad";
-        self.pipeline(&PipelineKey { text, vertex, fragment, has_quads: true, targets, textures })
-    }
-
-    fn pipeline(self, pass: &PipelineKey<'_>) -> Result<RenderPipeline, GpuError> {
-        let module = self.gpu.shader("compile the shader", pass.text)?;
-        let device = self.gpu.device();
-        let groups = [Some(self.data), pass.textures];
         let attributes = attributes();
         let quads = [Some(VertexBufferLayout {
             array_stride: QUAD_BYTES,
             step_mode: VertexStepMode::Instance,
             attributes: &attributes,
         })];
-        let topology = match pass.has_quads {
-            true => wgpu::PrimitiveTopology::TriangleStrip,
-            false => wgpu::PrimitiveTopology::TriangleList,
+        self.pipeline(text, ["draw_quad", fragment], &quads, &targets, textures)
+    }
+
+    /// A pipeline of two functions of a text: it draws the instances of a buffer, or without one a
+    /// triangle that covers the image.
+    fn pipeline(
+        self,
+        text: &str,
+        [vertex, fragment]: [&str; 2],
+        buffers: &[Option<VertexBufferLayout<'_>>],
+        targets: &[Option<ColorTargetState>],
+        textures: Option<&BindGroupLayout>,
+    ) -> Result<RenderPipeline, GpuError> {
+        let module = self.gpu.shader("compile the shader", text)?;
+        let device = self.gpu.device();
+        let groups = [Some(self.data), textures];
+        let topology = match buffers {
+            [] => wgpu::PrimitiveTopology::TriangleList,
+            _ => wgpu::PrimitiveTopology::TriangleStrip,
         };
         let compilation_options = wgpu::PipelineCompilationOptions {
             constants: &[],
@@ -127,27 +112,27 @@ impl PipelineBuilder<'_> {
         };
         self.gpu.checked("make the pipeline", || {
             let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-                label: Some(pass.fragment),
+                label: Some(fragment),
                 bind_group_layouts: &groups,
                 immediate_size: 0,
             });
             device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(pass.fragment),
+                label: Some(fragment),
                 layout: Some(&layout),
                 vertex: wgpu::VertexState {
                     module: &module,
-                    entry_point: Some(pass.vertex),
+                    entry_point: Some(vertex),
                     compilation_options: compilation_options.clone(),
-                    buffers: if pass.has_quads { &quads } else { &[] },
+                    buffers,
                 },
                 primitive: wgpu::PrimitiveState { topology, ..Default::default() },
                 depth_stencil: None,
                 multisample: wgpu::MultisampleState::default(),
                 fragment: Some(wgpu::FragmentState {
                     module: &module,
-                    entry_point: Some(pass.fragment),
+                    entry_point: Some(fragment),
                     compilation_options,
-                    targets: &pass.targets,
+                    targets,
                 }),
                 multiview_mask: None,
                 cache: None,

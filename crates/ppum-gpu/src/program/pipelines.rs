@@ -10,7 +10,7 @@ use crate::device::Gpu;
 use crate::error::GpuError;
 use crate::scene::SceneLayout;
 use crate::shader::compose::{ShaderText, ShaderVariant};
-use crate::shader::passes::{FieldPass, Method, Slots};
+use crate::shader::passes::Slots;
 
 /// Sampled textures that WebGPU promises to a shader.
 const MOST_TEXTURES: u32 = 16;
@@ -28,18 +28,18 @@ pub(crate) struct Pipelines {
     /// Group 1 of the last pass: what was splatted, and the palette.
     pub(crate) textures: BindGroupLayout,
     /// The passes of splatting.
-    pub(crate) splat: Option<SplatPasses>,
+    pub(crate) passes: Option<SumPasses>,
     /// The last pass; of gathering one for each kind of area.
     pub(crate) finish: BTreeMap<ShaderVariant, RenderPipeline>,
 }
 
 /// The first passes of splatting.
 #[derive(Debug)]
-pub(crate) struct SplatPasses {
+pub(crate) struct SumPasses {
     /// Group 1 where fields are splatted: the sums of weights.
     pub(crate) sums: BindGroupLayout,
     pub(crate) weights: RenderPipeline,
-    /// One for each of the [passes](Slots::passes).
+    /// One for each pair of components.
     pub(crate) fields: Vec<RenderPipeline>,
     pub(crate) slots: Slots,
 }
@@ -51,16 +51,16 @@ impl Pipelines {
         shader: &ShaderText,
         layout: SceneLayout,
     ) -> Result<Self, GpuError> {
-        let slots = (shader.method() == Method::Splat).then(|| shader.slots(layout));
-        slots.map_or(Ok(()), |slots| check_splat(gpu, slots))?;
+        let slots = shader.slots(layout);
+        slots.map_or(Ok(()), |slots| check_sums(gpu, slots))?;
         let sums = slots.map_or(0, Slots::textures);
         let [data, textures] = gpu.checked("describe the bindings", || {
             [data_layout(gpu), textures_layout(gpu, sums + 1)]
         })?;
         let builder = PipelineBuilder { gpu, data: &data };
-        let passes = |slots| SplatPasses::new(builder, shader, layout, slots);
-        let splat = slots.map(passes).transpose()?;
-        Ok(Self { gpu: Arc::clone(gpu), layout, data, textures, splat, finish: BTreeMap::new() })
+        let passes = |slots| SumPasses::new(builder, shader, layout, slots);
+        let passes = slots.map(passes).transpose()?;
+        Ok(Self { gpu: Arc::clone(gpu), layout, data, textures, passes, finish: BTreeMap::new() })
     }
 
     /// True if they are for this device and layout.
@@ -87,11 +87,11 @@ impl Pipelines {
 
     /// Textures that patches are splatted into.
     pub(crate) fn sums(&self) -> usize {
-        self.splat.as_ref().map_or(0, |splat| splat.slots.textures() as usize)
+        self.passes.as_ref().map_or(0, |passes| passes.slots.textures() as usize)
     }
 }
 
-impl SplatPasses {
+impl SumPasses {
     fn new(
         builder: PipelineBuilder<'_>,
         shader: &ShaderText,
@@ -99,18 +99,17 @@ impl SplatPasses {
         slots: Slots,
     ) -> Result<Self, GpuError> {
         let gpu = builder.gpu;
-        let sums = gpu.checked("describe the bindings", || textures_layout(gpu, slots.weights))?;
-        let text = shader.splat(layout, FieldPass::NONE);
-        let weights = builder.quads("splat_weight", &text, slots.weights, None)?;
-        let fields = slots.passes().map(|pass| {
-            let text = shader.splat(layout, pass);
-            builder.quads("splat_field", &text, pass.slots, Some(&sums))
+        let sums = gpu.checked("describe the bindings", || textures_layout(gpu, 1))?;
+        let weights = builder.quads("sum_weight", &shader.sum_pass(layout, 0), 1, None)?;
+        let fields = (0..slots.pairs).map(|pair| {
+            let text = shader.sum_pass(layout, pair);
+            builder.quads("sum_field", &text, slots.per_pair, Some(&sums))
         });
         Ok(Self { weights, fields: fields.collect::<Result<_, _>>()?, sums, slots })
     }
 }
 
-fn check_splat(gpu: &Gpu, slots: Slots) -> Result<(), GpuError> {
+fn check_sums(gpu: &Gpu, slots: Slots) -> Result<(), GpuError> {
     if !gpu.info().blends_floats {
         return Err(GpuError::NoBlending { adapter: gpu.info().name.clone() });
     }

@@ -3,23 +3,17 @@
 pub(crate) mod pending;
 mod targets;
 
-#[cfg(not(target_arch = "wasm32"))]
 use std::collections::BTreeMap;
-#[cfg(not(target_arch = "wasm32"))]
 use std::sync::Arc;
 
 use ppum::field::Field;
-#[cfg(not(target_arch = "wasm32"))]
 use ppum::progress::{Phase, Progress, Watcher};
-#[cfg(not(target_arch = "wasm32"))]
 use ppum::quantity::Quantity;
-#[cfg(not(target_arch = "wasm32"))]
 use ppum_render::raster::Raster;
 use ppum_render::view::View;
 
 use crate::choice::AdapterChoice;
 use crate::device::Gpu;
-#[cfg(not(target_arch = "wasm32"))]
 use crate::device::read;
 use crate::error::{GpuError, RenderError};
 use crate::frame::areas::{PixelArea, areas};
@@ -29,9 +23,7 @@ use crate::frame::shading::TransferFunction;
 use crate::frame::view_data::ViewData;
 use crate::program::Program;
 use crate::program::output::Output;
-#[cfg(not(target_arch = "wasm32"))]
 use crate::program::output::Values;
-#[cfg(not(target_arch = "wasm32"))]
 use crate::scene::bodies::Others;
 use crate::scene::card::Card;
 use crate::scene::{OnCard, Scene};
@@ -45,7 +37,6 @@ use targets::Targets;
 /// view. When the device is lost, the next call opens another one, uploads and compiles again, and
 /// goes on. So it does with scenes and programs of another renderer.
 #[derive(Debug)]
-#[cfg_attr(target_arch = "wasm32", allow(dead_code, reason = "a page opens devices by itself"))]
 pub struct Renderer {
     card: Card,
     choice: AdapterChoice,
@@ -57,7 +48,6 @@ impl Renderer {
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`] if there is none of the choice; see [`Gpu::open`].
-    #[cfg(not(target_arch = "wasm32"))]
     pub fn open(choice: AdapterChoice) -> Result<Self, GpuError> {
         Ok(Self::new(Gpu::open(choice)?, choice))
     }
@@ -117,7 +107,6 @@ impl Renderer {
     ///
     /// # Errors
     /// As [`Renderer::draw`].
-    #[cfg(not(target_arch = "wasm32"))]
     pub fn prepare<O: Output>(
         &mut self,
         program: &mut Program<'_, O>,
@@ -148,7 +137,6 @@ impl Renderer {
     ///
     /// # Errors
     /// See [`RenderError`].
-    #[cfg(not(target_arch = "wasm32"))]
     pub fn render(
         &mut self,
         field: &Field<'_>,
@@ -174,7 +162,6 @@ impl Renderer {
     ///
     /// # Errors
     /// [`GpuError::Device`] for anything that failed meanwhile.
-    #[cfg(not(target_arch = "wasm32"))]
     pub fn wait(&self) -> Result<(), GpuError> {
         read::wait(self.gpu())
     }
@@ -193,17 +180,10 @@ impl Renderer {
         }
     }
 
-    #[cfg(not(target_arch = "wasm32"))]
     fn reopen(&mut self) -> Result<(), GpuError> {
         self.card.gpu = Arc::new(Gpu::open(self.choice)?);
         self.targets = Targets::default();
         Ok(())
-    }
-
-    /// A page opens the next device by itself: it has to wait for it.
-    #[cfg(target_arch = "wasm32")]
-    fn reopen(&mut self) -> Result<(), GpuError> {
-        Err(GpuError::Lost)
     }
 
     fn check_size(&self, view: &View) -> Result<(), GpuError> {
@@ -225,10 +205,9 @@ impl Renderer {
         let mut on_card = scene.on_card();
         on_card.bring(&self.card, &scene, view)?;
         let layout = on_card.layout;
-        let areas = match program.method() {
-            Method::Gather => areas_of(program, &on_card),
-            Method::Splat => vec![PixelArea::whole(view, layout.shape.others)],
-        };
+        let is_gathered = program.method() == Method::Gather;
+        let whole = || vec![PixelArea::whole(view, layout.shape.others)];
+        let areas = if is_gathered { areas_of(program, &on_card) } else { whole() };
         let frame = view_data(&scene, &on_card, program, view)?;
         let palette = program.output().shading().map(TransferFunction::texels);
         let gpu = &self.card.gpu;
@@ -240,9 +219,9 @@ impl Renderer {
             targets.write(gpu, &frame);
             let data = targets.data(gpu, &on_card, pipelines)?;
             let mut encoder = gpu.device().create_command_encoder(&Default::default());
-            if let Some(passes) = &pipelines.splat {
+            if let Some(passes) = &pipelines.passes {
                 let (words, count) = quads(scene.field(), view, &on_card.bodies);
-                targets.splat(gpu, &mut encoder, passes, &data, (&words, count));
+                targets.sum(gpu, &mut encoder, passes, &data, (&words, count));
             }
             let drawn = targets.finish(gpu, &mut encoder, pipelines, (&data, &areas), &O::FINISH);
             gpu.queue().submit([encoder.finish()]);
@@ -252,7 +231,6 @@ impl Renderer {
 }
 
 /// A pixel for each kind of area that a scene may have.
-#[cfg(not(target_arch = "wasm32"))]
 fn pixels_of_all<O: Output>(program: &Program<'_, O>, on_card: &OnCard) -> Vec<PixelArea> {
     let all = on_card.layout.shape.others;
     let mixed = [false, all.constants].into_iter().flat_map(|constants| {
@@ -265,7 +243,6 @@ fn pixels_of_all<O: Output>(program: &Program<'_, O>, on_card: &OnCard) -> Vec<P
 }
 
 /// Stages of [`Renderer::render`].
-#[cfg(not(target_arch = "wasm32"))]
 const STAGES: usize = 4;
 
 /// A view of a scene as shaders read it.
@@ -281,7 +258,6 @@ fn view_data<O: Output>(
     let region = on_card.region()?;
     let mut data = ViewData::new(field, view, geometry, region, on_card.half());
     check_size(data.pairs.len())?;
-    data.record.component = program.output().component().into();
     if let Some(shading) = program.output().shading() {
         shading.note(&mut data.record);
     }

@@ -13,7 +13,7 @@ use crate::frame::areas::PixelArea;
 use crate::frame::shading::PALETTE_TEXELS;
 use crate::frame::view_data::ViewData;
 use crate::layout::bytes;
-use crate::program::pipelines::{Pipelines, SplatPasses};
+use crate::program::pipelines::{Pipelines, SumPasses};
 use crate::scene::OnCard;
 use crate::shader::compose::ShaderVariant;
 use crate::shader::passes::{Finish, SUMS};
@@ -82,22 +82,20 @@ impl Targets {
     }
 
     /// The first two passes of splatting: `count` quads of these words.
-    pub(crate) fn splat(
+    pub(crate) fn sum(
         &mut self,
         gpu: &Gpu,
         encoder: &mut CommandEncoder,
-        SplatPasses { sums, weights, fields, slots }: &SplatPasses,
+        SumPasses { sums, weights, fields, slots }: &SumPasses,
         data: &BindGroup,
         (words, count): (&[u32], u32),
     ) {
         let words = if words.is_empty() { &[0][..] } else { words };
         write(gpu, &mut self.quads, BufferUsages::VERTEX, words);
-        let into = &self.sums[..slots.weights as usize];
+        let (into, others) = self.sums.split_at(1);
         let sums = group(gpu, sums, into.iter().map(BindingResource::TextureView).collect());
         self.add(encoder, (weights, &[data]), into, count);
-        for (pipeline, pass) in fields.iter().zip(slots.passes()) {
-            let first = (slots.weights + pass.first_slot(*slots)) as usize;
-            let into = &self.sums[first..first + pass.slots as usize];
+        for (pipeline, into) in fields.iter().zip(others.chunks(slots.per_pair as usize)) {
             self.add(encoder, (pipeline, &[data, &sums]), into, count);
         }
     }
@@ -112,7 +110,7 @@ impl Targets {
     ) {
         let attachments: Vec<_> = into.iter().map(attachment).collect();
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
-            label: Some("splat"),
+            label: Some("sum"),
             color_attachments: &attachments,
             ..Default::default()
         });
@@ -134,15 +132,14 @@ impl Targets {
         pipelines: &Pipelines,
         (data, areas): (&BindGroup, &[(PixelArea, ShaderVariant)]),
         last_pass: &Finish,
-    ) -> Vec<Texture> {
+    ) -> Texture {
         let palette = self.palette.as_ref().map(|(_, view)| view);
         let summed = self.sums[..pipelines.sums()].iter().chain(palette);
         let resources = summed.map(BindingResource::TextureView).collect();
         let textures = group(gpu, &pipelines.textures, resources);
-        let formats = last_pass.formats.iter();
-        let drawn: Vec<_> = formats.map(|&format| target(gpu, self.size, format)).collect();
-        let views: Vec<_> = drawn.iter().map(|t| t.create_view(&Default::default())).collect();
-        let attachments: Vec<_> = views.iter().map(attachment).collect();
+        let drawn = target(gpu, self.size, last_pass.format);
+        let view = drawn.create_view(&Default::default());
+        let attachments = [attachment(&view)];
         let mut pass = encoder.begin_render_pass(&RenderPassDescriptor {
             label: Some("finish"),
             color_attachments: &attachments,

@@ -14,6 +14,7 @@
 use std::ops::Range;
 
 use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_render::pieces::quarters;
 
 /// The first number of a node with children.
 pub(crate) const INNER: u32 = 1 << 31;
@@ -142,7 +143,7 @@ impl Bins {
         margin: f64,
         depth: u32,
     ) {
-        let quarters = quarters(bin);
+        let quarters = quarters(&bin);
         if may_split(bin, list, patches, margin, depth) {
             let children = quarters.map(|quarter| meeting(quarter, list, patches, margin));
             if children.iter().any(|child| child.len() < list.len()) {
@@ -174,16 +175,6 @@ fn may_split(bin: Rect, list: &[u32], patches: &[BinPatch], margin: f64, depth: 
     let size = bin.size();
     let smallest = list.iter().map(|&p| patches[p as usize].cell).fold(size, Vec2::min);
     size.x > 0.5 * smallest.x && size.y > 0.5 * smallest.y && size.x.min(size.y) > 8.0 * margin
-}
-
-fn quarters(bin: Rect) -> [Rect; 4] {
-    let (min, middle, max) = (bin.min, bin.center(), bin.max);
-    [
-        Rect::new(min, middle),
-        Rect::new(vec2(middle.x, min.y), vec2(max.x, middle.y)),
-        Rect::new(vec2(min.x, middle.y), vec2(middle.x, max.y)),
-        Rect::new(middle, max),
-    ]
 }
 
 /// The patches of a list that meet a bin.

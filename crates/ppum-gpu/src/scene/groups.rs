@@ -191,7 +191,7 @@ pub(crate) fn texts(functions: &[Function], members: &[u32]) -> String {
 mod tests {
     use super::*;
     use ppum::crack::{End, SegmentId, TipId};
-    use ppum::function::{Cut, CutSide};
+    use ppum::function::{Cut, CutBranch};
     use ppum::vec2::Vec2;
     use ppum_testkit::synthetic::Recipe;
 
@@ -228,7 +228,7 @@ mod tests {
     fn like_groups_follow_each_other() {
         let mut functions = Vec::new();
         let (segment, [left, right]) =
-            (SegmentId { crack: 0, segment: 0 }, [CutSide::Inside, CutSide::Outside]);
+            (SegmentId { crack: 0, segment: 0 }, [CutBranch::Inside, CutBranch::Outside]);
         for crack in 0..9 {
             functions.push(Function { name: "side".into(), kind: FunctionKind::Side { crack } });
             let cuts = vec![Cut { segment, left, right }];

@@ -96,20 +96,6 @@ impl<'f> Scene<'f> {
         Ok(Self { field, groups: Arc::new(groups), on_card })
     }
 
-    /// Returns the scene with the functions and the weight of another field, one with
-    /// [replaced](ppum::replace) functions: nothing is uploaded again, and the coefficients are
-    /// those on the card. Linear in the number of patches.
-    ///
-    /// # Errors
-    /// [`GpuError::OtherField`] if the field has other patches, blocks, functions or components.
-    pub fn with_functions_of<'g>(&self, field: &'g Field<'g>) -> Result<Scene<'g>, GpuError> {
-        if field.step.partition.mesh().is_some() || !is_alike(self.field, field) {
-            return Err(GpuError::OtherField);
-        }
-        let (groups, on_card) = (Arc::clone(&self.groups), Arc::clone(&self.on_card));
-        Ok(Scene { field, groups, on_card })
-    }
-
     /// The field whose functions are drawn.
     #[must_use]
     pub fn field(&self) -> &'f Field<'f> {
@@ -204,16 +190,4 @@ fn check_sizes(field: &Field<'_>, groups: &FunctionGroups) -> Result<(), GpuErro
         return Err(GpuError::TooMany { functions, components });
     }
     Ok(())
-}
-
-/// True if two fields differ in nothing but functions, weight and the values of coefficients.
-fn is_alike(a: &Field<'_>, b: &Field<'_>) -> bool {
-    let ((p, q), (d, e)) = ((a.step.partition.boxes(), b.step.partition.boxes()), (a.data, b.data));
-    a.step.functions.len() == b.step.functions.len()
-        && a.components() == b.components()
-        && a.domain == b.domain
-        && a.step.cracks == b.step.cracks
-        && (&p.center, &p.half, &p.origin, &p.scale) == (&q.center, &q.half, &q.origin, &q.scale)
-        && (&d.patch_blocks, &d.block_function) == (&e.patch_blocks, &e.block_function)
-        && d.block_degree == e.block_degree
 }

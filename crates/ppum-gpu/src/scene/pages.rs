@@ -36,9 +36,9 @@ impl HalfExtents {
         let half = partition.half.iter().copied().reduce(Vec2::max)?;
         let level = |own: &Vec2| {
             let level = (half.x / own.x).log2().round();
-            let wanted = half * (-level).exp2();
+            let halved = half * (-level).exp2();
             let near = |a: f64, b: f64| (a - b).abs() <= ROUNDING * b;
-            let fits = level <= MOST_LEVELS && near(own.x, wanted.x) && near(own.y, wanted.y);
+            let fits = level <= MOST_LEVELS && near(own.x, halved.x) && near(own.y, halved.y);
             fits.then_some(level as u8)
         };
         let halvings = partition.half.iter().map(level).collect::<Option<_>>()?;

@@ -8,8 +8,8 @@ use ppum::formula::wgsl_prelude;
 use ppum::quantity::{Quantity, Source};
 
 use super::functions::{FormulaContext, functions_wgsl};
-use super::passes::{FieldPass, Finish, Method, Slots};
-use super::quantity::quantity_wgsl;
+use super::passes::{Finish, Method, Slots};
+use super::quantity::{order_of, quantity_wgsl};
 use super::smooth::{factors, four_constants, straight_smooth};
 use super::texts;
 use super::weight::weight_wgsl;
@@ -30,7 +30,7 @@ use crate::scene::pages::page_texels;
 /// The shaders of a program, except for the layout of the scene they are for.
 #[derive(Clone, Debug)]
 pub(crate) struct ShaderText {
-    /// Derivatives: 0, 1 or 2.
+    /// 1 if slopes are needed, else 0.
     order: u32,
     /// False for quantities of the partition alone.
     has_field: bool,
@@ -76,10 +76,11 @@ impl ShaderText {
     pub(crate) fn new(
         groups: &FunctionGroups,
         field: &Field<'_>,
-        (quantity, order): (&Quantity, u32),
+        quantity: &Quantity,
         method: Method,
         last_pass: Finish,
     ) -> Result<Self, GpuError> {
+        let order = order_of(quantity);
         let (formulas, kernels) = formulas(groups, field, quantity, order)?;
         Ok(Self {
             order,
@@ -106,18 +107,18 @@ impl ShaderText {
     /// All shaders that a scene may need: those of the last pass, then those of splatting.
     pub(crate) fn shaders(&self, layout: SceneLayout) -> Vec<String> {
         let kinds = self.kinds(layout).into_iter().map(|kind| self.finish(layout, kind));
-        let passes = self.slots(layout).passes().filter(|_| self.method == Method::Splat);
-        kinds.chain(passes.map(|pass| self.splat(layout, pass))).collect()
+        let pairs = self.slots(layout).map_or(0, |slots| slots.pairs);
+        kinds.chain((0..pairs).map(|pair| self.sum_pass(layout, pair))).collect()
     }
 
     /// The shader of the last pass, in areas of a kind.
     pub(crate) fn finish(&self, layout: SceneLayout, kind: ShaderVariant) -> String {
-        self.text(layout, kind, FieldPass::NONE)
+        self.text(layout, kind, 0)
     }
 
-    /// A shader of a pass that splats.
-    pub(crate) fn splat(&self, layout: SceneLayout, pass: FieldPass) -> String {
-        self.text(layout, self.kind(layout.shape.others), pass)
+    /// A shader of passes that splat: the weights, and a pair of components.
+    pub(crate) fn sum_pass(&self, layout: SceneLayout, pair: u32) -> String {
+        self.text(layout, self.kind(layout.shape.others), pair)
     }
 
     /// The kind of areas with these terms.
@@ -149,15 +150,15 @@ impl ShaderText {
         kinds
     }
 
-    /// The textures of splatting.
-    pub(crate) fn slots(&self, layout: SceneLayout) -> Slots {
+    /// The textures of sums between passes; none of a single pass.
+    pub(crate) fn slots(&self, layout: SceneLayout) -> Option<Slots> {
         let pairs = if self.has_field { layout.components.count.div_ceil(2) as u32 } else { 0 };
-        let weights = if self.order >= 2 || self.has_part { 2 } else { 1 };
-        Slots { pairs, per_pair: self.order + 1, weights }
+        let slots = Slots { pairs, per_pair: self.order + 1 };
+        (self.method == Method::Splat).then_some(slots)
     }
 
-    /// The whole text of a shader; `pass` is what it splats.
-    fn text(&self, layout: SceneLayout, kind: ShaderVariant, pass: FieldPass) -> String {
+    /// The whole text of a shader; `pair` is the pair of components that it splats.
+    fn text(&self, layout: SceneLayout, kind: ShaderVariant, pair: u32) -> String {
         let mut text = self.constants(layout, kind);
         text += &types(layout);
         text += &structure("View", ViewRecord::MEMBERS, |_| String::new());
@@ -169,14 +170,13 @@ impl ShaderText {
         text += &self.formulas;
         text += &kernel_wgsl(kind);
         text += self.last_pass.text;
-        text += &match self.method {
-            Method::Gather => gather_text(layout) + &factors(layout.components.groups, self.order),
-            Method::Splat => self.splat_text(layout, pass),
+        let slots = self.slots(layout);
+        text += &match slots {
+            None => gather_text(layout) + &factors(layout.components.groups, self.order),
+            Some(slots) => splat_text(layout, slots, pair),
         };
-        text + &palette_binding(match self.method {
-            Method::Gather => 0,
-            Method::Splat => self.slots(layout).textures(),
-        })
+        let binding = slots.map_or(0, Slots::textures);
+        text + &format!("@group(1) @binding({binding}) var palette: texture_2d<f32>;\n")
     }
 
     /// The code that evaluates smooth terms and reads constants.
@@ -228,29 +228,24 @@ impl ShaderText {
         }
         text
     }
+}
 
-    /// Declarations of splatting beside its file: targets, slots, textures.
-    fn splat_text(&self, layout: SceneLayout, pass: FieldPass) -> String {
-        let slots = self.slots(layout);
-        let mut text = texts::SPLAT.to_owned();
-        let location = |k| format!("@location({k}) ");
-        text += &structure("Instance", QuadRecord::MEMBERS, location);
-        let _ = writeln!(text, "const SLOTS: u32 = {}u;", slots.per_pair);
-        let _ = writeln!(text, "const PAIR: u32 = {}u;", pass.pair);
-        text += "fn sample_of(pixel: Pixel) -> Sample { return splatted(pixel); }\n";
-        text += &targets("Weights", slots.weights);
-        text += &weights_of(slots.weights);
-        text += &targets("Fields", pass.slots);
-        text += &fields_of(pass, layout.components.lanes);
-        for k in 0..slots.weights {
-            let _ = writeln!(text, "@group(1) @binding({k}) var weights_{k}: texture_2d<f32>;");
-        }
-        for k in 0..slots.count() {
-            let binding = slots.weights + k;
-            let _ = writeln!(text, "@group(1) @binding({binding}) var field_{k}: texture_2d<f32>;");
-        }
-        text + &field_slot(slots.count())
+/// The file of splatting with its declarations: targets, slots, textures.
+fn splat_text(layout: SceneLayout, slots: Slots, pair: u32) -> String {
+    let mut text = texts::SPLAT.to_owned();
+    let location = |k| format!("@location({k}) ");
+    text += &structure("Instance", QuadRecord::MEMBERS, location);
+    let _ = writeln!(text, "const SLOTS: u32 = {}u;", slots.per_pair);
+    let _ = writeln!(text, "const PAIR: u32 = {pair}u;");
+    text += "fn sample_of(pixel: Pixel) -> Sample { return summed(pixel); }\n";
+    text += &targets("Weights", 1);
+    text += &targets("Fields", slots.per_pair);
+    text += &fields_of(pair, slots.per_pair, layout.components.lanes);
+    let fields = (0..slots.count()).map(|k| format!("field_{k}"));
+    for (binding, name) in ["weights_0".to_owned()].into_iter().chain(fields).enumerate() {
+        let _ = writeln!(text, "@group(1) @binding({binding}) var {name}: texture_2d<f32>;");
     }
+    text + &field_slot(slots.count())
 }
 
 /// `Lanes` and what belongs to it.
@@ -308,10 +303,6 @@ fn kernel_wgsl(kind: ShaderVariant) -> String {
     )
 }
 
-fn palette_binding(binding: u32) -> String {
-    format!("@group(1) @binding({binding}) var palette: texture_2d<f32>;\n")
-}
-
 /// A structure of float targets.
 fn targets(name: &str, count: u32) -> String {
     let member = |k| format!("    @location({k}) target_{k}: vec4<f32>,\n");
@@ -319,35 +310,13 @@ fn targets(name: &str, count: u32) -> String {
     format!("struct {name} {{\n{members}}}\n")
 }
 
-/// The sums of a weight, with the number of patches and the weight of the chosen one.
-fn weights_of(count: u32) -> String {
-    let (second, read) = if count == 2 {
-        (", vec4<f32>(w.xx, w.xy, w.yy, part)", "textureLoad(weights_1, index, 0)")
-    } else {
-        ("", "vec4<f32>()")
-    };
-    format!(
-        "fn weights_of(w: Jet, overlap: f32, part: f32) -> Weights {{
-    return Weights(vec4<f32>(w.v, w.x, w.y, overlap){second});
-}}
-fn second_weights(index: vec2<u32>) -> vec4<f32> {{
-    return {read};
-}}
-"
-    )
-}
-
-/// The output of a pass of two components: slot 0 is value and x, slot 1 y and xx, slot 2 xy
-/// and yy.
-fn fields_of(pass: FieldPass, lanes: usize) -> String {
-    const PAIRS: [[&str; 2]; 3] = [["v", "x"], ["y", "xx"], ["xy", "yy"]];
-    let part = if lanes == 4 && pass.pair % 2 == 1 { "zw" } else { "xy" };
-    let slot = |k: u32| {
-        let [a, b] = PAIRS[(pass.first + k) as usize];
-        format!("vec4<f32>(u.{a}.{part}, u.{b}.{part})")
-    };
-    let all: Vec<String> = (0..pass.slots).map(slot).collect();
-    format!("fn fields_of(u: Jets) -> Fields {{\n    return Fields({});\n}}\n", all.join(", "))
+/// The output of a pass of two components: value and slope by x, then slope by y.
+fn fields_of(pair: u32, slots: u32, lanes: usize) -> String {
+    let part = if lanes == 4 && pair % 2 == 1 { "zw" } else { "xy" };
+    let first = format!("vec4<f32>(u.v.{part}, u.x.{part})");
+    let second = format!("vec4<f32>(u.y.{part}, vec2<f32>())");
+    let all = [first, second][..slots as usize].join(", ");
+    format!("fn fields_of(u: Jets) -> Fields {{\n    return Fields({all});\n}}\n")
 }
 
 /// The texture of a slot; 0 for those of components there are not.

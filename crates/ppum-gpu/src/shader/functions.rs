@@ -14,10 +14,10 @@ use crate::error::GpuError;
 use crate::scene::groups::{FunctionGroups, GroupFrame, texts};
 
 /// Members of a jet, in the order in which formulas give them.
-const MEMBERS: [&str; 6] = ["v", "x", "y", "xx", "xy", "yy"];
+const MEMBERS: [&str; 3] = ["v", "x", "y"];
 
 /// Numbers of a jet by its order.
-const SIZE: [usize; 3] = [1, 3, 6];
+const SIZE: [usize; 2] = [1, 3];
 
 /// The surroundings that a step's formulas are compiled in.
 #[derive(Clone, Copy, Debug)]

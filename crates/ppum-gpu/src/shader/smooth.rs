@@ -9,8 +9,8 @@ use std::fmt::Write;
 
 use ppum::dataset::monomials;
 
-/// Numbers of a jet: v, x, y, xx, xy, yy.
-const MEMBERS: [&str; 6] = ["v", "x", "y", "xx", "xy", "yy"];
+/// Numbers of a jet: v, x, y.
+const MEMBERS: [&str; 3] = ["v", "x", "y"];
 
 /// `smooth_of` for a degree, `lanes` components side by side, and derivatives up to an order.
 pub(crate) fn straight_smooth(degree: usize, lanes: usize, order: u32) -> String {
@@ -30,8 +30,7 @@ pub(crate) fn straight_smooth(degree: usize, lanes: usize, order: u32) -> String
     text += "    var out: Smooth;\n";
     for (member, sum) in MEMBERS.iter().zip(&sums) {
         if let Some(sum) = sum {
-            let factor = if *member == "yy" { "2.0 * " } else { "" };
-            let _ = writeln!(text, "    out.v[0].{member} = {factor}{sum}{};", slopes(member));
+            let _ = writeln!(text, "    out.v[0].{member} = {sum}{};", slopes(member));
         }
     }
     let _ = writeln!(text, "    out.high[0] = {};", slot(count));
@@ -61,7 +60,7 @@ pub(crate) fn four_constants(lanes: usize, groups: usize) -> String {
 /// ```
 pub(crate) fn factors(groups: usize, order: u32) -> String {
     let count = 4 * groups;
-    let members = &MEMBERS[..[1, 3, 6][order as usize]];
+    let members = &MEMBERS[..[1, 3][order as usize]];
     let mut text = "struct Factors {\n    are_there: bool,\n".to_owned();
     for member in members {
         let _ = writeln!(text, "    {member}: array<Lanes, {count}>,");
@@ -117,30 +116,22 @@ struct ShaderLines {
 impl ShaderLines {
     /// The sums over η of sums over ξ, in the order of [`MEMBERS`]; half the last. `coefficient`
     /// gives none for the constant.
-    fn polynomial(&mut self, degree: usize, coefficient: impl Fn(usize) -> Term) -> [Term; 6] {
-        let mut sum: [Term; 6] = Default::default();
+    fn polynomial(&mut self, degree: usize, coefficient: impl Fn(usize) -> Term) -> [Term; 3] {
+        let mut sum: [Term; 3] = Default::default();
         let mut next = 0;
         for row in 0..=degree {
-            let [mut p, mut px, mut pxx]: [Term; 3] = Default::default();
+            let [mut p, mut px]: [Term; 2] = Default::default();
             for _ in 0..=row {
-                if self.order >= 2 {
-                    let twice = px.as_ref().map(|px| format!("2.0 * {px}"));
-                    pxx = self.step(pxx, "xi.x", twice);
-                }
                 if self.order >= 1 {
                     px = self.step(px, "xi.x", p.clone());
                 }
                 p = self.step(p, "xi.x", coefficient(next));
                 next += 1;
             }
-            let [v, x, y, xx, xy, yy] = sum;
-            let higher = self.order >= 2;
-            let yy = if higher { self.step(yy, "xi.y", y.clone()) } else { None };
-            let xy = if higher { self.step(xy, "xi.y", x.clone()) } else { None };
-            let xx = if higher { self.step(xx, "xi.y", pxx) } else { None };
+            let [v, x, y] = sum;
             let y = if self.order >= 1 { self.step(y, "xi.y", v.clone()) } else { None };
             let x = if self.order >= 1 { self.step(x, "xi.y", px) } else { None };
-            sum = [self.step(v, "xi.y", p), x, y, xx, xy, yy];
+            sum = [self.step(v, "xi.y", p), x, y];
         }
         sum
     }

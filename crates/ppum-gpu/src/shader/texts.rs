@@ -55,5 +55,3 @@ pub(crate) const SPLAT: &str = include_str!("wgsl/splat.wgsl");
 pub(crate) const FINISH: &str = include_str!("wgsl/finish.wgsl");
 /// The transfer function.
 pub(crate) const COLOR: &str = include_str!("wgsl/color.wgsl");
-/// A component of a vector as numbers.
-pub(crate) const COMPONENT: &str = include_str!("wgsl/component.wgsl");

@@ -7,15 +7,14 @@ use crate::error::GpuError;
 /// The function of the shader that calls a formula of t: its value, slope and curvature at t = |ξ|
 /// as those of ξ on the support \[−1, 1).
 const OF_FORMULA: &str = "
-fn weight(xi: f32) -> vec3<f32> {
+fn weight(xi: f32) -> vec2<f32> {
     let t = min(abs(xi), 1.0);
     let jet = weight_formula(CALL);
     let within = xi >= -1.0 && xi < 1.0;
     let slope = select(-jet[1], jet[1], xi >= 0.0);
-    return vec3<f32>(
+    return vec2<f32>(
         weight_or_zero(within, max(jet[0], 0.0)),
         weight_or_zero(within, slope),
-        weight_or_zero(within, jet[2]),
     );
 }
 
@@ -35,7 +34,7 @@ pub(crate) fn weight_wgsl(weight: &WeightFunction) -> Result<String, GpuError> {
     let WeightFunction::Formula(formula) = weight else {
         let name = weight.name();
         return Ok(format!(
-            "\nfn weight(xi: f32) -> vec3<f32> {{\n    return weight_{name}(xi);\n}}\n"
+            "\nfn weight(xi: f32) -> vec2<f32> {{\n    return weight_{name}(xi);\n}}\n"
         ));
     };
     let text = formula

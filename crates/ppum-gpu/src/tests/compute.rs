@@ -8,7 +8,7 @@ use crate::{Gpu, GpuError, frame::geometry, shader::texts};
 /// Words of a work group.
 const GROUP: u32 = 64;
 
-/// The point functions with what they need, for the highest order. The text of a test defines
+/// The point functions with what they need, for slopes or without. The text of a test defines
 /// `fn row(k: u32)`, which reads `input(k, i)` and writes `put(k, i, value)`, and perhaps `weight`.
 pub(crate) fn point_functions(order: u32, cracks: u32) -> String {
     let texts: String = texts::POINT_FUNCTIONS.iter().map(|(_, text)| *text).collect();

@@ -1,5 +1,4 @@
-//! Functions and weights replaced while running: a scene stays, and what is drawn is the
-//! replaced field.
+//! Replaced functions and weights: what is drawn is the replaced field.
 
 use std::sync::Arc;
 
@@ -9,7 +8,7 @@ use ppum::field::Field;
 use ppum::formula::Table;
 use ppum::function::{Frame, FunctionKind};
 use ppum::progress::unwatched;
-use ppum_gpu::{GpuError, Method, Renderer, Scene, Values};
+use ppum_gpu::{Method, Renderer, Values};
 use ppum_testkit::synthetic::Recipe;
 
 use crate::{METHODS, bits, check, draw, good, quantity, renderer_or_skip, view, window};
@@ -46,12 +45,11 @@ fn replacements() -> Vec<(&'static str, Dataset)> {
 #[test]
 fn replaced_functions_of_components() {
     let Some(mut renderer) = renderer_or_skip() else { return };
-    let old = Recipe::meeting().dataset();
-    let mut new = old.clone();
+    let mut new = Recipe::meeting().dataset();
     good(new.steps[0].replace_function("component 1", "x*y^2", &[]));
     good(new.steps[0].replace_function("component 2", "side(0)", &[]));
-    let (field, truth) = (good(Field::new(&old, 0)), good(Field::new(&new, 0)));
-    let scene = good(good(renderer.upload(&field)).with_functions_of(&truth));
+    let truth = good(Field::new(&new, 0));
+    let scene = good(renderer.upload(&truth));
     let stress = Values(quantity("von-mises", &truth));
     for method in METHODS {
         let mut program = good(renderer.compile(&scene, stress.clone(), method));
@@ -60,41 +58,30 @@ fn replaced_functions_of_components() {
     }
 }
 
-/// The field that the program is compiled for has other coefficients: those on the card are drawn,
-/// so nothing is uploaded again.
 #[test]
-fn replaced_functions_are_drawn_without_upload() {
+fn replaced_functions_are_drawn() {
     let Some(mut renderer) = renderer_or_skip() else { return };
-    let old = dataset();
-    let field = good(Field::new(&old, 0));
-    let scene = good(renderer.upload(&field));
-    let stress = Values(quantity("von-mises", &field));
     for (k, (what, new)) in replacements().iter().enumerate() {
         let method = METHODS[k % 2];
         let truth = good(Field::new(new, 0));
-        let mut emptied = new.clone();
-        emptied.steps[0].fields[0].coefficients.iter_mut().for_each(|c| c.fill(0.0));
-        let field = good(Field::new(&emptied, 0));
-        let scene = good(scene.with_functions_of(&field));
-        let mut program = good(renderer.compile(&scene, stress.clone(), method));
+        let scene = good(renderer.upload(&truth));
+        let stress = Values(quantity("von-mises", &truth));
+        let mut program = good(renderer.compile(&scene, stress, method));
         let raster = draw(&mut renderer, &mut program, &window());
         check(what, &truth, "von-mises", method, &raster);
     }
 }
 
-/// The device is lost while functions are replaced: the scene comes back with the groups the
+/// The device is lost after functions were replaced: the scene comes back with the groups the
 /// program knows.
 #[test]
 fn replaced_functions_survive_a_loss() {
     let Some(mut renderer) = renderer_or_skip() else { return };
-    let old = dataset();
-    let field = good(Field::new(&old, 0));
-    let scene = good(renderer.upload(&field));
-    let stress = Values(quantity("von-mises", &field));
     for (what, new) in &replacements()[1..3] {
         let truth = good(Field::new(new, 0));
-        let scene = good(scene.with_functions_of(&truth));
-        let mut program = good(renderer.compile(&scene, stress.clone(), Method::Gather));
+        let scene = good(renderer.upload(&truth));
+        let stress = Values(quantity("von-mises", &truth));
+        let mut program = good(renderer.compile(&scene, stress, Method::Gather));
         renderer.gpu().lose();
         let raster = draw(&mut renderer, &mut program, &window());
         check(what, &truth, "von-mises", Method::Gather, &raster);
@@ -130,7 +117,7 @@ fn a_broken_formula_leaves_the_old_picture() {
     let scene = good(renderer.upload(&field));
     let mut program = good(renderer.compile(&scene, stress, Method::Gather));
     let before = bits(&draw(&mut renderer, &mut program, &window()));
-    let message = too_large(&mut renderer, &scene, &dataset);
+    let message = too_large(&mut renderer, &dataset);
     assert!(message.contains("2047"), "{message}");
     let after = bits(&draw(&mut renderer, &mut program, &window()));
     assert!(before == after);
@@ -141,7 +128,7 @@ fn a_broken_formula_leaves_the_old_picture() {
 }
 
 /// The message about a table of 3000 knots.
-fn too_large(renderer: &mut Renderer, scene: &Scene<'_>, dataset: &Dataset) -> String {
+fn too_large(renderer: &mut Renderer, dataset: &Dataset) -> String {
     let x: Vec<f64> = (0..3000).map(f64::from).collect();
     let values = x.iter().map(|x| x.sin()).collect();
     let mut broken = dataset.clone();
@@ -150,21 +137,7 @@ fn too_large(renderer: &mut Renderer, scene: &Scene<'_>, dataset: &Dataset) -> S
     good(broken.steps[0].replace_function("extra", "table(big, x)", &tables));
     let field = good(Field::new(&broken, 0));
     let stress = Values(quantity("von-mises", &field));
-    let scene = good(scene.with_functions_of(&field));
+    let scene = good(renderer.upload(&field));
     let compiled = renderer.compile(&scene, stress, Method::Gather);
     compiled.expect_err("no shader holds so large a table").to_string()
-}
-
-/// A field of other patches is not drawn with a scene's data.
-#[test]
-fn another_field_is_refused() {
-    let Some(mut renderer) = renderer_or_skip() else { return };
-    let (uploaded, finer) = (dataset(), Recipe { level: 2, ..Recipe::default() }.dataset());
-    let (field, other) = (good(Field::new(&uploaded, 0)), good(Field::new(&finer, 0)));
-    let scene = good(renderer.upload(&field));
-    assert_eq!(scene.with_functions_of(&other).map(drop), Err(GpuError::OtherField));
-    let mut moved = dataset();
-    moved.steps[0].partition.boxes_mut().expect("boxes").center[0].x += 0.01;
-    let moved = good(Field::new(&moved, 0));
-    assert_eq!(scene.with_functions_of(&moved).map(drop), Err(GpuError::OtherField));
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use ppum::field::Field;
 use ppum_gpu::testing::texts;
-use ppum_gpu::{Colors, Derivatives, Method, TransferFunction, Values};
+use ppum_gpu::{Colors, Method, TransferFunction, Values};
 use ppum_render::picture::Style;
 use ppum_render::range::RangeChoice;
 use ppum_render::raster::Raster;
@@ -24,10 +24,8 @@ fn validate(case: &DrawingCase, known: &mut BTreeSet<String>) {
                 assert_eq!(all.len() > 1, has_field(text));
             }
             if k == 0 {
-                let last = Derivatives(field.components() as u8 - 1);
                 let colors = Colors { quantity: quantity.clone(), shading: shading() };
                 all.extend(good(texts(&field, &colors, method)));
-                all.extend(good(texts(&field, &last, method)));
             }
             for shader in all.into_iter().filter(|shader| known.insert(shader.clone())) {
                 let what = format!("{}: {text}, {method:?}", case.name);
@@ -41,7 +39,8 @@ fn validate(case: &DrawingCase, known: &mut BTreeSet<String>) {
 fn shading() -> TransferFunction {
     let Style { colormap, scale, undefined, .. } = Style::default();
     let nothing = Raster::<f32>::new([0, 0], Vec::new());
-    let normalization = good(RangeChoice::Fixed(0.0, 1.0).normalization(scale, false, &nothing));
+    let normalization =
+        good(RangeChoice::Fixed(0.0, 1.0).span(scale, false, &nothing, None).normalization(scale));
     TransferFunction { normalization, colormap, undefined }
 }
 

@@ -9,19 +9,19 @@ use crate::affine::PlaneMap;
 use crate::bspline::BSpline;
 use crate::curve::{EllipseArc, PlaneCurve};
 use crate::error::ImportError;
+use crate::sketch::DrawnCurve;
 
 /// Most rows or columns of an inserted block.
 const MOST_COPIES: i64 = 1000;
 
 /// The curve that an entity draws.
 pub(super) enum EntityShape {
-    Curve(PlaneCurve),
-    Spline(BSpline),
+    Curve(DrawnCurve),
     Insert(Insert),
     /// Something that is not read, by its name.
     Unread(String),
     /// A spline whose course between its points the file does not tell.
-    Through(PlaneCurve),
+    Through(DrawnCurve),
 }
 
 /// A block that is inserted once, or in rows and columns.
@@ -60,23 +60,25 @@ pub(super) fn shapes(
     let Some(side) = side(entity)? else {
         return Ok(vec![EntityShape::Unread(format!("{} out of the plane", entity.kind))]);
     };
-    let mut shapes = match (entity.kind, vertices) {
-        ("LINE", _) => vec![line(entity)?],
+    // these are drawn in the plane of the file, all others in their own
+    let is_mirrored = side < 0.0 && !matches!(entity.kind, "LINE" | "ELLIPSE");
+    let curves: Vec<DrawnCurve> = match (entity.kind, vertices) {
+        ("LINE", _) => vec![DrawnCurve::polyline(vec![entity.point(10)?, entity.point(11)?])],
         ("ARC", _) => arc(entity, [entity.number(50, 0.0)?, entity.number(51, 360.0)?])?,
         ("CIRCLE", _) => arc(entity, [0.0, 360.0])?,
         ("ELLIPSE", _) => vec![ellipse(entity, side)?],
         ("LWPOLYLINE", _) => bulged(&light_vertices(entity)?, entity.flag(70, 1)?),
         ("POLYLINE", Some(vertices)) => bulged(&vertices, entity.flag(70, 1)?),
-        ("SPLINE", _) => vec![spline(entity)?],
-        ("INSERT", _) => vec![EntityShape::Insert(insert(entity, side)?)],
+        ("SPLINE", _) => return Ok(vec![spline(entity)?]),
+        ("INSERT", _) => return Ok(vec![EntityShape::Insert(insert(entity, side)?)]),
         // points and what ends a polyline draw nothing
         ("POINT" | "VERTEX" | "SEQEND" | "ATTRIB" | "VIEWPORT", _) => Vec::new(),
-        (kind, _) => vec![EntityShape::Unread(kind.to_owned())],
+        (kind, _) => return Ok(vec![EntityShape::Unread(kind.to_owned())]),
     };
-    if side < 0.0 && !matches!(entity.kind, "LINE" | "ELLIPSE" | "SPLINE" | "INSERT") {
-        shapes.iter_mut().for_each(mirror);
-    }
-    Ok(shapes)
+    // own coordinates of a plane seen from behind
+    let mirror = PlaneMap::scaling(-1.0, 1.0);
+    let seen = |curve: DrawnCurve| if is_mirrored { curve.mapped(&mirror) } else { curve };
+    Ok(curves.into_iter().map(|curve| EntityShape::Curve(seen(curve))).collect())
 }
 
 /// The sign of the z axis in which the entity's own plane is drawn; nothing if it is tilted.
@@ -85,28 +87,17 @@ fn side(entity: &Entity<'_>) -> Result<Option<f64>, ImportError> {
     Ok((tilt.length() <= 1e-9 * z.abs()).then(|| z.signum()))
 }
 
-/// Own coordinates of a plane seen from behind.
-fn mirror(shape: &mut EntityShape) {
-    if let EntityShape::Curve(curve) = shape {
-        *curve = curve.mapped(&PlaneMap::scaling(-1.0, 1.0));
-    }
-}
-
-fn line(entity: &Entity<'_>) -> Result<EntityShape, ImportError> {
-    Ok(EntityShape::Curve(PlaneCurve::Polyline(vec![entity.point(10)?, entity.point(11)?])))
-}
-
 /// An arc of a circle, counter-clockwise between angles in degrees; nothing without a radius.
-fn arc(entity: &Entity<'_>, [from, to]: [f64; 2]) -> Result<Vec<EntityShape>, ImportError> {
+fn arc(entity: &Entity<'_>, [from, to]: [f64; 2]) -> Result<Vec<DrawnCurve>, ImportError> {
     let radius = entity.number(40, 0.0)?;
     let turn = (to - from).rem_euclid(360.0);
     let range = [from, from + if turn > 0.0 { turn } else { 360.0 }].map(f64::to_radians);
     let range = if turn > 0.0 { range } else { [range[0], range[0] + TAU] };
     let arc = EllipseArc::circle(entity.point(10)?, radius, range);
-    Ok(if radius > 0.0 { vec![EntityShape::Curve(PlaneCurve::Arc(arc))] } else { Vec::new() })
+    Ok((radius > 0.0).then(|| PlaneCurve::Arc(arc).into()).into_iter().collect())
 }
 
-fn ellipse(entity: &Entity<'_>, side: f64) -> Result<EntityShape, ImportError> {
+fn ellipse(entity: &Entity<'_>, side: f64) -> Result<DrawnCurve, ImportError> {
     let major = entity.point(11)?;
     let minor = major.left() * (side * entity.number(40, 1.0)?);
     let [from, to] = [entity.number(41, 0.0)?, entity.number(42, TAU)?];
@@ -114,16 +105,11 @@ fn ellipse(entity: &Entity<'_>, side: f64) -> Result<EntityShape, ImportError> {
     let whole = turn < 1e-12 || TAU - turn < 1e-12;
     let range = [from, from + if whole { TAU } else { turn }];
     if major.length() == 0.0 || minor.length() == 0.0 {
-        return Err(ImportError::syntax(
-            entity.source(),
-            "the ellipse has an axis of length 0; repair or remove it",
-        ));
+        let message = "the ellipse has an axis of length 0; repair or remove it";
+        return Err(entity.source().error(message));
     }
-    Ok(EntityShape::Curve(PlaneCurve::Arc(EllipseArc {
-        center: entity.point(10)?,
-        radii: [major, minor],
-        range,
-    })))
+    let arc = EllipseArc { center: entity.point(10)?, radii: [major, minor], range };
+    Ok(PlaneCurve::Arc(arc).into())
 }
 
 /// The vertices of an LWPOLYLINE: a bulge (42) belongs to the vertex (10, 20) before it.
@@ -147,7 +133,7 @@ fn polyline(
     entities: &mut Entities<'_>,
 ) -> Result<Option<Vec<BulgedVertex>>, ImportError> {
     let mut vertices = Vec::new();
-    while let Some(vertex) = entities.next().transpose()? {
+    while let Some(vertex) = entities.entity()? {
         match vertex.kind {
             "SEQEND" => break,
             // control points of a curve that is drawn by other vertices
@@ -156,10 +142,8 @@ fn polyline(
             }
             "VERTEX" => {}
             _ => {
-                return Err(ImportError::syntax(
-                    vertex.source(),
-                    "a POLYLINE has no SEQEND before this entity; repair the file",
-                ));
+                let message = "a POLYLINE has no SEQEND before this entity; repair the file";
+                return Err(vertex.source().error(message));
             }
         }
     }
@@ -167,20 +151,20 @@ fn polyline(
 }
 
 /// The straight runs and arcs of a polyline.
-fn bulged(vertices: &[BulgedVertex], is_closed: bool) -> Vec<EntityShape> {
+fn bulged(vertices: &[BulgedVertex], is_closed: bool) -> Vec<DrawnCurve> {
     let next = vertices.iter().skip(1).chain(vertices.first().filter(|_| is_closed));
-    let mut shapes: Vec<EntityShape> = Vec::new();
+    let mut curves: Vec<PlaneCurve> = Vec::new();
     for ((a, bulge), (b, _)) in vertices.iter().zip(next).filter(|(a, b)| a.0 != b.0) {
         // an arc of a height of 1e-12 of its chord is a line
         if bulge.abs() > 1e-12 {
-            shapes.push(EntityShape::Curve(PlaneCurve::Arc(EllipseArc::bulged(*a, *b, *bulge))));
-        } else if let Some(EntityShape::Curve(PlaneCurve::Polyline(run))) = shapes.last_mut() {
+            curves.push(PlaneCurve::Arc(EllipseArc::bulged(*a, *b, *bulge)));
+        } else if let Some(PlaneCurve::Polyline(run)) = curves.last_mut() {
             run.push(*b);
         } else {
-            shapes.push(EntityShape::Curve(PlaneCurve::Polyline(vec![*a, *b])));
+            curves.push(PlaneCurve::Polyline(vec![*a, *b]));
         }
     }
-    shapes
+    curves.into_iter().map(DrawnCurve::from).collect()
 }
 
 /// A spline by control points, or else through its fit points.
@@ -188,15 +172,15 @@ fn spline(entity: &Entity<'_>) -> Result<EntityShape, ImportError> {
     let (points, mut through) = (entity.points(10)?, entity.points(11)?);
     let degree = usize::try_from(entity.whole(71)?.unwrap_or(3)).unwrap_or(0);
     if let Some(spline) = BSpline::new(degree, entity.numbers(40)?, points, entity.numbers(41)?) {
-        return Ok(EntityShape::Spline(spline));
+        return Ok(EntityShape::Curve(spline.into()));
     }
     through.dedup();
     Ok(match through.len() {
         0 | 1 => EntityShape::Unread(
             "SPLINE whose knots, points and degree do not fit together".to_owned(),
         ),
-        2 => EntityShape::Curve(PlaneCurve::Polyline(through)),
-        _ => EntityShape::Through(PlaneCurve::Spline(through)),
+        2 => EntityShape::Curve(DrawnCurve::polyline(through)),
+        _ => EntityShape::Through(PlaneCurve::Spline(through).into()),
     })
 }
 
@@ -206,10 +190,9 @@ fn insert(entity: &Entity<'_>, side: f64) -> Result<Insert, ImportError> {
     let seen = PlaneMap::scaling(side, 1.0).after(&PlaneMap::shifting(entity.point(10)?));
     let copies = [entity.whole(70)?.unwrap_or(1), entity.whole(71)?.unwrap_or(1)];
     if copies.iter().any(|count| !(1..=MOST_COPIES).contains(count)) {
-        return Err(ImportError::syntax(
-            entity.source(),
-            format!("INSERT has {copies:?} columns and rows, but 1 to {MOST_COPIES} are read"),
-        ));
+        return Err(entity.source().error(format!(
+            "INSERT has {copies:?} columns and rows, but 1 to {MOST_COPIES} are read"
+        )));
     }
     Ok(Insert {
         block: entity.text(2).unwrap_or_default().to_owned(),

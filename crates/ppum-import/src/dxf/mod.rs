@@ -11,10 +11,10 @@ use ppum::vec2::Vec2;
 
 use crate::affine::PlaneMap;
 use crate::error::ImportError;
-use crate::sketch::{NamedCurve, Sketch};
+use crate::sketch::Sketch;
 use crate::source::SourceLine;
 use entity::{EntityShape, Insert};
-use pairs::{Entities, Entity, Pairs};
+use pairs::{Entities, Entity};
 
 /// Deepest nesting of blocks in blocks.
 const DEEPEST: usize = 16;
@@ -36,11 +36,18 @@ struct DxfBlock {
     entities: Vec<EntityDrawing>,
 }
 
-/// The file, section by section.
+/// The entities of a file.
 #[derive(Default)]
 struct DxfDocument {
     model: DxfBlock,
     blocks: BTreeMap<String, DxfBlock>,
+    /// A sentence on units and version.
+    about: Option<String>,
+}
+
+/// The curves of a document.
+struct DxfSketch<'a> {
+    blocks: &'a BTreeMap<String, DxfBlock>,
     sketch: Sketch,
     inserted: usize,
 }
@@ -57,46 +64,43 @@ struct Placement<'a> {
 pub(crate) fn read(text: &str) -> Result<Sketch, ImportError> {
     if text.starts_with("AutoCAD Binary DXF") {
         let message = "is a binary DXF file, which is not read; save it as text (ASCII DXF)";
-        return Err(ImportError::syntax(SourceLine::new(1), message));
+        return Err(SourceLine::new(1).error(message));
     }
-    let mut document = DxfDocument { sketch: Sketch::layered(), ..DxfDocument::default() };
-    document.read(Entities::new(Pairs::new(text)))?;
-    let model = std::mem::take(&mut document.model);
-    let blocks = std::mem::take(&mut document.blocks);
-    document.draw(&model, &blocks, Placement { map: PlaneMap::IDENTITY, layer: "0", depth: 0 })?;
-    Ok(document.sketch)
+    let DxfDocument { model, blocks, about } = DxfDocument::read(Entities::new(text))?;
+    let mut drawing = DxfSketch { blocks: &blocks, sketch: Sketch::layered(), inserted: 0 };
+    drawing.sketch.about = about;
+    drawing.draw(&model, Placement { map: PlaneMap::IDENTITY, layer: "0", depth: 0 })?;
+    Ok(drawing.sketch)
 }
 
 impl DxfDocument {
-    fn read(&mut self, mut entities: Entities<'_>) -> Result<(), ImportError> {
-        let (mut section, mut block) = (String::new(), None);
-        while let Some(entity) = entities.next().transpose()? {
+    fn read(mut entities: Entities<'_>) -> Result<Self, ImportError> {
+        let (mut document, mut section, mut block) = (Self::default(), "", None);
+        while let Some(entity) = entities.entity()? {
             match entity.kind {
-                "EOF" => return Ok(()),
+                "EOF" => return Ok(document),
                 "SECTION" => {
-                    entity.text(2).unwrap_or_default().clone_into(&mut section);
-                    self.read_header(&entity);
+                    section = entity.text(2).unwrap_or_default();
+                    document.read_header(&entity);
                 }
                 "ENDSEC" | "ENDBLK" => block = None,
                 "BLOCK" => {
-                    let name = entity.text(2).unwrap_or_default().to_owned();
-                    self.blocks.insert(
-                        name.clone(),
-                        DxfBlock { base: entity.point(10)?, entities: Vec::new() },
-                    );
+                    let name = entity.text(2).unwrap_or_default();
+                    let new = DxfBlock { base: entity.point(10)?, entities: Vec::new() };
+                    document.blocks.insert(name.to_owned(), new);
                     block = Some(name);
                 }
                 _ if section == "ENTITIES" || block.is_some() => {
-                    let drawn = Self::drawn(&entity, &mut entities)?;
-                    let target = block.as_ref().and_then(|name| self.blocks.get_mut(name));
-                    target.unwrap_or(&mut self.model).entities.extend(drawn);
+                    let drawn = drawn(&entity, &mut entities)?;
+                    let target = block.and_then(|name| document.blocks.get_mut(name));
+                    target.unwrap_or(&mut document.model).entities.extend(drawn);
                 }
                 _ => {}
             }
         }
         let message =
             "the file ends without EOF, so that something is missing; save or copy it once more";
-        Err(ImportError::syntax(SourceLine::new(entities.line()), message))
+        Err(SourceLine::new(entities.line).error(message))
     }
 
     /// Units and version from the variables of the header.
@@ -110,32 +114,28 @@ impl DxfDocument {
         let version = value("$ACADVER").map(|version| format!("DXF of version {version}."));
         let about: Vec<_> = version.into_iter().chain(unit).collect();
         if !about.is_empty() {
-            self.sketch.about = Some(about.join(" "));
+            self.about = Some(about.join(" "));
         }
     }
+}
 
-    /// Returns the curves that an entity of model space draws.
-    fn drawn(
-        entity: &Entity<'_>,
-        entities: &mut Entities<'_>,
-    ) -> Result<Vec<EntityDrawing>, ImportError> {
-        let shapes = entity::shapes(entity, entities)?;
-        if entity.whole(67)? == Some(1) || entity.whole(60)? == Some(1) {
-            return Ok(Vec::new());
-        }
-        let layer = entity.text(8).unwrap_or("0").to_owned();
-        let source = entity.source();
-        let drawn = |shape| EntityDrawing { shape, layer: layer.clone(), source };
-        Ok(shapes.into_iter().map(drawn).collect())
+/// Returns the curves that an entity of model space draws.
+fn drawn(
+    entity: &Entity<'_>,
+    entities: &mut Entities<'_>,
+) -> Result<Vec<EntityDrawing>, ImportError> {
+    let shapes = entity::shapes(entity, entities)?;
+    if entity.whole(67)? == Some(1) || entity.whole(60)? == Some(1) {
+        return Ok(Vec::new());
     }
+    let (layer, source) = (entity.text(8).unwrap_or("0"), entity.source());
+    let drawn = |shape| EntityDrawing { shape, layer: layer.to_owned(), source };
+    Ok(shapes.into_iter().map(drawn).collect())
+}
 
+impl DxfSketch<'_> {
     /// Adds the curves of a block.
-    fn draw(
-        &mut self,
-        block: &DxfBlock,
-        blocks: &BTreeMap<String, DxfBlock>,
-        place: Placement<'_>,
-    ) -> Result<(), ImportError> {
+    fn draw(&mut self, block: &DxfBlock, place: Placement<'_>) -> Result<(), ImportError> {
         for EntityDrawing { shape, layer, source } in &block.entities {
             let layer = if layer == "0" { place.layer } else { layer };
             let name = Some(layer.to_owned());
@@ -146,13 +146,10 @@ impl DxfDocument {
                     if matches!(shape, EntityShape::Through(_)) {
                         self.sketch.remark("the SPLINE has fit points alone; other programs may draw it otherwise between them", *source);
                     }
-                    self.sketch.add(NamedCurve::new(curve.mapped(&place.map), name, *source))?;
-                }
-                EntityShape::Spline(spline) => {
-                    self.sketch.add_spline(spline.clone().mapped(&place.map), name, *source)?;
+                    self.sketch.add(curve.mapped(&place.map), name, *source)?;
                 }
                 EntityShape::Insert(insert) => {
-                    self.insert(insert, *source, blocks, Placement { layer, ..place })?;
+                    self.insert(insert, *source, Placement { layer, ..place })?;
                 }
             }
         }
@@ -163,7 +160,7 @@ impl DxfDocument {
     fn count(&mut self) -> Result<(), ImportError> {
         self.inserted += 1;
         if self.inserted > MOST_INSERTED {
-            return Err(ImportError::TooMany { what: "entities", most: MOST_INSERTED });
+            return Err(ImportError::too_many("entities", MOST_INSERTED));
         }
         Ok(())
     }
@@ -172,20 +169,18 @@ impl DxfDocument {
         &mut self,
         insert: &Insert,
         source: SourceLine,
-        blocks: &BTreeMap<String, DxfBlock>,
         place: Placement<'_>,
     ) -> Result<(), ImportError> {
-        let Some(block) = blocks.get(&insert.block).filter(|_| place.depth < DEEPEST) else {
-            self.sketch.leave(
-                format!("INSERT of block {}, unknown or nested too deep", insert.block),
-                source,
-            );
+        let name = &insert.block;
+        let Some(block) = self.blocks.get(name).filter(|_| place.depth < DEEPEST) else {
+            let what = format!("INSERT of block {name}, unknown or nested too deep");
+            self.sketch.leave(what, source);
             return Ok(());
         };
         for map in insert.maps(block.base) {
             self.count()?;
             let map = place.map.after(&map);
-            self.draw(block, blocks, Placement { map, depth: place.depth + 1, ..place })?;
+            self.draw(block, Placement { map, depth: place.depth + 1, ..place })?;
         }
         Ok(())
     }

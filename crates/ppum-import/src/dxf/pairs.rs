@@ -16,43 +16,6 @@ pub(super) struct CodedValue<'a> {
     line: usize,
 }
 
-/// The pairs of a text.
-pub(super) struct Pairs<'a> {
-    lines: std::str::Lines<'a>,
-    /// The number of lines that were read.
-    line: usize,
-}
-
-impl<'a> Pairs<'a> {
-    pub(super) fn new(text: &'a str) -> Self {
-        Self { lines: text.trim_start_matches('\u{feff}').lines(), line: 0 }
-    }
-
-    fn line(&mut self) -> Option<&'a str> {
-        self.line += 1;
-        self.lines.next().map(str::trim)
-    }
-}
-
-impl<'a> Iterator for Pairs<'a> {
-    type Item = Result<CodedValue<'a>, ImportError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let code = self.line()?;
-        let line = self.line;
-        let error =
-            |message: String| Some(Err(ImportError::syntax(SourceLine::new(line), message)));
-        let Ok(code) = code.parse() else {
-            let start: String = code.chars().take(20).collect();
-            return error(format!("`{start}` is no group code; is this a DXF file?"));
-        };
-        let Some(value) = self.line() else {
-            return error("the file ends amid a pair; save or copy it once more".to_owned());
-        };
-        Some(Ok(CodedValue { code, value, line: line + 1 }))
-    }
-}
-
 /// Everything from a pair of code 0 to the next one.
 pub(super) struct Entity<'a> {
     pub(super) kind: &'a str,
@@ -62,50 +25,59 @@ pub(super) struct Entity<'a> {
 
 /// The entities of a text.
 pub(super) struct Entities<'a> {
-    pairs: Pairs<'a>,
-    next: Option<CodedValue<'a>>,
+    lines: std::str::Lines<'a>,
+    /// The number of lines that were read.
+    pub(super) line: usize,
+    /// The pair that the next entity begins with, if it was read.
+    head: Option<CodedValue<'a>>,
 }
 
 impl<'a> Entities<'a> {
-    pub(super) fn new(pairs: Pairs<'a>) -> Self {
-        Self { pairs, next: None }
+    pub(super) fn new(text: &'a str) -> Self {
+        Self { lines: text.trim_start_matches('\u{feff}').lines(), line: 0, head: None }
     }
 
-    /// The number of lines that were read.
-    pub(super) fn line(&self) -> usize {
-        self.pairs.line
+    fn next_line(&mut self) -> Option<&'a str> {
+        self.line += 1;
+        self.lines.next().map(str::trim)
     }
 
-    fn entity(&mut self) -> Result<Option<Entity<'a>>, ImportError> {
-        let mut head = self.next.take();
+    fn pair(&mut self) -> Result<Option<CodedValue<'a>>, ImportError> {
+        let Some(code) = self.next_line() else { return Ok(None) };
+        let source = SourceLine::new(self.line);
+        let code = code.parse().map_err(|_| {
+            let start: String = code.chars().take(20).collect();
+            source.error(format!("`{start}` is no group code; is this a DXF file?"))
+        })?;
+        let value = self
+            .next_line()
+            .ok_or_else(|| source.error("the file ends amid a pair; save or copy it once more"))?;
+        Ok(Some(CodedValue { code, value, line: self.line }))
+    }
+
+    /// The next entity; nothing at the end.
+    pub(super) fn entity(&mut self) -> Result<Option<Entity<'a>>, ImportError> {
+        let mut head = self.head.take();
         while head.is_none() {
             // comments (999) may stand before the first entity
-            let Some(pair) = self.pairs.next().transpose()? else { return Ok(None) };
+            let Some(pair) = self.pair()? else { return Ok(None) };
             head = (pair.code == 0).then_some(pair);
         }
         let Some(CodedValue { value: kind, line, .. }) = head else { return Ok(None) };
         let mut entity = Entity { kind, pairs: Vec::new(), line };
         while kind != "EOF"
-            && let Some(pair) = self.pairs.next().transpose()?
+            && let Some(pair) = self.pair()?
         {
             if pair.code == 0 {
-                self.next = Some(pair);
+                self.head = Some(pair);
                 break;
             }
             entity.pairs.push(pair);
             if entity.pairs.len() > MOST_PAIRS {
-                return Err(ImportError::TooMany { what: "pairs in an entity", most: MOST_PAIRS });
+                return Err(ImportError::too_many("pairs in an entity", MOST_PAIRS));
             }
         }
         Ok(Some(entity))
-    }
-}
-
-impl<'a> Iterator for Entities<'a> {
-    type Item = Result<Entity<'a>, ImportError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        self.entity().transpose()
     }
 }
 
@@ -115,19 +87,21 @@ impl<'a> Entity<'a> {
         SourceLine { line: self.line, handle: handle.unwrap_or(0) }
     }
 
+    fn pair(&self, code: i32) -> Option<&CodedValue<'a>> {
+        self.pairs.iter().find(|pair| pair.code == code)
+    }
+
     /// The value of a code.
     pub(super) fn text(&self, code: i32) -> Option<&'a str> {
-        self.pairs.iter().find(|pair| pair.code == code).map(|pair| pair.value)
+        self.pair(code).map(|pair| pair.value)
     }
 
     fn parsed<T: std::str::FromStr>(&self, pair: &CodedValue<'_>) -> Result<T, ImportError> {
         pair.value.parse().map_err(|_| {
             let source = SourceLine { line: pair.line, ..self.source() };
             let start: String = pair.value.chars().take(20).collect();
-            ImportError::syntax(
-                source,
-                format!("`{start}` is no number, as group {} of {} has", pair.code, self.kind),
-            )
+            let kind = self.kind;
+            source.error(format!("`{start}` is no number, as group {} of {kind} has", pair.code))
         })
     }
 
@@ -137,13 +111,11 @@ impl<'a> Entity<'a> {
     }
 
     pub(super) fn number(&self, code: i32, default: f64) -> Result<f64, ImportError> {
-        let pair = self.pairs.iter().find(|pair| pair.code == code);
-        pair.map_or(Ok(default), |pair| self.parsed(pair))
+        self.pair(code).map_or(Ok(default), |pair| self.parsed(pair))
     }
 
     pub(super) fn whole(&self, code: i32) -> Result<Option<i64>, ImportError> {
-        let pair = self.pairs.iter().find(|pair| pair.code == code);
-        pair.map(|pair| self.parsed(pair)).transpose()
+        self.pair(code).map(|pair| self.parsed(pair)).transpose()
     }
 
     /// True if a bit is set in a value.
@@ -160,13 +132,9 @@ impl<'a> Entity<'a> {
     pub(super) fn points(&self, code: i32) -> Result<Vec<Vec2>, ImportError> {
         let (x, y) = (self.numbers(code)?, self.numbers(code + 10)?);
         if x.len() != y.len() {
-            let message = format!(
-                "{} has {} x but {} y of points; repair the file",
-                self.kind,
-                x.len(),
-                y.len()
-            );
-            return Err(ImportError::syntax(self.source(), message));
+            let (kind, x, y) = (self.kind, x.len(), y.len());
+            let message = format!("{kind} has {x} x but {y} y of points; repair the file");
+            return Err(self.source().error(message));
         }
         Ok(x.into_iter().zip(y).map(|(x, y)| vec2(x, y)).collect())
     }

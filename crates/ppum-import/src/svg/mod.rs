@@ -3,7 +3,6 @@
 mod number;
 mod path;
 mod shape;
-mod shapes;
 mod viewport;
 
 use std::collections::HashMap;
@@ -13,9 +12,8 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::affine::PlaneMap;
 use crate::error::ImportError;
-use crate::sketch::{NamedCurve, Sketch};
+use crate::sketch::Sketch;
 use crate::source::SourceLine;
-use shapes::SvgCurve;
 use viewport::Viewport;
 
 /// Most nodes of a file, and most elements that are drawn, those of each `<use>` counted.
@@ -52,12 +50,12 @@ pub(crate) fn read(text: &str) -> Result<Sketch, ImportError> {
         ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
     let document = Document::parse_with_options(text, options).map_err(|error| {
         let line = SourceLine::new(error.pos().row as usize);
-        ImportError::syntax(line, format!("is no XML: {error}; repair the file"))
+        line.error(format!("is no XML: {error}; repair the file"))
     })?;
     let root = document.root_element();
     if root.tag_name().name() != "svg" {
         let message = format!("the file is <{}>, not <svg>", root.tag_name().name());
-        return Err(ImportError::syntax(SourceLine::new(1), message));
+        return Err(SourceLine::new(1).error(message));
     }
     let elements = root.descendants().filter_map(|node| Some((node.attribute("id")?, node)));
     let mut reader = SvgReader {
@@ -65,8 +63,7 @@ pub(crate) fn read(text: &str) -> Result<Sketch, ImportError> {
         by_id: elements.collect(),
         sketch: Sketch::layered(),
     };
-    let viewport = Viewport::of_page(root)
-        .map_err(|message| ImportError::syntax(reader.source(root), message))?;
+    let viewport = Viewport::of_page(root).map_err(|message| reader.source(root).error(message))?;
     reader.read(root, viewport.size())?;
     reader.turn_up(root, &viewport);
     Ok(reader.sketch)
@@ -102,7 +99,7 @@ impl<'a, 'input> SvgReader<'a, 'input> {
         while let Some((node, inherited)) = open.pop() {
             count += 1;
             if count > MOST_NODES {
-                return Err(ImportError::TooMany { what: "elements", most: MOST_NODES as usize });
+                return Err(ImportError::too_many("elements", MOST_NODES as usize));
             }
             self.note_style_sheet(node);
             let tag = node.tag_name().name();
@@ -115,7 +112,7 @@ impl<'a, 'input> SvgReader<'a, 'input> {
                 self.sketch.leave(format!("<{tag}> that is not displayed"), source);
                 continue;
             }
-            let syntax = |message: String| ImportError::syntax(source, message);
+            let syntax = |message: String| source.error(message);
             let own = inherited.inner(node).map_err(syntax)?;
             self.element(node, &own, source)?;
             if tag == "use" {
@@ -167,8 +164,8 @@ impl<'a, 'input> SvgReader<'a, 'input> {
         source: SourceLine,
     ) -> Result<(), ImportError> {
         let tag = node.tag_name().name();
-        let Some(curves) = shape::curves(node, own.view)
-            .map_err(|message| ImportError::syntax(source, message))?
+        let Some(curves) =
+            shape::curves(node, own.view).map_err(|message| source.error(message))?
         else {
             if !SILENT.contains(&tag) && tag != "use" {
                 self.sketch.leave(format!("<{tag}>"), source);
@@ -180,15 +177,7 @@ impl<'a, 'input> SvgReader<'a, 'input> {
             return Ok(());
         }
         for curve in curves {
-            let name = own.name.clone();
-            match curve {
-                SvgCurve::Curve(curve) => {
-                    self.sketch.add(NamedCurve::new(curve.mapped(&own.map), name, source))?
-                }
-                SvgCurve::Spline(spline) => {
-                    self.sketch.add_spline(spline.mapped(&own.map), name, source)?
-                }
-            }
+            self.sketch.add(curve.mapped(&own.map), own.name.clone(), source)?;
         }
         Ok(())
     }

@@ -5,10 +5,10 @@ use std::f64::consts::TAU;
 use ppum::vec2::{Vec2, vec2};
 
 use super::number::take;
-use super::shapes::SvgCurve;
 use crate::affine::PlaneMap;
 use crate::bspline::BSpline;
 use crate::curve::{EllipseArc, PlaneCurve};
+use crate::sketch::DrawnCurve;
 
 /// The pen of a path.
 #[derive(Default)]
@@ -19,11 +19,11 @@ struct PathCursor {
     /// The last control point of the curve before, and the degree of that curve.
     control: Option<(Vec2, usize)>,
     run: Vec<Vec2>,
-    curves: Vec<SvgCurve>,
+    curves: Vec<DrawnCurve>,
 }
 
 /// The curves of the attribute `d`; segments that follow each other are one polyline.
-pub(super) fn curves(d: &str) -> Result<Vec<SvgCurve>, String> {
+pub(super) fn curves(d: &str) -> Result<Vec<DrawnCurve>, String> {
     let (mut rest, mut pen, mut command) = (d, PathCursor::default(), ' ');
     loop {
         rest = rest.trim_start_matches(|c: char| c.is_whitespace() || c == ',');
@@ -83,7 +83,7 @@ impl PathCursor {
     fn lift(&mut self) {
         let run = std::mem::take(&mut self.run);
         if run.len() > 1 {
-            self.curves.push(SvgCurve::polyline(run));
+            self.curves.push(DrawnCurve::polyline(run));
         }
     }
 
@@ -116,7 +116,7 @@ impl PathCursor {
         let [.., control, to] = all[..] else { return None };
         self.control = Some((control, points.len()));
         if all.iter().any(|p| *p != self.at) {
-            self.curves.push(SvgCurve::Spline(BSpline::bezier(&all)?));
+            self.curves.push(BSpline::bezier(&all)?.into());
         }
         self.at = to;
         Some(())
@@ -133,7 +133,7 @@ impl PathCursor {
         }
         self.lift();
         let arc = arc_between([self.at, to], radii, angle, [is_large, is_positive]);
-        self.curves.push(SvgCurve::Curve(PlaneCurve::Arc(arc)));
+        self.curves.push(PlaneCurve::Arc(arc).into());
         self.at = to;
         Some(())
     }

@@ -5,18 +5,18 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, TAU};
 use ppum::vec2::{Vec2, vec2};
 use roxmltree::Node;
 
-use super::shapes::SvgCurve;
 use super::{number, path};
 use crate::curve::{EllipseArc, PlaneCurve};
+use crate::sketch::DrawnCurve;
 
 /// The curves of an element; nothing if it is none that draws. Percentages are parts of the sides
 /// of the view box. Errors are sentences.
-pub(super) fn curves(node: Node<'_, '_>, view: Vec2) -> Result<Option<Vec<SvgCurve>>, String> {
+pub(super) fn curves(node: Node<'_, '_>, view: Vec2) -> Result<Option<Vec<DrawnCurve>>, String> {
     let curves = match node.tag_name().name() {
         "path" => path::curves(node.attribute("d").unwrap_or_default())?,
         "line" => {
             let [x1, y1, x2, y2] = lengths(node, view, ["x1", "y1", "x2", "y2"])?;
-            vec![SvgCurve::polyline(vec![vec2(x1, y1), vec2(x2, y2)])]
+            vec![DrawnCurve::polyline(vec![vec2(x1, y1), vec2(x2, y2)])]
         }
         "polyline" => polyline(points(node)?),
         "polygon" => {
@@ -77,19 +77,19 @@ fn points(node: Node<'_, '_>) -> Result<Vec<Vec2>, String> {
 }
 
 /// A polyline, if it has two points.
-fn polyline(points: Vec<Vec2>) -> Vec<SvgCurve> {
-    if points.len() < 2 { Vec::new() } else { vec![SvgCurve::polyline(points)] }
+fn polyline(points: Vec<Vec2>) -> Vec<DrawnCurve> {
+    if points.len() < 2 { Vec::new() } else { vec![DrawnCurve::polyline(points)] }
 }
 
-fn ellipse(center: Vec2, radii: Vec2) -> Vec<SvgCurve> {
+fn ellipse(center: Vec2, radii: Vec2) -> Vec<DrawnCurve> {
     let arc =
         EllipseArc { center, radii: [vec2(radii.x, 0.0), vec2(0.0, radii.y)], range: [0.0, TAU] };
     let is_drawn = radii.x > 0.0 && radii.y > 0.0;
-    is_drawn.then_some(SvgCurve::Curve(PlaneCurve::Arc(arc))).into_iter().collect()
+    is_drawn.then_some(PlaneCurve::Arc(arc).into()).into_iter().collect()
 }
 
 /// A rectangle, whose corners may be quarters of ellipses.
-fn rect(node: Node<'_, '_>, view: Vec2) -> Result<Vec<SvgCurve>, String> {
+fn rect(node: Node<'_, '_>, view: Vec2) -> Result<Vec<DrawnCurve>, String> {
     let [x, y, width, height, rx, ry] =
         lengths(node, view, ["x", "y", "width", "height", "rx", "ry"])?;
     let has = |key: &str| node.has_attribute(key);
@@ -118,10 +118,10 @@ fn rect(node: Node<'_, '_>, view: Vec2) -> Result<Vec<SvgCurve>, String> {
     let mut curves = Vec::new();
     for (k, corner) in corners.iter().enumerate() {
         let next = &corners[(k + 1) % 4];
-        curves.push(SvgCurve::Curve(PlaneCurve::Arc(*corner)));
+        curves.push(PlaneCurve::Arc(*corner).into());
         let side = [corner.point(corner.range[1]), next.point(next.range[0])];
         if (side[1] - side[0]).length() > 1e-12 * (width + height) {
-            curves.push(SvgCurve::polyline(side.to_vec()));
+            curves.push(DrawnCurve::polyline(side.to_vec()));
         }
     }
     Ok(curves)

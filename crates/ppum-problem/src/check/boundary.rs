@@ -2,21 +2,20 @@
 
 use std::collections::BTreeMap;
 
+use ppum::border::touch;
 use ppum::crack::Side;
 use ppum::domain::Domain;
 use ppum::segment::Segment;
 use ppum::vec2::Rect;
 
-use super::super::boundary::{
-    BoundaryCondition, BoundaryPart, BoundaryPiece, BoundaryRange, DomainEdge,
+use crate::data::{
+    BoundaryCondition, BoundaryPart, BoundaryPiece, BoundaryRange, DomainEdge, ProblemData,
 };
-use super::super::key::{InvalidValue, Key, no_such};
-use super::super::model::ProblemData;
+use crate::file::{Key, KeyError, no_such};
 use crate::geometry::{clipped, solid_part, wider};
-use ppum::border::touch;
 
 /// All rules broken by the conditions on the boundary.
-pub(super) fn check_boundary(problem: &ProblemData) -> Vec<InvalidValue> {
+pub(super) fn check_boundary(problem: &ProblemData) -> Vec<KeyError> {
     let parts = problem.boundary.iter().enumerate();
     let mut found: Vec<_> = parts.filter_map(|(k, part)| check_part(k, part, problem)).collect();
     found.extend(check_contradictions(problem));
@@ -65,7 +64,7 @@ fn claims(
 
 /// Finds components that are given twice at a place. Each condition that an earlier one contradicts
 /// is listed once.
-fn check_contradictions(problem: &ProblemData) -> Vec<InvalidValue> {
+fn check_contradictions(problem: &ProblemData) -> Vec<KeyError> {
     let (boundary, pieces) = (&problem.boundary, problem.pieces());
     let mut all: Vec<_> =
         boundary.iter().enumerate().flat_map(|(k, part)| claims(k, part, pieces)).collect();
@@ -83,11 +82,11 @@ fn check_contradictions(problem: &ProblemData) -> Vec<InvalidValue> {
             farthest = claim;
         }
     }
-    let mistake = |(later, earlier): (usize, usize)| {
-        let message = contradiction(problem, &boundary[earlier], &boundary[later])?;
-        Some(on(later).mistake(message).with_other(on(earlier)))
+    let error = |(later, earlier): (usize, usize)| {
+        let message = contradiction(problem, &boundary[earlier], &boundary[later]);
+        on(later).error(message).with_other(on(earlier))
     };
-    pairs.into_iter().filter_map(mistake).collect()
+    pairs.into_iter().map(error).collect()
 }
 
 fn on(index: usize) -> Key {
@@ -98,7 +97,7 @@ fn check_part(
     index: usize,
     condition: &BoundaryCondition,
     problem: &ProblemData,
-) -> Option<InvalidValue> {
+) -> Option<KeyError> {
     let (holes, cracks) = (problem.domain().holes.len(), problem.cracks().len());
     let message = match condition.on {
         part @ BoundaryPart::Edge { edge, from, to } => {
@@ -124,7 +123,7 @@ fn check_part(
         part if !reaches_body(part, problem) => NOTHING_THERE.to_owned(),
         _ => return None,
     };
-    Some(on(index).mistake(message))
+    Some(on(index).error(message))
 }
 
 const NOTHING_THERE: &str = "nothing of the body is there: it lies in holes, or outside of the outline or the box; leave this [[boundary]] \
@@ -164,25 +163,20 @@ fn bad_range(edge: DomainEdge, [from, to]: [f64; 2], domain: &Rect) -> Option<St
 }
 
 /// Two conditions that speak of the same component at the same place.
-fn contradiction(
-    problem: &ProblemData,
-    a: &BoundaryCondition,
-    b: &BoundaryCondition,
-) -> Option<String> {
-    let place = a.on.common(&b.on)?;
-    let count = a.components.len().min(b.components.len());
-    let component = (0..count).find(|&k| a.says(k) && b.says(k))?;
-    let what = match count {
-        1 => "the value or flux".to_owned(),
-        _ => format!("the {} component", ["x", "y"][component]),
+fn contradiction(problem: &ProblemData, a: &BoundaryCondition, b: &BoundaryCondition) -> String {
+    let place = a.on.common(b.on);
+    let what = match a.components.len().min(b.components.len()) {
+        1 => "the value or flux",
+        _ if a.says(0) && b.says(0) => "the x component",
+        _ => "the y component",
     };
     let remedy = match place {
         BoundaryPart::Edge { .. } => "divide the edge by `from` and `to`, or leave",
         _ => "leave",
     };
     let place = problem.words_of(place);
-    Some(format!(
+    format!(
         "{what} on {place} is given twice; give each component once at each place: {remedy} a \
          component \"free\""
-    ))
+    )
 }

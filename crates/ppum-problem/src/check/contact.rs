@@ -1,14 +1,13 @@
 //! Rules for cracks whose faces may touch.
 
-use super::super::boundary::BoundaryPart;
-use super::super::key::{InvalidValue, Key, no_such};
-use super::super::model::ProblemData;
+use crate::data::{BoundaryPart, ProblemData};
+use crate::file::{Key, KeyError, no_such};
 
 /// All rules broken by cracks whose faces may touch.
-pub(super) fn check_contact(problem: &ProblemData) -> Vec<InvalidValue> {
+pub(super) fn check_contact(problem: &ProblemData) -> Vec<KeyError> {
     let contact = |crack: usize| Key::new("crack").index(crack).name("contact");
-    let of_crack = |(crack, _)| Some(contact(crack).mistake(bad_crack(problem, crack)?));
-    let mut found: Vec<InvalidValue> = problem.body.contacts().filter_map(of_crack).collect();
+    let of_crack = |(crack, _)| Some(contact(crack).error(bad_crack(problem, crack)?));
+    let mut found: Vec<KeyError> = problem.body.contacts().filter_map(of_crack).collect();
     for (crack, friction) in problem.body.contacts() {
         let key = Key::new("crack").index(crack).name("friction");
         found.extend(key.out_of_range(friction));
@@ -19,7 +18,7 @@ pub(super) fn check_contact(problem: &ProblemData) -> Vec<InvalidValue> {
             let message = "the faces of this crack may touch, and press on each other with what is not known \
                            before; leave this [[boundary]] out, or leave `contact` out";
             let key = Key::new("boundary").index(index).name("on");
-            found.push(key.mistake(message).with_other(contact(crack)));
+            found.push(key.error(message).with_other(contact(crack)));
         }
     }
     found

@@ -5,14 +5,12 @@ use ppum::formula::{Formula, FormulaJets};
 use ppum::function::{NonsmoothPoints, function_scope};
 use ppum::vec2::{Rect, Vec2};
 
-use super::super::enrichment::{EnrichmentRegion, LocalEnrichment, Site};
-use super::super::expression;
-use super::super::key::{InvalidValue, Key};
-use super::super::model::ProblemData;
+use crate::data::{EnrichmentRegion, LocalEnrichment, ProblemData, Site, expression};
+use crate::file::{Key, KeyError};
 use crate::geometry::meets;
 
 /// All rules broken by the enrichments.
-pub(super) fn check_enrichments(problem: &ProblemData) -> Vec<InvalidValue> {
+pub(super) fn check_enrichments(problem: &ProblemData) -> Vec<KeyError> {
     let check = |(index, new): (usize, &LocalEnrichment)| {
         let found = [
             bad_functions(new, problem),
@@ -24,15 +22,15 @@ pub(super) fn check_enrichments(problem: &ProblemData) -> Vec<InvalidValue> {
         found
             .into_iter()
             .flatten()
-            .map(move |(name, message)| key.clone().name(name).mistake(message))
+            .map(move |(name, message)| key.clone().name(name).error(message))
     };
     problem.enrichments.iter().enumerate().flat_map(check).collect()
 }
 
 /// A key and what is wrong with its value.
-type KeyMistake = (&'static str, String);
+type NamedError = (&'static str, String);
 
-fn bad_functions(new: &LocalEnrichment, problem: &ProblemData) -> Option<KeyMistake> {
+fn bad_functions(new: &LocalEnrichment, problem: &ProblemData) -> Option<NamedError> {
     if new.functions.is_empty() {
         return Some(("functions", "there is no function; give at least one".to_owned()));
     }
@@ -49,7 +47,7 @@ fn bad_functions(new: &LocalEnrichment, problem: &ProblemData) -> Option<KeyMist
     })
 }
 
-fn bad_site(new: &LocalEnrichment, problem: &ProblemData) -> Option<KeyMistake> {
+fn bad_site(new: &LocalEnrichment, problem: &ProblemData) -> Option<NamedError> {
     let domain = &problem.domain().bounds;
     let message = |text: &str| text.to_owned();
     match new.site {
@@ -78,7 +76,7 @@ fn bad_segment([a, b]: [Vec2; 2], domain: &Rect) -> Option<&'static str> {
     }
 }
 
-fn bad_region(new: &LocalEnrichment, problem: &ProblemData) -> Option<KeyMistake> {
+fn bad_region(new: &LocalEnrichment, problem: &ProblemData) -> Option<NamedError> {
     match (&new.region, new.site) {
         (EnrichmentRegion::Near(_), Site::World) => {
             let message = "`radius` has no meaning without `at` or `along`; add one of them, or write \
@@ -96,7 +94,7 @@ fn bad_region(new: &LocalEnrichment, problem: &ProblemData) -> Option<KeyMistake
     }
 }
 
-fn bad_declaration(new: &LocalEnrichment) -> Option<KeyMistake> {
+fn bad_declaration(new: &LocalEnrichment) -> Option<NamedError> {
     let NonsmoothPoints { kinks, singular } = &new.declared;
     let message =
         |key: &str| format!("`{key}` has a point that is not finite, or a segment without length");

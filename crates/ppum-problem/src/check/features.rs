@@ -6,15 +6,11 @@
 
 use ppum::vec2::Vec2;
 
-use super::super::adaptivity::{Adaptivity, StepsKept};
-use super::super::discretization::Enrichment;
-use super::super::enrichment::LocalEnrichment;
-use super::super::growth::{GrowthRule, LoadControl};
-use super::super::key::{InvalidValue, Key};
-use super::super::model::ProblemData;
-use super::super::solver::SolverKind;
-use super::super::symmetry::Symmetry;
-use super::super::words::Keyword as _;
+use crate::data::{
+    Adaptivity, Enrichment, GrowthRule, Keyword as _, LoadControl, LocalEnrichment, ProblemData,
+    SolverKind, StepsKept, Symmetry,
+};
+use crate::file::{Key, KeyError};
 
 /// A feature has a key, a remedy, and a problem that has it; keys in lists have their first entry.
 struct FeatureRow {
@@ -156,19 +152,19 @@ impl ProblemData {
 }
 
 /// The diagnostics of pairs of features that exclude each other.
-pub(super) fn check_features(problem: &ProblemData) -> Vec<InvalidValue> {
+pub(super) fn check_features(problem: &ProblemData) -> Vec<KeyError> {
     let found = problem.features();
     let is_broken = |(first, second, _): &&_| found.contains(first) && found.contains(second);
-    EXCLUDED.iter().filter(is_broken).map(|broken| mistake(problem, broken)).collect()
+    EXCLUDED.iter().filter(is_broken).map(|broken| error(problem, broken)).collect()
 }
 
-fn mistake(problem: &ProblemData, (first, second, why): &(Feature, Feature, &str)) -> InvalidValue {
+fn error(problem: &ProblemData, (first, second, why): &(Feature, Feature, &str)) -> KeyError {
     let remedies = [first, second].map(|feature| feature.row().remedy);
     let remedies: Vec<&str> = remedies.into_iter().filter(|remedy| !remedy.is_empty()).collect();
     let why = why.replace("{}", problem.discretization.enrichment.word());
-    let mistake = first.key(problem).mistake(format!("{why}; {}", remedies.join(", or ")));
+    let error = first.key(problem).error(format!("{why}; {}", remedies.join(", or ")));
     let is_of_crack = second.row().key.starts_with("crack");
-    if is_of_crack { mistake.with_other(second.key(problem)) } else { mistake }
+    if is_of_crack { error.with_other(second.key(problem)) } else { error }
 }
 
 impl Feature {
@@ -190,7 +186,7 @@ impl Feature {
                 let crack = if self == Self::Contact { contact } else { border };
                 Key::new("crack").index(crack).name(name)
             }
-            _ => Key::of(path),
+            _ => Key::new(path),
         }
     }
 }

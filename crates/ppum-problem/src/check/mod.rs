@@ -2,34 +2,35 @@
 
 mod boundary;
 mod contact;
+mod cracks;
 mod enrichment;
 pub(super) mod features;
+mod holes;
+mod quantities;
 mod refinement;
 mod support;
 mod symmetry;
 
+use ppum::border::touch;
 use ppum::dataset::{EIGENSTRAINS, EXPANSION, Equation};
 use ppum::domain::{Domain, Hole};
 use ppum::expression::Expression;
 use ppum::text::trimmed;
 use ppum::vec2::Rect;
 
-use super::cracks::check_cracks;
-use super::discretization::{BaseCells, Enrichment, MAX_LEVEL, PolynomialOrder};
-use super::enrichment::EnrichmentRegion;
-use super::error::{Diagnostic, ProblemError, ProblemLocation};
-use super::holes::check_holes;
-use super::key::{InvalidValue, Key};
-use super::model::ProblemData;
-use super::quantities::check_quantities;
-use super::refinement::RefinementRegion;
-use super::scopes;
+use crate::data::{
+    BaseCells, Diagnostic, Enrichment, EnrichmentRegion, MAX_LEVEL, PolynomialOrder, ProblemData,
+    ProblemError, ProblemLocation, RefinementRegion, scopes,
+};
+use crate::file::{Key, KeyError};
 use crate::geometry::Jumps;
 use boundary::check_boundary;
 use contact::check_contact;
+use cracks::check_cracks;
 use enrichment::{check_enrichments, too_wide};
 use features::check_features;
-use ppum::border::touch;
+use holes::check_holes;
+use quantities::check_quantities;
 use refinement::{check_refinements, samples};
 use support::{check_forces, check_supports};
 use symmetry::check_symmetry;
@@ -43,21 +44,21 @@ impl ProblemData {
     /// # Errors
     /// Everything that is wrong, each named by its key.
     pub fn check(&self) -> Result<(), ProblemError> {
-        let mistakes = mistakes(self);
-        if mistakes.is_empty() {
+        let errors = errors(self);
+        if errors.is_empty() {
             return Ok(());
         }
-        let mistake = |mistake: InvalidValue| {
-            let other = mistake.other.map_or(String::new(), |key| format!(" (see {key})"));
-            let location = ProblemLocation::Key(mistake.key.to_string());
-            Diagnostic { location, message: mistake.message + &other }
+        let diagnostic = |error: KeyError| {
+            let other = error.other.map_or(String::new(), |key| format!(" (see {key})"));
+            let location = ProblemLocation::Key(error.key.to_string());
+            Diagnostic { location, message: error.message + &other }
         };
-        Err(ProblemError::new(mistakes.into_iter().map(mistake).collect()))
+        Err(ProblemError::new(errors.into_iter().map(diagnostic).collect()))
     }
 }
 
 /// All rules broken by a problem. The later ones are judged only in a domain that is one.
-pub(super) fn mistakes(problem: &ProblemData) -> Vec<InvalidValue> {
+pub(super) fn errors(problem: &ProblemData) -> Vec<KeyError> {
     let mut found: Vec<_> =
         check_equation(&problem.dataset_equation(), problem.domain()).into_iter().collect();
     found.extend(check_components(problem));
@@ -113,7 +114,7 @@ fn numbers(problem: &ProblemData) -> Vec<(Key, f64)> {
         ("growth.paris.threshold", paris.map(|law| law.threshold)),
         ("growth.paris.ratio", paris.map(|law| law.ratio)),
     ];
-    let given = single.into_iter().filter_map(|(path, value)| Some((Key::of(path), value?)));
+    let given = single.into_iter().filter_map(|(path, value)| Some((Key::new(path), value?)));
     let mut all: Vec<_> = given.collect();
     for (index, new) in problem.enrichments.iter().enumerate() {
         let key = Key::new("enrichment").index(index);
@@ -136,7 +137,7 @@ fn numbers(problem: &ProblemData) -> Vec<(Key, f64)> {
 /// several vertices.
 const LEAST_INCREMENT: f64 = 100.0;
 
-fn check_increment(problem: &ProblemData) -> Option<InvalidValue> {
+fn check_increment(problem: &ProblemData) -> Option<KeyError> {
     let least = LEAST_INCREMENT * touch(&problem.domain().bounds);
     let increment = problem.growth.as_ref()?.increment.filter(|da| *da > 0.0 && *da < least)?;
     let message = format!(
@@ -144,11 +145,11 @@ fn check_increment(problem: &ProblemData) -> Option<InvalidValue> {
         trimmed(increment),
         trimmed(least)
     );
-    Some(Key::of("growth.increment").mistake(message))
+    Some(Key::new("growth.increment").error(message))
 }
 
 /// Functions of tips alone let no crack jump that meets another one, or that comes back to itself.
-fn check_additive(problem: &ProblemData) -> Option<InvalidValue> {
+fn check_additive(problem: &ProblemData) -> Option<KeyError> {
     let domain = problem.domain();
     if problem.discretization.enrichment != Enrichment::AdditiveOnly {
         return None;
@@ -156,21 +157,21 @@ fn check_additive(problem: &ProblemData) -> Option<InvalidValue> {
     let jumps = Jumps::new(problem.cracks(), domain, touch(&domain.bounds));
     let message = "the crack meets another one or comes back to itself, which `enrichment = \"additive-only\"` \
                    cannot show; take another enrichment, or move the cracks apart";
-    jumps.first_meeting().map(|crack| Key::points(crack as usize).mistake(message))
+    jumps.first_meeting().map(|crack| Key::points(crack as usize).error(message))
 }
 
 /// No zone of the built-in functions of tips may reach too far.
-fn check_zone(problem: &ProblemData) -> Option<InvalidValue> {
+fn check_zone(problem: &ProblemData) -> Option<KeyError> {
     let radius = problem.discretization.enrichment_radius?;
     let message = too_wide(problem, radius)?;
-    let key = Key::of("discretization.enrichment_radius");
-    Some(key.mistake(format!("`enrichment_radius` {message}")))
+    let key = Key::new("discretization.enrichment_radius");
+    Some(key.error(format!("`enrichment_radius` {message}")))
 }
 
 /// Sizes of a domain whose squares and their sums neither underflow nor overflow in the solver.
 const SIZES: std::ops::RangeInclusive<f64> = 1e-30..=1e30;
 
-fn check_domain(domain: &Domain) -> Vec<InvalidValue> {
+fn check_domain(domain: &Domain) -> Vec<KeyError> {
     let size = domain.bounds.size();
     let axes = [("x", size.x), ("y", size.y)];
     let wrong = axes.into_iter().filter(|(_, size)| !SIZES.contains(size));
@@ -185,12 +186,12 @@ fn check_domain(domain: &Domain) -> Vec<InvalidValue> {
         } else {
             format!("`max` must exceed `min` in {axis}; give two opposite corners of a box")
         };
-        Key::of("domain.max").mistake(message)
+        Key::new("domain.max").error(message)
     };
     let box_is_wrong: Vec<_> = wrong.map(message).collect();
     if !box_is_wrong.is_empty() && domain.outline().is_some_and(|k| is_flat(&domain.holes[k])) {
         let message = "the outline encloses nothing; give three corners or more, not all on a line";
-        return vec![Key::of("domain.outline").mistake(message)];
+        return vec![Key::new("domain.outline").error(message)];
     }
     if box_is_wrong.is_empty() { check_holes(domain) } else { box_is_wrong }
 }
@@ -202,25 +203,25 @@ fn is_flat(outline: &Hole) -> bool {
 }
 
 /// Names that all formulas may use; files cannot break this, code can.
-fn check_tables(problem: &ProblemData) -> Option<InvalidValue> {
+fn check_tables(problem: &ProblemData) -> Option<KeyError> {
     let broken =
         |count: &usize| scopes::check(&problem.tables[..*count], &problem.equation).is_err();
     let count = (1..=problem.tables.len()).find(broken)?;
     let error = scopes::check(&problem.tables[..count], &problem.equation).err()?;
-    Some(Key::new("table").index(count - 1).name("name").mistake(error.to_string()))
+    Some(Key::new("table").index(count - 1).name("name").error(error.to_string()))
 }
 
-fn check_equation(equation: &Equation, domain: &Domain) -> Option<InvalidValue> {
-    let (name, message) = equation.mistake(domain)?;
+fn check_equation(equation: &Equation, domain: &Domain) -> Option<KeyError> {
+    let (name, message) = equation.invalid_constant(domain)?;
     if EIGENSTRAINS.contains(&name) || name == EXPANSION {
         let message = format!("`{name}` {message}; correct [temperature] or [strain]");
-        return Some(Key::of("material.expansion").mistake(message));
+        return Some(Key::new("material.expansion").error(message));
     }
-    Some(Key::new("material").name(name).mistake(format!("`{name}` {message}")))
+    Some(Key::new("material").name(name).error(format!("`{name}` {message}")))
 }
 
 /// One value per component everywhere; files cannot break this, code can.
-fn check_components(problem: &ProblemData) -> Vec<InvalidValue> {
+fn check_components(problem: &ProblemData) -> Vec<KeyError> {
     let expected = problem.components();
     let boundary = (0..)
         .zip(&problem.boundary)
@@ -229,10 +230,10 @@ fn check_components(problem: &ProblemData) -> Vec<InvalidValue> {
     let lists = boundary.chain(exact).chain([(Key::new("source"), problem.source.len())]);
     let wrong = lists.filter(|(_, given)| *given != expected);
     let message = |given| format!("there are {given} components, but the field has {expected}");
-    wrong.map(|(key, given)| key.mistake(message(given))).collect()
+    wrong.map(|(key, given)| key.error(message(given))).collect()
 }
 
-fn check_cells(cells: &BaseCells) -> Option<InvalidValue> {
+fn check_cells(cells: &BaseCells) -> Option<KeyError> {
     let BaseCells::Grid([nx, ny]) = *cells else { return None };
     let message = if nx == 0 || ny == 0 {
         "`cells` must be at least 1 in each direction".to_owned()
@@ -241,14 +242,14 @@ fn check_cells(cells: &BaseCells) -> Option<InvalidValue> {
     } else {
         return None;
     };
-    Some(Key::of("discretization.cells").mistake(message))
+    Some(Key::new("discretization.cells").error(message))
 }
 
-fn check_points(cells: &BaseCells, domain: &Rect) -> Option<InvalidValue> {
+fn check_points(cells: &BaseCells, domain: &Rect) -> Option<KeyError> {
     let BaseCells::Points(points) = cells else { return None };
-    let key = Key::of("discretization.points");
+    let key = Key::new("discretization.points");
     if points.is_empty() {
-        return Some(key.mistake("there are no points; at least one is needed"));
+        return Some(key.error("there are no points; at least one is needed"));
     }
     let outside: Vec<_> = points.iter().filter(|p| !domain.contains(**p)).collect();
     let first = outside.first()?;
@@ -259,11 +260,11 @@ fn check_points(cells: &BaseCells, domain: &Rect) -> Option<InvalidValue> {
         first.x,
         first.y
     );
-    Some(key.mistake(message))
+    Some(key.error(message))
 }
 
-fn check_order(order: &PolynomialOrder, domain: &Rect) -> Option<InvalidValue> {
-    let key = Key::of("discretization.order");
+fn check_order(order: &PolynomialOrder, domain: &Rect) -> Option<KeyError> {
+    let key = Key::new("discretization.order");
     let mut wrong = samples(domain).filter_map(|p| order.at(p).err());
-    wrong.next().map(|error| key.mistake(error.to_string()))
+    wrong.next().map(|error| key.error(error.to_string()))
 }

@@ -2,10 +2,8 @@
 
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::super::discretization::{BaseCells, MAX_LEVEL};
-use super::super::key::{InvalidValue, Key, no_such};
-use super::super::model::ProblemData;
-use super::super::refinement::{DEEPEST, LocalRefinement, RefinementRegion};
+use crate::data::{BaseCells, DEEPEST, LocalRefinement, MAX_LEVEL, ProblemData, RefinementRegion};
+use crate::file::{Key, KeyError, no_such};
 
 /// Most tables: each cell asks all that are near it.
 const MAX_REFINEMENTS: usize = 1024;
@@ -22,21 +20,21 @@ pub(super) fn samples(rect: &Rect) -> impl Iterator<Item = Vec2> + use<> {
 }
 
 /// All rules broken by the refinements; the domain and its cracks and holes are in order.
-pub(super) fn check_refinements(problem: &ProblemData) -> Vec<InvalidValue> {
+pub(super) fn check_refinements(problem: &ProblemData) -> Vec<KeyError> {
     let all = &problem.refinements;
     if all.len() > MAX_REFINEMENTS {
         let message = format!(
             "there are {} [[refine]], but at most {MAX_REFINEMENTS} may be; say more by formulas",
             all.len()
         );
-        return vec![Key::new("refine").mistake(message)];
+        return vec![Key::new("refine").error(message)];
     }
     let check = |(index, new): (usize, &LocalRefinement)| {
         let found = bad_place(new, problem)
             .or_else(|| bad_distance(new))
             .or_else(|| bad_size(new, problem).map(|message| ("size", message)));
         let (name, message) = found?;
-        Some(Key::new("refine").index(index).name(name).mistake(message))
+        Some(Key::new("refine").index(index).name(name).error(message))
     };
     all.iter().enumerate().filter_map(check).collect()
 }

@@ -1,16 +1,15 @@
 //! Rules for forces at points, and for points that are held.
 
+use ppum::border::touch;
 use ppum::segment;
 use ppum::vec2::Vec2;
 
-use super::super::cracks::shown;
-use super::super::force::is_outside;
-use super::super::key::{InvalidValue, Key};
-use super::super::model::ProblemData;
-use ppum::border::touch;
+use crate::data::{ProblemData, is_outside};
+use crate::file::{Key, KeyError};
+use crate::geometry::shown;
 
 /// All rules broken by the forces.
-pub(super) fn check_forces(problem: &ProblemData) -> Vec<InvalidValue> {
+pub(super) fn check_forces(problem: &ProblemData) -> Vec<KeyError> {
     let key = |index: usize| Key::new("force").index(index);
     if problem.forces.is_empty() {
         return Vec::new();
@@ -25,22 +24,22 @@ pub(super) fn check_forces(problem: &ProblemData) -> Vec<InvalidValue> {
             }
             place => place.err()?,
         };
-        Some(key(index).name("at").mistake(format!("{} {message}", shown(force.at))))
+        Some(key(index).name("at").error(format!("{} {message}", shown(force.at))))
     });
     places.collect()
 }
 
 /// All rules broken by the supports.
-pub(super) fn check_supports(problem: &ProblemData) -> Vec<InvalidValue> {
+pub(super) fn check_supports(problem: &ProblemData) -> Vec<KeyError> {
     let mut found = Vec::new();
     for (index, support) in problem.supports.iter().enumerate() {
         let key = Key::new("support").index(index);
         let place = misplaced(problem, support.at);
-        found.extend(place.map(|message| key.clone().name("at").mistake(message)));
+        found.extend(place.map(|message| key.clone().name("at").error(message)));
         if support.displacement == [None; 2] {
             let message = "both components are free, so that nothing is held; give one a value, or leave this \
                            [[support]] out";
-            found.push(key.name("displacement").mistake(message));
+            found.push(key.name("displacement").error(message));
         }
     }
     found

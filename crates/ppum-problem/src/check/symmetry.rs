@@ -3,19 +3,18 @@
 use ppum::border::BorderLine;
 use ppum::crack::TipId;
 
-use super::super::boundary::{BoundaryCondition, BoundaryPart, DomainEdge};
-use super::super::cracks::line_words;
-use super::super::key::{InvalidValue, Key};
-use super::super::model::ProblemData;
+use super::cracks::line_words;
+use crate::data::{BoundaryCondition, BoundaryPart, DomainEdge, ProblemData};
+use crate::file::{Key, KeyError};
 
 /// All rules broken by cracks on straight lines of the boundary.
-pub(super) fn check_symmetry(problem: &ProblemData) -> Vec<InvalidValue> {
+pub(super) fn check_symmetry(problem: &ProblemData) -> Vec<KeyError> {
     let on_lines: Vec<(usize, BorderLine)> = problem.border_cracks().collect();
     let of_crack = |(crack, line): &(usize, BorderLine)| {
         let message = bad_crack(problem, *crack, line)?;
-        Some(Key::points(*crack).mistake(message))
+        Some(Key::points(*crack).error(message))
     };
-    let mut found: Vec<InvalidValue> = on_lines.iter().filter_map(of_crack).collect();
+    let mut found: Vec<KeyError> = on_lines.iter().filter_map(of_crack).collect();
     found.extend(bad_conditions(problem, &on_lines));
     found
 }
@@ -49,11 +48,11 @@ fn bad_crack(problem: &ProblemData, index: usize, line: &BorderLine) -> Option<S
 }
 
 /// Conditions on lines with cracks that are no symmetry, or another one.
-fn bad_conditions(problem: &ProblemData, on_lines: &[(usize, BorderLine)]) -> Vec<InvalidValue> {
+fn bad_conditions(problem: &ProblemData, on_lines: &[(usize, BorderLine)]) -> Vec<KeyError> {
     let bad = |(index, condition): (usize, _)| {
         let key = Key::new("boundary").index(index);
         let (own, crack, message) = bad_condition(problem, condition, on_lines)?;
-        Some(key.name(own).mistake(message).with_other(Key::points(crack)))
+        Some(key.name(own).error(message).with_other(Key::points(crack)))
     };
     problem.boundary.iter().enumerate().filter_map(bad).collect()
 }

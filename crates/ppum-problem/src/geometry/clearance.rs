@@ -1,6 +1,5 @@
 //! Clearance of crack tips: the largest disc around a tip in which nothing disturbs its field.
 
-use super::material::jumps;
 use ppum::border::touch;
 use ppum::crack::{Crack, End, TipId};
 use ppum::dataset::{Dataset, Step};
@@ -8,6 +7,8 @@ use ppum::domain::{Domain, Hole};
 use ppum::function::{Frame, Function, FunctionKind, Role};
 use ppum::segment::{self, Segment, gap};
 use ppum::vec2::{Rect, Vec2};
+
+use super::material::jumps;
 
 /// Distance from a tip, in cells, at which the material is compared with the tip's: more than
 /// rounding of the coordinates, and nothing against the lengths over which a material

@@ -101,21 +101,12 @@ pub fn segment_inside(a: Vec2, b: Vec2, open: &Rect) -> f64 {
 
 /// The range of a segment's parameter inside an open box.
 pub fn clipped(a: Vec2, b: Vec2, open: &Rect) -> Option<[f64; 2]> {
-    let d = b - a;
-    let (mut from, mut to) = (0.0f64, 1.0f64);
-    for (start, step, lo, hi) in
-        [(a.x, d.x, open.min.x, open.max.x), (a.y, d.y, open.min.y, open.max.y)]
-    {
-        if step == 0.0 {
-            if start <= lo || start >= hi {
-                return None;
-            }
-        } else {
-            let (s, t) = ((lo - start) / step, (hi - start) / step);
-            (from, to) = (from.max(s.min(t)), to.min(s.max(t)));
-        }
+    // along an edge of the box nothing is inside
+    let is_off = |a: f64, b: f64, min: f64, max: f64| a == b && (a <= min || a >= max);
+    if is_off(a.x, b.x, open.min.x, open.max.x) || is_off(a.y, b.y, open.min.y, open.max.y) {
+        return None;
     }
-    (to > from).then_some([from, to])
+    Line::through([a, b]).within(open, [0.0, 1.0]).filter(|[from, to]| to > from)
 }
 
 /// True if a part of a segment lies inside an open box or on its boundary.

@@ -10,15 +10,16 @@
 //! there would be a small difference of large parts. So it gives the patch the indicator of
 //! the sliver.
 
-use super::box_list::{BoxList, around, wider};
-use super::clearance::{extension, extensions, led_away};
-use super::clip::{clipped, inside, is_on_rim, meets, segment_inside, solid_part};
-use super::components::{Components, middle};
 use ppum::crack::{Crack, End, SegmentId, TipId};
 use ppum::domain::{Domain, Hole};
 use ppum::function::FunctionKind;
 use ppum::segment::{Segment, gap, polyline_distance};
 use ppum::vec2::{Rect, Vec2};
+
+use super::box_list::{BoxList, around, wider};
+use super::clearance::{extension, extensions, led_away};
+use super::clip::{clipped, inside, is_on_rim, meets, segment_inside, solid_part};
+use super::components::{Components, middle};
 
 /// Part of a patch's size below which a cut does not count.
 const LEAST_CUT: f64 = 1e-9;

@@ -1,8 +1,9 @@
 //! Jumps of the material, seen from a tip.
 
+use std::f64::consts::TAU;
+
 use ppum::dataset::{Elasticity, Material};
 use ppum::vec2::{Vec2, vec2};
-use std::f64::consts::TAU;
 
 /// Directions in which interfaces are looked for, and steps in each: one that passes at the
 /// distance d is found at 1.002 d.

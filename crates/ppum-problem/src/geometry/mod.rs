@@ -4,8 +4,12 @@ mod box_list;
 mod clearance;
 mod clip;
 mod components;
+mod cracks;
+mod curve;
 mod jumps;
 mod material;
+mod nearby;
+mod straight;
 mod vicinity;
 
 pub use box_list::{BoxList, around, wider};
@@ -17,6 +21,13 @@ pub use clip::{
     clipped, distance, inside, is_on_rim, length_inside, meets, rim_crossings, runs_of_rim,
     segment_inside, solid_part, without,
 };
+pub(crate) use cracks::{Holes, edges_at, holes_at, holes_of, reaches, settled, with_ends};
+pub use cracks::{crack, cracks};
+pub use curve::arc_from;
+pub(crate) use curve::{MOST_SEGMENTS, SmoothCurve, TooSharp};
 pub use jumps::Jumps;
 pub use material::{interface_distance, jumps_within};
+pub(crate) use nearby::{Nearby, TooDense, first_pair};
+pub(crate) use straight::needed;
 pub use vicinity::Vicinity;
+pub(crate) use vicinity::shown;

@@ -1,8 +1,9 @@
 //! The location in the body that an error is about.
 
+use std::fmt;
+
 use ppum::text::{beside, trimmed};
 use ppum::vec2::{Rect, Vec2};
-use std::fmt;
 
 /// The neighbourhood of a cell or a patch: users know places, not numbers of patches.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,4 +28,9 @@ impl fmt::Display for Vicinity {
         let [x, y] = [center.x, center.y].map(|v| trimmed(beside(v, far)));
         write!(f, "around ({x}, {y}), up to {} away", trimmed(far))
     }
+}
+
+/// `[0.5, -0.25]`
+pub(crate) fn shown(p: Vec2) -> String {
+    format!("[{}, {}]", trimmed(p.x), trimmed(p.y))
 }

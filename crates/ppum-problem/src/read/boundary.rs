@@ -1,16 +1,15 @@
 //! The tables `[[boundary]]`.
 
+use ppum::border::touch;
 use ppum::domain::Hole;
 use ppum::expression::Expression;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::super::boundary::{BoundaryCondition, BoundaryPart, Condition, DomainEdge, OUTLINE};
-use super::super::document::{DocumentValue, FromValue as _, Section, all};
-use super::super::key::no_such;
-use super::super::symmetry::Symmetry;
-use super::super::words::EquationKind;
-use super::rim::BodyShape;
-use ppum::border::touch;
+use crate::data::{
+    BoundaryCondition, BoundaryPart, Condition, DomainEdge, EquationKind, OUTLINE, Symmetry,
+};
+use crate::file::{DocumentValue, FromValue as _, Section, all, no_such};
+use crate::read::body::BodyShape;
 
 /// The conditions; none at all if one of them cannot be read, as the checks count them. `exact` is
 /// the exact solution: empty if there is none, `None` if it cannot be read.

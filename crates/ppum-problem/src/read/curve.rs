@@ -1,13 +1,13 @@
 //! The table `[[crack]]`, which may be a curve: `arc`, `ellipse`, `spline`, `path`; and what closed
 //! curves have in common with it.
 
+use std::f64::consts::TAU;
+
+use ppum::spline::Spline;
 use ppum::vec2::{Vec2, vec2};
 
-use super::super::cracks::shown;
-use super::super::curve::{self, SmoothCurve, TooSharp};
-use super::super::document::{DocumentValue, FromValue as _, Section, all};
-use super::super::keys::MOST_SEGMENTS;
-use ppum::spline::Spline;
+use crate::file::{DocumentValue, FromValue as _, Section, all};
+use crate::geometry::{MOST_SEGMENTS, SmoothCurve, TooSharp, shown};
 
 /// Gap between pieces of a path, in parts of their size, that is rounding of their ends.
 pub(super) const JOINT: f64 = 1e-6;
@@ -45,10 +45,10 @@ fn open(key: &str, value: &DocumentValue<'_>, segments: Option<usize>) -> Option
         "ellipse" => ellipse(value, true)?,
         _ => SmoothCurve::Spline(Spline::open(&knots(value, false)?)),
     };
-    points_or_mistake(curve.divided(segments), value)
+    points_or_error(curve.divided(segments), value)
 }
 
-pub(super) fn points_or_mistake(
+pub(super) fn points_or_error(
     points: Result<Vec<Vec2>, TooSharp>,
     value: &DocumentValue<'_>,
 ) -> Option<Vec<Vec2>> {
@@ -136,7 +136,7 @@ pub(super) fn ellipse(value: &DocumentValue<'_>, is_part: bool) -> Option<Smooth
         Some(vec2(a?, b?))
     });
     let angle = section.or("angle", 0.0);
-    let range = if is_part { range(&section) } else { Some(curve::around(0.0)) };
+    let range = if is_part { range(&section) } else { Some([0.0, TAU]) };
     let (axes, angle, [from, to]) = (axes?, angle?.to_radians(), range?);
     Some(SmoothCurve::Ellipse { center: center?, axes, angle, from, to })
 }

@@ -4,11 +4,9 @@ use ppum::library;
 use ppum::text::nearest;
 use ppum::weight::{WeightError, WeightFunction};
 
-use super::super::adaptivity::Adaptivity;
-use super::super::discretization::{BaseCells, Discretization, PolynomialOrder};
-use super::super::document::{DocumentValue, FileSource, FromValue as _, Section};
-use super::super::{points, scopes};
-use super::enrichment::is_word;
+use crate::data::{Adaptivity, BaseCells, Discretization, PolynomialOrder, scopes};
+use crate::file::{DocumentValue, FileSource, FromValue as _, Section, points};
+use crate::read::enrichment::is_word;
 
 /// Optional values that are wrong are reported, and left at their defaults.
 pub(super) fn discretization(section: &Section<'_>) -> Option<Discretization> {
@@ -63,7 +61,7 @@ fn cells(section: &Section<'_>) -> Option<BaseCells> {
         [(_, points)] => match section.document.source {
             FileSource::Folder(folder) => {
                 let found = points::read(&points.file(folder)?);
-                found.map(BaseCells::Points).map_err(|mistakes| points.add(mistakes)).ok()
+                found.map(BaseCells::Points).map_err(|errors| points.add(errors)).ok()
             }
             FileSource::Stored(dataset) => {
                 let points = dataset.steps.first()?.partition.boxes().points.clone();

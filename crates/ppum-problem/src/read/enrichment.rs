@@ -7,8 +7,8 @@ use ppum::library::{self, Entry};
 use ppum::text::nearest;
 use ppum::vec2::Vec2;
 
-use super::super::document::{DocumentValue, FromValue as _, Section, all};
-use super::super::enrichment::{EnrichmentRegion, LocalEnrichment, Site};
+use crate::data::{EnrichmentRegion, LocalEnrichment, Site};
+use crate::file::{DocumentValue, FromValue as _, Section, all};
 
 /// The enrichment of a problem with so many cracks.
 pub(super) fn enrichment(section: &Section<'_>, cracks: usize) -> Option<LocalEnrichment> {
@@ -18,24 +18,16 @@ pub(super) fn enrichment(section: &Section<'_>, cracks: usize) -> Option<LocalEn
     let functions = functions?;
     Some(LocalEnrichment {
         name: name?.unwrap_or(functions.name),
-        functions: functions.texts,
-        parameters: functions.parameters,
         site: site?,
         region: region?,
         degree: degree?,
         declared: declared?,
+        ..functions
     })
 }
 
-/// The values of `function`, `functions` and `parameters`.
-struct Functions {
-    /// The name in the library, if that is what was given.
-    name: String,
-    texts: Vec<String>,
-    parameters: Vec<(String, f64)>,
-}
-
-fn functions(section: &Section<'_>, cracks: usize) -> Option<Functions> {
+/// The functions with their parameters; their name is that in the library, if one was given.
+fn functions(section: &Section<'_>, cracks: usize) -> Option<LocalEnrichment> {
     let given = given(section)?;
     let entries: Vec<_> = given.iter().filter_map(entry).collect();
     let of_library = entries.len() == given.len();
@@ -48,7 +40,8 @@ fn functions(section: &Section<'_>, cracks: usize) -> Option<Functions> {
         [entry] if of_library => entry.name.to_owned(),
         _ => String::new(),
     };
-    Some(Functions { name, texts, parameters })
+    let new = LocalEnrichment::new(&[], Site::World);
+    Some(LocalEnrichment { name, functions: texts, parameters, ..new })
 }
 
 /// The values of `function` or `functions`.

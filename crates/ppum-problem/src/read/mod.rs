@@ -12,11 +12,11 @@ macro_rules! with_keys {
     }};
 }
 
+mod body;
 mod boundary;
 mod curve;
 mod discretization;
 mod enrichment;
-mod rim;
 mod steps;
 mod support;
 mod table;
@@ -34,24 +34,18 @@ use ppum::quantity::QuantityFormulaError;
 use ppum::vec2::Vec2;
 use toml::de::DeTable;
 
-use super::adaptivity::Adaptivity;
-use super::body::{Body, HeatedBody};
-use super::boundary::BoundaryPart;
-use super::check::mistakes;
-use super::discretization::{Discretization, PolynomialOrder};
-use super::document::{
-    DocumentValue, FileSource, FromValue as _, MAX_LENGTH, ProblemDocument, Section, all,
+use crate::check;
+use crate::data::{
+    Adaptivity, Body, BoundaryPart, Diagnostic, Discretization, EquationKind, HeatedBody,
+    PolynomialOrder, Problem, ProblemData, ProblemError, ProblemLocation, RefinementRegion,
+    SolverSettings, default_order, quantities,
 };
-use super::error::{Diagnostic, ProblemError, ProblemLocation};
-use super::keys::ROOT;
-use super::model::{Problem, ProblemData};
-use super::quantities;
-use super::refinement::RefinementRegion;
-use super::report::DiagnosticList;
-use super::solver::SolverSettings;
-use super::stiffness::default_order;
-use super::words::EquationKind;
-use rim::BodyShape;
+use crate::file::keys::ROOT;
+use crate::file::{
+    DiagnosticList, DocumentValue, FileSource, FromValue as _, MAX_LENGTH, ProblemDocument,
+    Section, all,
+};
+use body::BodyShape;
 
 impl Problem {
     /// Reads a problem file of at most [`MAX_LENGTH`] bytes. Paths in it are relative to its
@@ -130,10 +124,10 @@ fn read_document(
         report_violations(&document, table.get_ref(), problem);
     }
     let files = document.files.take();
-    let mistakes = document.report.into_findings();
+    let errors = document.report.into_errors();
     let problem = match problem {
-        Some(problem) if mistakes.is_empty() => problem,
-        _ => return Err(ProblemError::new(mistakes)),
+        Some(problem) if errors.is_empty() => problem,
+        _ => return Err(ProblemError::new(errors)),
     };
     let title = match problem.title.as_str() {
         "" => Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned(),
@@ -174,12 +168,12 @@ fn report_violations(
     problem: &ProblemData,
 ) {
     let misnamed = misnamed.borrow();
-    for mistake in mistakes(problem).into_iter().filter(|one| !one.key.is_in_any(&misnamed)) {
-        let other = mistake.other.map_or(String::new(), |key| {
+    for error in check::errors(problem).into_iter().filter(|one| !one.key.is_in_any(&misnamed)) {
+        let other = error.other.map_or(String::new(), |key| {
             let (line, _) = report.position(key.span(document).start);
             format!(" (the other is on line {line})")
         });
-        report.at(mistake.key.span(document).start, mistake.message + &other);
+        report.at(error.key.span(document).start, error.message + &other);
     }
 }
 
@@ -212,7 +206,7 @@ fn problem<'a>(document: &'a ProblemDocument<'a>, table: &'a DeTable<'a>) -> Opt
     let (cracks, frictions) = cracks(root, heated);
     let mut shape = match heated {
         Some(heated) => BodyShape::of(heated.body),
-        None => rim::body(root, discretization.as_ref()),
+        None => body::body(root, discretization.as_ref()),
     };
     let enrichments = root.each("enrichment", |new| enrichment::enrichment(&new, cracks.len()));
     let mut refinements = root.each("refine", |new| steps::refinement(&new));

@@ -2,10 +2,8 @@
 
 use ppum::vec2::{Rect, vec2};
 
-use super::super::adaptivity::Adaptivity;
-use super::super::document::Section;
-use super::super::growth::{GrowthRule, Paris};
-use super::super::refinement::{LocalRefinement, RefinementRegion};
+use crate::data::{Adaptivity, GrowthRule, LocalRefinement, Paris, RefinementRegion};
+use crate::file::Section;
 
 /// The table, or its defaults for the accuracy that `[discretization]` asks for. Values that are
 /// wrong are reported, and left at their defaults.

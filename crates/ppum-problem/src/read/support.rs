@@ -1,7 +1,7 @@
 //! The tables `[[force]]` and `[[support]]`.
 
-use super::super::document::{DocumentValue, FromValue as _, Section, all};
-use super::super::support::{Force, Support};
+use crate::data::{Force, Support};
+use crate::file::{DocumentValue, FromValue as _, Section, all};
 
 /// The forces; none at all if one of them cannot be read, as the checks count them.
 pub(super) fn forces(root: &Section<'_>) -> Vec<Force> {

@@ -5,9 +5,9 @@ use std::sync::Arc;
 use ppum::dataset::{Equation, MAX_TABLES};
 use ppum::formula::{Table, TableError};
 
-use super::super::document::{DocumentValue, FileSource, FromValue as _, Section, all};
-use super::super::scopes;
-use super::super::table_file::{self, TableData};
+use crate::data::scopes;
+use crate::file::table_file::{self, TableData};
+use crate::file::{DocumentValue, FileSource, FromValue as _, Section, all};
 
 /// The tables. For one that is wrong in all but its name another one stands in, so that formulas
 /// that read it are not found wrong as well.
@@ -51,7 +51,7 @@ fn data(section: &Section<'_>) -> Option<TableData> {
         (Some(_), Some((_, own))) => own.error("contradicts `file`; give one of them"),
         (Some(file), None) => {
             let FileSource::Folder(folder) = section.document.source else { return None };
-            table_file::read(&file.file(folder)?).map_err(|mistakes| file.add(mistakes)).ok()
+            table_file::read(&file.file(folder)?).map_err(|errors| file.add(errors)).ok()
         }
         (None, Some(_)) => inline(section),
         (None, None) if section.mentions("file") || section.mentions_any(&INLINE) => None,
@@ -84,13 +84,8 @@ fn row_of(row: &DocumentValue<'_>, length: usize) -> Option<Vec<f64>> {
 
 /// Reports what is wrong with the data, at the list or the number.
 fn report(section: &Section<'_>, error: &TableError) {
-    let (key, index) = match error {
-        TableError::TooFewKnots { axis, .. } => (axis.to_string(), None),
-        TableError::NotIncreasing { axis, index, .. } => (axis.to_string(), Some(*index)),
-        _ => ("values".to_owned(), None),
-    };
-    let list = section.value(&key).or_else(|| section.value("file"));
-    let number = list.as_ref().and_then(|list| list.element(index?));
+    let list = section.value(error.list).or_else(|| section.value("file"));
+    let number = list.as_ref().and_then(|list| list.element(error.index?));
     match number.or(list) {
         Some(value) => value.report(&error.to_string()),
         None => _ = section.error::<()>(error.to_string()),

@@ -6,10 +6,8 @@ use ppum::dataset::{Eigenstrain, Equation};
 use ppum::expression::Expression;
 use toml::de::DeTable;
 
-use super::super::body::Body;
-use super::super::document::{DocumentValue, FileSource, MAX_LENGTH, Section};
-use super::super::error::ProblemError;
-use super::super::model::{Problem, ProblemData, SolvedTemperature};
+use crate::data::{Body, Problem, ProblemData, ProblemError, SolvedTemperature};
+use crate::file::{DocumentValue, FileSource, MAX_LENGTH, Section};
 
 /// Reads the problem of a text that begins at a line and column of a file.
 type TemperatureReader<'r> =

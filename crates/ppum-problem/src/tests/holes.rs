@@ -1,9 +1,10 @@
 //! Holes, and conditions on all parts of the border.
 
-use super::*;
 use ppum::crack::{CrackEnd, Side};
 use ppum::domain::Hole;
 use ppum::vec2::vec2;
+
+use super::*;
 
 /// A plate with two holes and a crack from the first. Line numbers: 1 domain, 4 material, 8 and 11
 /// hole, 13 crack, 15, 18, 21, 24 and 27 boundary, 30 discretization.

@@ -1,11 +1,12 @@
 //! Outlines of bodies, paths of pieces, and conditions on pieces.
 
-use super::*;
-use crate::{BoundaryPiece, BoundaryRange};
 use ppum::crack::CrackEnd;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_testkit::random::Random;
+
+use super::*;
+use crate::{BoundaryPiece, BoundaryRange};
 
 /// A bracket with a fillet, and a slot of two pieces with one name.
 const BRACKET: &str = r#"

@@ -50,7 +50,7 @@ def __getattr__(name: str) -> _Any:
 
 
 class _Accessor:
-    """An attribute of fields that holds the field; of the class, the class of the attribute."""
+    """An attribute of fields that holds the field; the attribute of the class is the accessor's class."""
 
     def __init__(self, kind: type) -> None:
         self._kind, self.__doc__ = kind, kind.__doc__

@@ -1,4 +1,4 @@
-"""Arrays as the file format has them: types, shapes, texts; and the arguments of `ppum.build` that they are made of."""
+"""Arrays of the file format: types, shapes, texts; and the arguments of `ppum.build` that they are made of."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -28,7 +28,7 @@ TEXTS = {
 
 
 def packed(path: str, value: Any) -> tuple[str, list[int], NDArray[Any] | list[str]]:
-    """Path, shape and values, row-major."""
+    """Return path, shape and row-major values."""
     parts = path.split("/")
     name = parts[-1]
     if name in TEXTS or "@" not in name and _is_text(value) or isinstance(value, str):
@@ -79,7 +79,7 @@ OFFSETS = {
 
 
 def in_arguments(message: str, arrays: Mapping[str, Any], is_series: bool) -> str:
-    """A message of the format about `arrays`, a line for each mistake, with the places of arguments."""
+    """Rewrite a message of the format about `arrays`, line by line, with the places of arguments."""
 
     def argument(found: re.Match[str]) -> str:
         step, path, indices, name = found.groups()
@@ -92,7 +92,7 @@ def in_arguments(message: str, arrays: Mapping[str, Any], is_series: bool) -> st
 
 
 def _argument(path: str, numbers: Sequence[int], name: str | None, array: Any) -> str:
-    """The argument of a path, where it has one."""
+    """Return the argument of a path, or the path if it has none."""
     group, *rest = re.split("[/@]", path.lstrip("@"))
     key = rest[-1] if rest else ""
     ours = ARGUMENTS.get(key, key)
@@ -118,7 +118,7 @@ def _argument(path: str, numbers: Sequence[int], name: str | None, array: Any) -
 
 
 def _entry(group: str, key: str, numbers: list[int], name: str | None, array: Any) -> str:
-    """An entry of a dictionary: a function, an attribute, a quantity."""
+    """Return an entry of a dictionary: a function, an attribute, a quantity."""
     inner: list[int] = []
     if name is None:
         k, inner = _part(group, key, numbers, array)
@@ -129,7 +129,7 @@ def _entry(group: str, key: str, numbers: list[int], name: str | None, array: An
 
 
 def _part(group: str, key: str, numbers: list[int], array: Any) -> tuple[int, list[int]]:
-    """The entry that a row belongs to, and the indices in it."""
+    """Return the entry that a row belongs to, and the indices in it."""
     if key not in OFFSETS:
         return numbers[0], numbers[1:]
     offsets = np.asarray(array(f"{group}/{OFFSETS[key]}"))

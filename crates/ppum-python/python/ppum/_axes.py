@@ -1,8 +1,8 @@
 """Fields in matplotlib, exact at every pixel of the device.
 
-`plot` puts an artist into axes. Whenever matplotlib draws, the artist evaluates the field at the pixels that are drawn: on screen, in
-a PNG of any resolution, in a PDF, zoomed or not. Colour maps, norms, colour bars and masks are matplotlib's own. Axes know
-places as double precision has them: below some 1e-12 of the coordinates use `field.draw.figure`.
+`plot` puts an artist into axes, which evaluates the field at the pixels that matplotlib draws: on screen, in a PNG of any
+resolution, in a PDF, zoomed or not. Colour maps, norms, colour bars and masks are matplotlib's own. Axes know places as
+double precision has them: below some 1e-12 of the coordinates use `field.draw.figure`.
 """
 
 from typing import TYPE_CHECKING, Any, Unpack, get_args
@@ -16,9 +16,9 @@ from matplotlib.transforms import Bbox
 from . import _core
 from ._errors import QuantityError
 from ._options import takes
-from ._styles import Norm, PlotOptions, request, to_json
+from ._styles import Norm, PlotOptions, request
 from ._text import math_text
-from ._views import Window, window
+from ._views import View, view_at
 
 if TYPE_CHECKING:
     from ._field import Field
@@ -32,10 +32,7 @@ FINE = 1 << 20
 
 @takes(PlotOptions)
 def plot(field: "Field", quantity: str | None = None, **options: Unpack[PlotOptions]) -> "FieldImage":
-    """Draws a quantity into axes, see `field.draw.plot`.
-
-    Returns:
-        The artist."""
+    """Draw a quantity into axes, see `field.draw.plot`, and return the artist."""
     import matplotlib.pyplot as plt
 
     (x0, y0), (x1, y1) = field.dataset.domain
@@ -44,9 +41,8 @@ def plot(field: "Field", quantity: str | None = None, **options: Unpack[PlotOpti
     seen = field._place(options, shape)
     ax = options["ax"] if options["ax"] is not None else plt.gca()
     name = quantity or field._core.default_quantity()
-    artist = {key: options[key] for key in ("alpha", "zorder", "label", "visible", "rasterized", "gid")}
-    cmap, norm = options["cmap"], options["norm"]
-    image = FieldImage(ax, field, name, options["nan_color"], cmap=cmap, norm=norm, **artist)
+    artist = {key: options[key] for key in ("cmap", "norm", "alpha", "zorder", "label", "visible", "rasterized", "gid")}
+    image = FieldImage(ax, field, name, options["nan_color"], **artist)
     image.set_clim(*_limits(field, name, options))
     ax.add_image(image)
     _show(ax, field, seen)
@@ -57,15 +53,15 @@ def plot(field: "Field", quantity: str | None = None, **options: Unpack[PlotOpti
     return image
 
 
-def _show(ax: Any, field: "Field", seen: Window | None) -> None:
-    """Equal scales, and limits that show a place or all of the plate."""
+def _show(ax: Any, field: "Field", seen: View | None) -> None:
+    """Set equal scales, and limits that show a place or all of the plate."""
     (x0, y0), (x1, y1) = field.dataset.domain
     ax.set_aspect("equal")
     if seen is None:
         ax.update_datalim([(x0, y0), (x1, y1)])
         ax.autoscale_view()
         return
-    (x, y), half = seen[0], 0.5 * seen[1]
+    (x, y), half = seen.center, 0.5 * seen.width
     tall = half * (y1 - y0) / (x1 - x0)
     ax.set(xlim=(x - half, x + half), ylim=(y - tall, y + tall))
 
@@ -77,7 +73,7 @@ def _draw_bar(ax: Any, image: "FieldImage", location: str) -> None:
 
 
 def _register() -> None:
-    """Makes the colour maps that matplotlib has not known there, by their names."""
+    """Register the colour maps that matplotlib lacks, under their names."""
     known = matplotlib.colormaps
     names = [name for name in _core.colormaps() if name not in known]
     for name in names:
@@ -87,46 +83,45 @@ def _register() -> None:
 
 
 def _limits(field: "Field", quantity: str, options: PlotOptions) -> tuple[float, float]:
-    """The ends of the colours of all of the plate, as of a figure."""
+    """Return the ends of the colours of all of the plate, as those of a figure."""
     asked: Any = {name: options.get(name) for name in ("clim", "vmin", "vmax")}
     if options.get("norm") in get_args(Norm):
         asked["norm"] = options["norm"]
     seen = _coarse(field)
-    low, high = _core.frame(field._core, to_json(request(field, quantity, asked, seen[0])), *seen)[1]["range"]
+    low, high = _core.frame(field._core, request(field, quantity, asked, seen), seen)[1]["range"]
     return low, high
 
 
-def _coarse(field: "Field") -> tuple[Window, tuple[int, int]]:
-    """A view of all of the plate in few pixels."""
+def _coarse(field: "Field") -> View:
     (x0, y0), (x1, y1) = field.dataset.domain
     columns, rows = (max(1, round(COARSE * d / max(x1 - x0, y1 - y0))) for d in (x1 - x0, y1 - y0))
-    return window(field.dataset.domain, (columns, rows)), (columns, rows)
+    return view_at(field.dataset.domain, (columns, rows))
 
 
 def _draw_lines(field: "Field", ax: Any) -> None:
-    for crack in field.step.cracks:
-        ax.plot(*_fine(crack.points).T, color="black", linewidth=1.0, scalex=False, scaley=False)
+    lines = [crack.points for crack in field.step.cracks]
     for hole in field.dataset.holes:
         if hole.points is not None:
-            closed = np.vstack([hole.points, hole.points[:1]])
+            lines.append(np.vstack([hole.points, hole.points[:1]]))
         else:
             angles = np.linspace(0.0, 2.0 * np.pi, 361)
             around = np.stack([np.cos(angles), np.sin(angles)], axis=-1)
-            closed = np.asarray(hole.center) + float(hole.radius or 0.0) * around
-        ax.plot(*_fine(closed).T, color="black", linewidth=1.0, scalex=False, scaley=False)
+            lines.append(np.asarray(hole.center) + float(hole.radius or 0.0) * around)
+    for points in lines:
+        ax.plot(*_fine(points).T, color="black", linewidth=1.0, scalex=False, scaley=False)
 
 
 def _fine(points: Any) -> Any:
-    """A polyline with more vertices on its lines: on logarithmic axes lines are curves."""
+    """Return a polyline with more vertices: on logarithmic axes lines are curves."""
     along = np.arange(len(points))
     finer = np.linspace(0, len(points) - 1, 32 * (len(points) - 1) + 1)
     return np.stack([np.interp(finer, along, points[:, k]) for k in (0, 1)], axis=-1)
 
 
 class FieldImage(AxesImage):
-    """A quantity of a field as an image that is never resampled: it is evaluated at the pixels that are drawn.
+    """A quantity of a field as an image that is evaluated at the pixels that are drawn, never resampled.
 
-    Its array is a coarse image of the plate, for norms and colour bars to begin with.
+    Its array is a coarse image of the plate, from which norms and colour bars begin.
     """
 
     def __init__(self, ax: Any, field: "Field", quantity: str, nan_color: Any = None, **properties: Any) -> None:
@@ -135,11 +130,11 @@ class FieldImage(AxesImage):
         self._field, self._quantity = field, quantity
         self._nan_color = None if nan_color is None else to_rgba(nan_color)
         field._core.check(quantity)
-        self.set_data(np.ma.masked_invalid(_core.render(field._core, quantity, *_coarse(field), False, None)))
+        self.set_data(np.ma.masked_invalid(_core.render(field._core, quantity, _coarse(field), False, None)))
         self.set_clip_path(ax.patch)
 
     def get_cursor_data(self, event: Any) -> Any:
-        """The exact value under the mouse."""
+        """Return the exact value under the mouse."""
         if event.xdata is None or event.ydata is None:
             return None
         try:
@@ -149,7 +144,7 @@ class FieldImage(AxesImage):
         return None if np.isnan(value) else value
 
     def make_image(self, renderer: Any, magnification: float = 1.0, unsampled: bool = False) -> Any:
-        """The colours of the pixels of the device, the lowest row first, and the place of the lower left one."""
+        """Return the colours of the pixels of the device, the lowest row first, and the place of the lower left one."""
         to_display = self.get_transform()
         corners = Bbox.null()
         x0, x1, y0, y1 = self.get_extent()
@@ -174,7 +169,7 @@ class FieldImage(AxesImage):
     def _at_pixels(
         self, quantity: str, to_display: Any, scale: float, corner: tuple[float, float], size: tuple[int, int]
     ) -> Any:
-        """Values at the centres of pixels, the lowest row first."""
+        """Return values at the centres of pixels, the lowest row first."""
         x = (corner[0] + np.arange(size[0]) + 0.5) / scale
         y = (corner[1] + np.arange(size[1]) + 0.5) / scale
         to_data = to_display.inverted()
@@ -183,8 +178,8 @@ class FieldImage(AxesImage):
             steps = (ends[1] - ends[0]) / (np.array(size) - 1)
             if steps[0] > 0 and abs(steps[1] / steps[0] - 1.0) < 1e-9:
                 center = (float(ends[:, 0].mean()), float(ends[:, 1].mean()))
-                at = (center, float(steps[0] * size[0]))
-                return _core.render(self._field._core, quantity, at, size, False, None)[::-1]
+                view = View(center, float(steps[0] * size[0]), size)
+                return _core.render(self._field._core, quantity, view, False, None)[::-1]
         points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
         data = to_data.transform(points)
         values = self._field.at(data[:, 0], data[:, 1])[quantity]

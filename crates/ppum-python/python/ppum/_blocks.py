@@ -21,7 +21,7 @@ TENSOR = {(d + 1) ** 2: d for d in range(MAX_DEGREE + 1)}
 
 
 def exponents(degree: int, tensor: bool = False) -> list[tuple[int, int]]:
-    """Exponents of ξ and η of the monomials up to a degree, or of a tensor product, in the format's order."""
+    """Return the exponents of the monomials up to a degree, or of a tensor product, in the format's order."""
     if tensor:
         return [(i, j) for j in range(degree + 1) for i in range(degree + 1)]
     return [(d - k, k) for d in range(degree + 1) for k in range(d + 1)]
@@ -41,8 +41,10 @@ class _Part:
 def arranged(
     place: str, blocks: Mapping[str, Block], tensor: Mapping[str, NDArray[np.bool_]], functions: list[str]
 ) -> dict[str, NDArray[Any]]:
-    """The arrays of blocks, patch by patch, in each one in the order of the functions; `tensor` tells of each block on
-    which patches its polynomials are tensor products."""
+    """Return the arrays of blocks, patch by patch, in the order of the functions.
+
+    `tensor` tells on which patches the polynomials of each block are tensor products.
+    """
     if not blocks:
         raise BuildError(f"{place}.blocks: is empty; give the coefficients of a function, such as 'one'")
     for name in blocks:
@@ -140,7 +142,6 @@ def degrees(
     patches: NDArray[np.int64] | None = None,
     least: int = 0,
 ) -> NDArray[np.int64]:
-    """Degrees of polynomials by the numbers of their coefficients."""
     found = np.full(len(sizes), -1)
     for is_tensor, known in ((False, DEGREES), (True, TENSOR)):
         for size, degree in known.items():
@@ -154,7 +155,7 @@ def degrees(
 
 
 def _unfit(place: str, size: int, known: Mapping[int, int], least: int) -> str:
-    """What is wrong with a number of coefficients; those of maps have no constant."""
+    """Describe what is wrong with a number of coefficients; those of maps have no constant."""
     missing = least and 1
     sizes = [k - missing for k, degree in known.items() if degree >= least]
     size -= missing

@@ -26,19 +26,17 @@ OTHERS = {
 
 
 def check_type(place: str, value: Any, fits: bool, remedy: str) -> None:
-    """Refuses a value that is of another type."""
     if not fits:
         raise BuildError(f"{place}: is {type(value).__name__}; give {remedy}")
 
 
 def check_shape(place: str, array: NDArray[Any], fits: bool, expected: str) -> None:
-    """Refuses an array of another shape."""
     if not fits:
         raise BuildError(f"{place}: has the shape {array.shape}, expected {expected}")
 
 
 def known(name: str, values: Any) -> NDArray[Any]:
-    """An array of real numbers as it is, or refused with the place and the remedy."""
+    """Return an array of real numbers as it is, or refuse it with the place and the remedy."""
     _refuse_mask(name, values)
     try:
         array = np.asarray(values)
@@ -55,13 +53,13 @@ def known(name: str, values: Any) -> NDArray[Any]:
 
 
 def real(name: str, values: Any) -> Floats:
-    """A copy of an array of real numbers, finite or not."""
+    """Return a copy of an array of real numbers, finite or not."""
     array = known(name, values)
     return array.astype(float)
 
 
 def numbers(name: str, values: ArrayLike) -> Floats:
-    """A copy of an array of finite numbers."""
+    """Return a copy of an array of finite numbers."""
     array = real(name, values)
     if not np.isfinite(array).all():
         place = _first(~np.isfinite(array))
@@ -70,7 +68,7 @@ def numbers(name: str, values: ArrayLike) -> Floats:
 
 
 def rows(name: str, values: ArrayLike, columns: int, count: int | None = None) -> Floats:
-    """A copy of an array of finite numbers of the shape (count, columns)."""
+    """Return a copy of an array of finite numbers of the shape (count, columns)."""
     array = numbers(name, values)
     wanted = f"({'n' if count is None else count}, {columns})"
     if array.size == 0 and not count:
@@ -80,7 +78,6 @@ def rows(name: str, values: ArrayLike, columns: int, count: int | None = None) -
 
 
 def positive(name: str, array: Floats) -> Floats:
-    """The array, of which all numbers are positive."""
     if (array <= 0).any():
         row, column = _first(array <= 0)
         raise BuildError(f"{name}[{row}]: the extent {array[row, column]} in {'xy'[column]} must be positive")
@@ -88,7 +85,7 @@ def positive(name: str, array: Floats) -> Floats:
 
 
 def column(name: str, values: ArrayLike, count: int, kind: type) -> NDArray[Any]:
-    """An array of whole numbers of a type, one per patch; a single one is that of all."""
+    """Return whole numbers of a type, one per patch; a single one is that of all."""
     array = known(name, values)
     if array.ndim == 0:
         array = np.full(count, array)
@@ -102,13 +99,12 @@ def column(name: str, values: ArrayLike, count: int, kind: type) -> NDArray[Any]
 
 
 def index(value: Any, count: int) -> int | None:
-    """A whole number from 0, less than `count`; None for what is none."""
+    """Return a whole number from 0 to `count` - 1, None for all else."""
     is_number = isinstance(value, Real) and not isinstance(value, bool)
     return int(value) if is_number and 0 <= value < count and int(value) == value else None
 
 
 def scalar(name: str, value: Any) -> float:
-    """A finite number."""
     array = numbers(name, value)
     if array.shape != ():
         raise BuildError(f"{name}: has the shape {array.shape}; give one number")
@@ -116,7 +112,6 @@ def scalar(name: str, value: Any) -> float:
 
 
 def integers(name: str, values: Any, count: int) -> list[int]:
-    """So many whole numbers."""
     array = numbers(name, values)
     if array.shape != (count,) or (array != np.floor(array)).any():
         raise BuildError(f"{name}: is {short(values)}; give {count} whole numbers")
@@ -124,13 +119,12 @@ def integers(name: str, values: Any, count: int) -> list[int]:
 
 
 def text(name: str, value: Any) -> str:
-    """A text."""
     check_type(name, value, isinstance(value, str), "a text")
     return str(value)
 
 
 def mapping(name: str, given: Mapping[str, Any], what: str) -> Mapping[str, Any]:
-    """A dictionary by names; `what` says of what."""
+    """Return a dictionary by names; `what` says of what."""
     check_type(name, given, isinstance(given, Mapping), f"a dictionary of names and {what}")
     for key in given:
         text(f"{name}[{short(key)}]", key)
@@ -138,13 +132,13 @@ def mapping(name: str, given: Mapping[str, Any], what: str) -> Mapping[str, Any]
 
 
 def short(value: Any) -> str:
-    """A value in a line of a message."""
+    """Return a value for a line of a message."""
     shape = getattr(value, "shape", ())
     return f"an array of the shape {shape}" if shape else reprlib.repr(value)
 
 
 def sequence(name: str, values: Any, what: str) -> list[Any]:
-    """The entries of a list; `what` says what it is a list of."""
+    """Return the entries of a list; `what` says of what."""
     is_one = isinstance(values, (str, bytes, Mapping)) or getattr(values, "shape", None) == ()
     if is_one or not hasattr(values, "__iter__"):
         raise BuildError(f"{name}: is {type(values).__name__}; give a list of {what}")
@@ -152,7 +146,7 @@ def sequence(name: str, values: Any, what: str) -> list[Any]:
 
 
 def repeated(rows: Floats) -> list[tuple[int, int]]:
-    """The rows that are there before, each with the first one of these."""
+    """Return the rows that occur before, each with the first such row."""
     _, first, which = np.unique(rows.view(f"V{rows.itemsize * rows.shape[1]}"), return_index=True, return_inverse=True)
     firsts = first[which.reshape(-1)]
     again = np.flatnonzero(firsts != np.arange(len(rows)))
@@ -160,7 +154,7 @@ def repeated(rows: Floats) -> list[tuple[int, int]]:
 
 
 def _refuse_mask(name: str, values: Any) -> None:
-    """Masks are lost where arrays are converted."""
+    """Refuse masks, which are lost where arrays are converted."""
     if isinstance(values, np.ma.MaskedArray):
         mask = np.ma.getmaskarray(values)
         if mask.any():
@@ -172,7 +166,7 @@ def _refuse_mask(name: str, values: Any) -> None:
 
 
 def _refuse_objects(name: str, array: NDArray[Any]) -> None:
-    """Objects that Python would make numbers of, though they are none, or none that is real."""
+    """Refuse objects that Python would convert, though they are no real numbers."""
     for place, item in np.ndenumerate(array):
         if isinstance(item, (str, bytes, complex, np.complexfloating)) or not hasattr(item, "__float__"):
             raise BuildError(f"{indexed(name, place)}: is {short(item)}; give a real number")
@@ -183,36 +177,29 @@ def _first(wrong: NDArray[np.bool_]) -> tuple[int, ...]:
 
 
 def indexed(name: str, place: Sequence[int]) -> str:
-    """The place of an entry of an array."""
     return name + "".join(f"[{k}]" for k in place)
 
 
 @dataclass(frozen=True, eq=False)
 class Ragged:
-    """Arrays (m, c) of several lengths m, one after the other.
+    """Arrays (m, c) of several lengths m, one after the other."""
 
-    Attributes:
-        values: All their rows, shape (total, c).
-        sizes: The numbers of rows.
-    """
-
+    #: All rows, shape (total, c), and the numbers of rows of the arrays.
     values: Floats
     sizes: NDArray[np.int64]
 
     @classmethod
     def joined(cls, parts: Sequence[Floats]) -> "Ragged":
-        """The arrays of parts (n, m, c), each with one length."""
+        """Join the arrays of parts (n, m, c), each with one length."""
         sizes = np.concatenate([np.full(len(part), part.shape[1]) for part in parts])
         return cls(np.concatenate([part.reshape(-1, part.shape[2]) for part in parts]), sizes)
 
     @cached_property
     def starts(self) -> NDArray[np.int64]:
-        """First rows."""
         starts: NDArray[np.int64] = np.cumsum(self.sizes) - self.sizes
         return starts
 
     def at(self, order: ArrayLike) -> "Ragged":
-        """The arrays with these numbers."""
         order = np.asarray(order, np.int64)
         return Ragged(self.values[gathered(self.starts[order], self.sizes[order])], self.sizes[order])
 
@@ -225,7 +212,7 @@ class Ragged:
 
 
 def gathered(starts: NDArray[np.int64], sizes: NDArray[np.int64]) -> NDArray[np.int64]:
-    """The indices of runs that begin at `starts`, run after run."""
+    """Return the indices of runs that begin at `starts`, run after run."""
     offsets = np.cumsum(sizes) - sizes
     found: NDArray[np.int64] = np.repeat(starts - offsets, sizes) + np.arange(int(sizes.sum()))
     return found

@@ -1,4 +1,4 @@
-"""How far fields are from each other, and from what resampling makes of them."""
+"""Differences between fields, and between a field and its resampling."""
 
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Annotated, Any, Literal, NamedTuple, Unpack
@@ -8,6 +8,7 @@ import numpy as np
 from . import _core
 from ._errors import RenderError
 from ._options import Option, takes
+from ._text import plain
 from ._units import Floats
 from ._views import RasterOptions, View
 
@@ -16,10 +17,7 @@ if TYPE_CHECKING:
 
 ResamplingMethod = Literal["nearest", "bilinear", "bicubic", "cells"]
 GRID = "points of the grid, borders included: as many columns as rows, or both"
-METHOD = (
-    "the nearest point's value; ``bilinear`` of four points; ``bicubic`` of sixteen; or ``cells``: the value at the centre of "
-    "each cell of the cover, without a grid"
-)
+METHOD = "value of the nearest point; ``bilinear`` of four; ``bicubic`` of sixteen; or ``cells``: at the centres of cells"
 
 
 class Norms(NamedTuple):
@@ -38,18 +36,18 @@ class Norms(NamedTuple):
 
 @dataclass(frozen=True)
 class Comparison:
-    """How far a field is from another at the pixels of a view. Made by `field.compare`.
+    """The difference of two fields at the pixels of a view. Made by `field.compare`.
 
     Attributes:
-        quantity: What was compared.
-        view: Where.
+        quantity: The compared quantity.
+        view: The view.
         absolute: Norms of the differences.
-        relative: The same in parts of the norms of what was taken away.
+        relative: Norms of the differences, relative to those of the subtracted field.
         compared: Pixels where both have a finite value.
-        infinite: Pixels where one value at least is infinite, and the two are not the same.
-        lost: Pixels where only what was taken away has a value.
-        invented: Pixels where it alone has none.
-        warnings: What makes the numbers less than they seem, e.g. plates that are not the same.
+        infinite: Pixels where a value is infinite, and the two differ.
+        lost: Pixels where only the subtracted field has a value.
+        invented: Pixels where only the other one has a value.
+        warnings: Reasons to doubt the numbers, e.g. different plates.
         values: The differences: shape (rows, columns), rows from the top; NaN where one has no value. Not written to.
     """
 
@@ -65,7 +63,7 @@ class Comparison:
     values: Floats = field(compare=False, repr=False)
 
     def to_dict(self) -> dict[str, Any]:
-        """The numbers, for a row of a table: quantity, ``l1``, ``l2``, ``max``, ``relative_l1`` …, counts of pixels.
+        """Return a row of a table: quantity, ``l1``, ``l2``, ``max``, ``relative_l1`` …, counts of pixels.
 
         Example:
             >>> rows = [f.compare(f.part("smooth"), q, size=(60, 120)).to_dict() for q in ("ux", "uy")]
@@ -93,8 +91,8 @@ class Needed:
 
     Attributes:
         kind: ``measured``, ``extrapolated`` from the last measured ones, or ``none``.
-        grid: Its columns and rows.
-        reason: Where there is none: the quantity is ``singular`` or has a ``jump`` in the view, or the error ``stalled``.
+        grid: Its columns and rows; None without one.
+        reason: Why there is none: the quantity is ``singular`` or has a ``jump`` in the view, or the error ``stalled``.
     """
 
     kind: str
@@ -104,17 +102,15 @@ class Needed:
 
 @dataclass(frozen=True, repr=False)
 class Resampling(Comparison):
-    """How far what resampling makes of a field is from the field. Made by `field.compare.resample`.
-
-    The differences are what resampling gives minus the field.
+    """The difference of a resampled field from the field itself. Made by `field.compare.resample`.
 
     Attributes:
         method: ``nearest``, ``bilinear``, ``bicubic``, or ``cells``: one value for each cell of the cover.
         grid: Columns and rows of the points; none for cells.
         bytes: Memory of their values.
-        direct_bytes: Memory of all that the field is made of.
-        needed: For l1, l2 and max the grid of the error that was asked for.
-        resampled: What resampling gives, of the shape of `values`.
+        direct_bytes: Memory of the field.
+        needed: The grids for the given error in l1, l2 and max.
+        resampled: The resampled values, of the shape of `values`.
     """
 
     method: str
@@ -125,7 +121,7 @@ class Resampling(Comparison):
     resampled: Floats = field(compare=False)
 
     def to_dict(self) -> dict[str, Any]:
-        """The numbers, for a row of a table: those of `Comparison.to_dict`, method, ``nx``, ``ny``, bytes."""
+        """Return a row of a table: that of `Comparison.to_dict`, method, ``nx``, ``ny``, bytes."""
         nx, ny = self.grid or (None, None)
         own = {"method": self.method, "nx": nx, "ny": ny, "bytes": self.bytes, "direct_bytes": self.direct_bytes}
         return super().to_dict() | own
@@ -137,7 +133,7 @@ class Resampling(Comparison):
 
 
 class ResamplingOptions(RasterOptions, total=False):
-    """How a field is resampled, and where the result is compared."""
+    """The method of resampling, and the view where the result is compared."""
 
     grid: Annotated[int | tuple[int, int], Option(64, GRID)]
     method: Annotated[ResamplingMethod, Option("bilinear", METHOD)]
@@ -147,10 +143,10 @@ class ResamplingOptions(RasterOptions, total=False):
 
 @dataclass(frozen=True)
 class Compare:
-    """How far a field is from another, or from what other programs make of it, at the pixels of a view.
+    """Differences of a field from others, and from what other programs make of it, at the pixels of a view.
 
     Raises:
-        QuantityError: A quantity that one of them does not have.
+        QuantityError: One of them does not have the quantity.
         RenderError: No pixel has a value in both, or there is no such grid.
     """
 
@@ -158,7 +154,7 @@ class Compare:
 
     @takes(RasterOptions, "compare()")
     def __call__(self, other: "Field", quantity: str | None = None, **options: Unpack[RasterOptions]) -> Comparison:
-        """The field minus another, of this dataset or another: another step, part, weight or cover.
+        """Subtract another field, of this dataset or another: another step, part, weight or cover.
 
         Both are evaluated at the centre of each pixel; a quantity is one that both have, by default as in `Draw`.
 
@@ -169,18 +165,17 @@ class Compare:
             >>> f.compare(f).absolute
             Norms(l1=0.0, l2=0.0, max=0.0)
         """
-        view = self._field._seen(options)
-        name, window, size = self._field._asked(quantity, options)
-        values, norms, warnings = _core.compare(self._field._core, other._core, name, window, size, options["progress"])
+        name, view = self._field._asked(quantity, options)
+        values, norms, warnings = _core.compare(self._field._core, other._core, name, view, options["progress"])
         if np.isnan(values).all():
             raise RenderError(
                 f"there is no pixel where `{name}` has a value in both fields: show a part of the plane where both plates are"
             )
-        return Comparison(name, view, **_norms(norms), warnings=tuple(warnings), values=_frozen(values))
+        return Comparison(name, view, *_norms(*norms), tuple(warnings), _frozen(values))
 
     @takes(ResamplingOptions)
     def resample(self, quantity: str | None = None, **options: Unpack[ResamplingOptions]) -> Resampling:
-        """What resampling makes of the field, as other programs draw it, and how far that is from it.
+        """Resample the field as other programs do, and compare the result with the field.
 
         Exact values at the points of a grid are interpolated at the pixels of a view, as `ppum compare` does.
 
@@ -194,28 +189,18 @@ class Compare:
             raise ValueError(f"error: {error!r} cannot be reached; give a positive number, e.g. 0.01")
         points: Any = (grid, grid) if isinstance(grid, int) else tuple(grid)
         how = {"method": method, "grid": points, "over_view": options["over"] == "view", "error": error}
-        view = self._field._seen(options)
-        name, window, size = self._field._asked(quantity, options)
-        values, found, norms, facts = _core.resample(self._field._core, name, how, window, size, options["progress"])
+        name, view = self._field._asked(quantity, options)
+        how = plain(how, "resample")
+        values, resampled, norms, memory = _core.resample(self._field._core, name, how, view, options["progress"])
+        size, direct, needed = memory
         return Resampling(
-            name,
-            view,
-            **_norms(norms),
-            warnings=(),
-            values=_frozen(values),
-            method=method,
-            grid=None if method == "cells" else points,
-            bytes=facts["bytes"],
-            direct_bytes=facts["direct_bytes"],
-            needed=facts["needed"] and tuple(
-                Needed(one["kind"], one["grid"] and tuple(one["grid"]), one["reason"]) for one in facts["needed"]
-            ),
-            resampled=_frozen(found),
-        )
+            name, view, *_norms(*norms), (), _frozen(values), method, None if method == "cells" else points, size, direct,
+            needed and (Needed(*needed[0]), Needed(*needed[1]), Needed(*needed[2])), _frozen(resampled),
+        )  # fmt: skip
 
 
-def _norms(norms: dict[str, Any]) -> dict[str, Any]:
-    return {**norms, "absolute": Norms(*norms["absolute"]), "relative": Norms(*norms["relative"])}
+def _norms(absolute: Any, relative: Any, counts: Any) -> tuple[Norms, Norms, int, int, int, int]:
+    return Norms(*absolute), Norms(*relative), *counts
 
 
 def _frozen(values: Floats) -> Floats:

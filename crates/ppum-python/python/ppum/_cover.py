@@ -23,20 +23,20 @@ MOST_PATCHES = 1 << 25
 
 
 class Cover:
-    """The supports of the patches and their weight: φ_i = W_i / Σ W with W_i(p) = w(|s_x|) w(|s_y|) and
-    s = (p − center_i) / half_i.
+    """The supports of the patches and their weight.
 
-    Supports are any boxes that overlap and cover the domain but for its holes. `uniform`, `from_points` and `from_cells` make them
-    of cells. Arrays have a row for each patch, in the order of the arrays that are built on the cover.
+    The functions are φ_i = W_i / Σ W with W_i(p) = w(|s_x|) w(|s_y|) and s = (p − center_i) / half_i. Supports are any boxes
+    that overlap and cover the domain except for its holes. Arrays have a row for each patch, in the order of the arrays that
+    are built on the cover.
 
     Attributes:
         domain: Lower left and upper right corner, shape (2, 2).
         center, half: Centres and half-extents of the supports, shape (n, 2).
         weight: ``linear``, ``quadratic``, ``cubic``, or a formula of t = |s|, positive for 0 ≤ t < 1 and 0 at 1.
         breakpoints: The t in [0, 1) where a derivative of such a formula jumps; values do not depend on them.
-        origin, scale: Of the coordinates ξ = (p − origin) / scale of polynomials; by default `center` and `half`.
-        cell: Boxes x_min, y_min, x_max, y_max that tile the domain, one in each support, shape (n, 4), or None. Values do
-            not depend on them; without, cells and values of cells are not drawn, and nothing is integrated over them.
+        origin, scale: Origin and scale of the polynomials' ξ = (p − origin) / scale; by default `center` and `half`.
+        cell: Boxes x_min, y_min, x_max, y_max that tile the domain, one in each support, shape (n, 4), or None. Values do not
+            depend on them; without them cells and values of cells are not drawn, and nothing is integrated over them.
         level: Level of each cell in its tree, for reports; None without cells.
         points, point: Scattered points that the cover was made from, and the index of each patch's, -1 for none.
 
@@ -97,8 +97,10 @@ class Cover:
 
     @classmethod
     def uniform(cls, domain: ArrayLike, cells: tuple[int, int], overlap: float = 1.3, weight: str = "linear") -> "Cover":
-        """The cover of a grid of `cells` = (columns, rows) cells; patch j · columns + i is that of column i and row j
-        from the lower left corner. A support is its cell enlarged by `overlap`, 1.01 to 1.99.
+        """Make the cover of a grid of `cells` = (columns, rows) cells.
+
+        Patch j · columns + i is that of column i and row j from the lower left corner. `overlap`, 1.01 to 1.99, enlarges
+        cells to supports.
 
         Example:
             >>> ppum.build.Cover.uniform([(0, 0), (1, 1)], cells=(8, 8), overlap=1.5).half[0].tolist()
@@ -121,8 +123,7 @@ class Cover:
     def from_cells(
         cls, domain: ArrayLike, cell: ArrayLike, overlap: float = 1.3, weight: str = "linear", **others: ArrayLike
     ) -> "Cover":
-        """The cover of cells that tile the domain, such as the leaves of a quadtree: shape (n, 4), rows x_min, y_min,
-        x_max, y_max. A support is its cell enlarged by `overlap`."""
+        """Make the cover of cells that tile the domain: shape (n, 4), rows x_min, y_min, x_max, y_max."""
         if not 1.01 <= scalar("overlap", overlap) <= 1.99:
             raise BuildError(f"overlap: {overlap} is not in 1.01 to 1.99; give the factor from cells to supports")
         boxes = rows("cell", cell, 4)
@@ -139,8 +140,9 @@ class Cover:
         weight: str = "linear",
         cells: tuple[int, int] = (1, 1),
     ) -> "Cover":
-        """The cover that scattered points make: the cells of a grid are halved, as quadtrees, until each holds one point
-        at most, and cells that touch differ by one level at most. `point` has the point of each patch.
+        """Make the cover of scattered points, whose indices are in `point`.
+
+        Cells of a grid are halved, as quadtrees, until each holds at most one point and neighbours differ by one level or less.
 
         Example:
             >>> ppum.build.Cover.from_points([(0, 0), (1, 1)], [(0.1, 0.1), (0.2, 0.1), (0.7, 0.6)])
@@ -159,23 +161,23 @@ class Cover:
         return cls.from_cells(domain, cell.reshape(-1, 4), overlap, weight, level=level, point=point, points=of)
 
     def in_space(self, place: str, space: str | Sequence[str]) -> NDArray[np.bool_]:
-        """True for the patches on which polynomials of a space are tensor products: none."""
+        """Return True for the patches on which polynomials of a space are tensor products: none."""
         if space not in ("shape", "total"):
             raise BuildError(f"{place}: {space!r} is for meshes; polynomials on covers are of total degree, give 'total'")
         return np.zeros(len(self), bool)
 
     def arrays(self, fields: Sequence[str] = ()) -> dict[str, Any]:
-        """The group `partition` of the file format."""
+        """Return the group `partition` of the file format."""
         names = ("center", "half", "origin", "scale", "cell", "level", "points", "point")
         given = {name: getattr(self, name) for name in names}
         return {"weight_breakpoints": self.breakpoints} | {k: v for k, v in given.items() if v is not None}
 
     def around(self, points: Floats) -> list[int]:
-        """The patches whose supports hold some of the points."""
+        """Return the patches whose supports hold some of the points."""
         return sorted({k for p in points for k in np.flatnonzero((np.abs(p - self.center) < self.half).all(axis=1)).tolist()})
 
     def spread(self, random: np.random.Generator, count: int) -> Floats:
-        """Random points of the supports, which are taken in turn."""
+        """Return random points of the supports, which are taken in turn."""
         patches = np.resize(random.permutation(len(self))[:count], count)
         result: Floats = self.center[patches] + self.half[patches] * random.uniform(-1, 1, (count, 2))
         return result
@@ -188,7 +190,7 @@ class Cover:
 
 
 def _look(center: Floats, half: Floats, domain: Floats) -> None:
-    """Each support reaches into the domain, and is there once."""
+    """Check that each support reaches into the domain, and occurs once."""
     for k, first in repeated(np.column_stack([center, half]) + 0.0)[:1]:
         warn(f"center[{k}]: the support is that of patch {first} again; is a patch there twice?")
     outside = np.flatnonzero(((center + half <= domain[0]) | (center - half >= domain[1])).any(axis=1))

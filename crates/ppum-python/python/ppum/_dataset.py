@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import html
-import json
 import operator
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -29,12 +28,10 @@ if TYPE_CHECKING:
 
 
 def _fact(name: str, doc: str, kind: Callable[[Any], Any] = lambda value: value) -> Any:
-    """An attribute that is one of the facts."""
     return property(lambda self: kind(self._facts[name]), doc=doc)
 
 
 def _of_last_step(name: str) -> Any:
-    """An attribute of a dataset that its last step has."""
     return property(lambda self: operator.attrgetter(name)(self.steps[-1]), doc=f"`Step.{name}` of the last step.")
 
 
@@ -56,7 +53,7 @@ class Step:
 
     @cached_property
     def _facts(self) -> dict[str, Any]:
-        return dict(json.loads(self.dataset._core.step(self.number)))
+        return self.dataset._core.step(self.number)
 
     load: float = _fact("load", "Load factor or pseudo-time.", float)
     patches: int = _fact("patches", "Number of patches.")
@@ -65,47 +62,42 @@ class Step:
 
     @cached_property
     def cracks(self) -> tuple[Crack, ...]:
-        """The cracks."""
+        """Cracks of the step."""
         cracks = enumerate(self._facts["cracks"])
         made = (Crack(k, points(c["points"]), tuple(c["ends"])) for k, c in cracks)
         return Numbered(made, "crack")
 
     @cached_property
     def tips(self) -> Table[Tip]:
-        """The crack tips with the factors that the solver found, in the order of cracks and ends."""
+        """Crack tips with the factors that the solver found, in the order of cracks and ends."""
         return tips_of(self._facts["tips"], self._facts["ends"])
 
     @cached_property
     def history(self) -> History:
-        """The solver's report."""
+        """Report of the solver."""
         records = self._facts["history"]
         return History([(r["name"], number(r["value"]), r["unit"]) for r in records])
 
     @cached_property
     def warnings(self) -> Table[Warning]:
-        """What the diagnostics found."""
+        """Findings of the diagnostics."""
         return Table((row(Warning, w) for w in self._facts["warnings"]), "warning")
 
     @cached_property
     def reactions(self) -> Table[Reaction]:
-        """What the supports exert on the plate."""
-        names = self._facts["components"]
-        rows = (
-            row(Reaction, r, held=[n in r["held"] for n in names], moment=r["moment"] or 0.0)
-            for r in self._facts["reactions"]
-        )
+        """Resultants of what the supports exert on the plate."""
+        facts, names = self._facts["reactions"], self._facts["components"]
+        rows = (row(Reaction, r, held=[n in r["held"] for n in names], moment=r["moment"] or 0.0) for r in facts)
         return Table(rows, "reaction")
 
     @cached_property
     def growth(self) -> Growth | None:
-        """How the cracks grow on from here; None without growth."""
+        """Growth of the cracks after this step; None without growth."""
         facts = self._facts["growth"]
         if facts is None:
             return None
-        tips = (
-            row(Advance, t, curvature=curvature, path=points(path))
-            for t, (curvature, path) in zip(facts["tips"], self._facts["arcs"])
-        )
+        arcs = zip(facts["tips"], self._facts["arcs"])
+        tips = (row(Advance, t, curvature=curvature, path=points(path)) for t, (curvature, path) in arcs)
         return Growth(facts["cycles"], facts["stop"], Table(tips, "tip"))
 
     @cached_property
@@ -115,7 +107,7 @@ class Step:
 
     @property
     def field(self) -> Field:
-        """The field of the step.
+        """Field of the step.
 
         Raises:
             FormatError: The step has none, or a function that cannot be compiled.
@@ -129,8 +121,7 @@ class Step:
 class Dataset:
     """A solved problem: all that is needed to evaluate its fields exactly. It never changes.
 
-    Datasets are equal if all their numbers and texts are, but for the seconds that solving took; they can be pickled, and
-    sent to other processes.
+    Datasets are equal if all their numbers and texts are, except for the seconds that solving took; they can be pickled.
 
     Example:
         >>> ds
@@ -155,15 +146,14 @@ class Dataset:
 
     @cached_property
     def _facts(self) -> dict[str, Any]:
-        return dict(json.loads(self._core.about()))
+        return self._core.about()
 
     title: str = _fact("title", "One line that names the problem.")
     program: str = _fact("program", "Name and version of the program that made it.")
 
     @property
     def equation(self) -> str:
-        """``elasticity``, ``eigenstrain`` (elasticity with given strains or a temperature), ``poisson``, or ``none``, of
-        fields without an equation."""
+        """Kind of the equation: ``elasticity``, ``eigenstrain`` (given strains or a temperature), ``poisson`` or ``none``."""
         return str(self._facts["equation"]["kind"])
 
     @property
@@ -174,31 +164,30 @@ class Dataset:
 
     @cached_property
     def holes(self) -> tuple[Hole, ...]:
-        """The holes."""
-        holes = (
-            Hole(tuple(h["center"]), h["radius"], None)
-            if h["kind"] == "circle"
-            else Hole(None, None, points(h["points"]), h["kind"] == "outside")
-            for h in self._facts["domain"]["holes"]
-        )
+        """Holes of the domain."""
+        def hole(facts: dict[str, Any]) -> Hole:
+            if facts["kind"] == "circle":
+                return Hole(tuple(facts["center"]), facts["radius"])
+            return Hole(points=points(facts["points"]), is_outside=facts["kind"] == "outside")
+
+        holes = map(hole, self._facts["domain"]["holes"])
         return Numbered(holes, "hole")
 
     @property
     def problem(self) -> Problem | None:
-        """The problem that was solved, by its text; None if the dataset has none. Files that it names have to be where
-        they were."""
+        """Solved problem, by its text; None without one. Files that it names have to be where they were."""
         text = self._facts["problem"]
         problem: Problem | None = None if text is None else self._parsed(text)
         return problem
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:
-        """The steps of the series, one or more."""
+        """Steps of the series, one or more."""
         return Numbered((Step(self, k) for k in range(len(self._core))), "step")
 
     @property
     def field(self) -> Field:
-        """The field of the last step."""
+        """Field of the last step."""
         return self.steps[-1].field
 
     cracks: tuple[Crack, ...] = _of_last_step("cracks")
@@ -209,7 +198,7 @@ class Dataset:
 
     @passes(ViewerOptions)
     def view(self, quantity: str | None = None, *, step: int = -1, **options: Unpack[ViewerOptions]) -> Viewer:
-        """Shows a step in a notebook, with a slider for the others; further options as in `Field.view`.
+        """Show a step in a notebook, with a slider for the others; further options as in `Field.view`.
 
         Example:
             >>> ds.view("von_mises", tip=1, zoom=100).step
@@ -220,15 +209,15 @@ class Dataset:
     def save(
         self, path: str | os.PathLike[str], quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]
     ) -> None:
-        """Writes a file. What was there stays until the new one is complete.
+        """Write a file. An existing one is replaced only by a complete one.
 
-        A name that ends in ``.vtkhdf``, or in ``.vtu`` if there is one step, is for programs that interpolate, such as
+        A name that ends in ``.vtkhdf``, or in ``.vtu`` for a single step, makes a file for programs that interpolate, such as
         ParaView: the triangles of all steps, with the arguments of `field.export.triangles`.
 
         Raises:
-            OSError: The system refuses; `FileNotFoundError` where there is no such folder.
-            ValueError: A name of another kind of file, such as ``.png``.
-            TypeError: Arguments of triangles for another file.
+            OSError: The system refuses; `FileNotFoundError` without the folder.
+            ValueError: The name is that of another kind of file, such as ``.png``.
+            TypeError: Arguments of triangles are given for another file.
 
         Example:
             >>> ds.save("plate.vtkhdf", ["displacement"], tolerance=0.01)
@@ -244,7 +233,7 @@ class Dataset:
         self._core.save(path)
 
     def to_bytes(self) -> bytes:
-        """The bytes of a file."""
+        """Return the bytes of a file."""
         return self._core.to_bytes()
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -261,13 +250,8 @@ class Dataset:
 
     def __repr__(self) -> str:
         last = self.steps[-1]
-        counts = [
-            self.equation,
-            plural(len(self.steps), "step"),
-            plural(last.patches, "patch", "patches"),
-            plural(len(last.tips), "tip"),
-        ]
-        return f"<ppum.Dataset {self.title!r}, {', '.join(counts)}>"
+        counts = plural(len(self.steps), "step"), plural(last.patches, "patch", "patches"), plural(len(last.tips), "tip")
+        return f"<ppum.Dataset {self.title!r}, {self.equation}, {', '.join(counts)}>"
 
     def _repr_html_(self) -> str:
         (x0, y0), (x1, y1) = self.domain
@@ -299,16 +283,17 @@ _OTHER_FILES = {
 
 
 def open(source: str | os.PathLike[str] | bytes | IO[bytes]) -> Dataset:
-    """Opens a dataset. A file with the steps of a series stays open, and each step is read when it is asked for; any other
-    is read whole.
+    """Open a dataset.
+
+    A file with the steps of a series stays open, and each step is read when it is asked for; any other is read whole.
 
     Args:
         source: A path, the bytes of a file, or a file that is open for reading bytes.
 
     Raises:
         OSError: The file cannot be read; `FileNotFoundError` if there is none.
-        FormatError: It is no dataset, or a damaged one.
-        TypeError: Something else, or a file that is open for text.
+        FormatError: The file is no dataset, or a damaged one.
+        TypeError: The source is something else, or a file that is open for text.
 
     Example:
         >>> ds.save("plate.h5")

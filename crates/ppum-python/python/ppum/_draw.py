@@ -1,6 +1,5 @@
 """Images of a field: values at pixels, colours, figures, animations, axes of matplotlib."""
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Unpack
@@ -13,7 +12,7 @@ from ._errors import require
 from ._files import Drawn, Page
 from ._options import passes, takes
 from ._styles import (
-    AnimationOptions, FigureOptions, ImageOptions, PlotOptions, SeriesOptions, quantities, request, request_text,
+    AnimationOptions, FigureOptions, ImageOptions, PlotOptions, SeriesOptions, checked_request, quantities, request,
 )  # fmt: skip
 from ._text import plural
 from ._units import milliseconds, pixels
@@ -25,9 +24,9 @@ if TYPE_CHECKING:
 
 
 class Figure(Page):
-    """A figure; drawn when its bytes are asked for. Made by `field.draw.figure`. Notebooks show it; it can be pickled."""
+    """A figure, drawn when its bytes are asked for. Made by `field.draw.figure`. Notebooks show it; it can be pickled."""
 
-    def __init__(self, field: "Field", request: str) -> None:
+    def __init__(self, field: "Field", request: dict[str, Any]) -> None:
         super().__init__()
         self._made_of = field, request
 
@@ -36,7 +35,7 @@ class Figure(Page):
         return self._with_warnings(_core.figure(field._core, request, form))
 
     def __repr__(self) -> str:
-        asked = json.loads(self._made_of[1])
+        asked = self._made_of[1]
         look, (quantities, parts) = asked["look"], (asked["panels"].get(name, []) for name in ("quantities", "parts"))
         names = [*(quantities or [asked.get("quantity") or "of a field"]), *parts]
         size = "panels" if quantities + parts and not {"size", "inches"} & look.keys() else _size(look)
@@ -44,46 +43,41 @@ class Figure(Page):
 
 
 def _size(look: dict[str, Any]) -> str:
-    """The size of a page, in words."""
     return f"{look['inches']} inches" if "inches" in look else "{}x{}".format(*look.get("size", SIZE))
 
 
 class Animation(Drawn):
-    """An animation; drawn when its bytes are asked for. Made by `field.draw.animate`. Notebooks show it.
+    """An animation, drawn when its bytes are asked for. Made by `field.draw.animate`. Notebooks show it.
 
-    Its forms are ``gif``, in 256 colours, which is the default, and ``apng``, without loss. It can be pickled, but for a
-    function that is called with the progress.
+    Its forms are ``gif``, the default, in 256 colours, and ``apng``, without loss. It is pickled without `progress`.
     """
 
     _forms = ("gif", "apng")
 
-    def __init__(self, field: "Field", what: tuple[str, list[int]], milliseconds: int, progress: Any) -> None:
+    def __init__(self, field: "Field", request: dict[str, Any], steps: list[int], fps: float, progress: Any) -> None:
         super().__init__()
-        self._made_of = field, what, milliseconds, progress
+        self._made_of, self._progress = (field, request, steps, milliseconds(fps)), progress
 
     def _draw(self, form: str) -> bytes:
-        field, what, time, progress = self._made_of
-        core, changes = field.dataset._core, json.dumps(field._subject)
-        return self._with_warnings(_core.animation(field._core, core, changes, *what, time, form, progress))
+        field, request, steps, time = self._made_of
+        return self._with_warnings(_core.animation(field._core, request, steps, time, form, self._progress))
 
     def gif(self) -> bytes:
-        """In 256 colours, for programs that know no other."""
+        """Return the bytes of a file in 256 colours, for programs that know no other."""
         return self.to_bytes("gif")
 
     def apng(self) -> bytes:
-        """Without loss."""
+        """Return the bytes of a file without loss."""
         return self.to_bytes("apng")
 
     def _repr_png_(self) -> bytes:
         return self.apng()
 
     def __getstate__(self) -> dict[str, Any]:
-        field, what, time, _ = self._made_of
-        return {**self.__dict__, "_made_of": (field, what, time, None)}
+        return {**self.__dict__, "_progress": None}
 
     def __repr__(self) -> str:
-        request, numbers = self._made_of[1]
-        asked = json.loads(request)
+        _, asked, numbers, _ = self._made_of
         quantity, steps = asked.get("quantity") or "a field", plural(len(numbers), "step")
         return f"<ppum.Animation of {quantity}, {steps}, {_size(asked['look'])}>"
 
@@ -92,8 +86,8 @@ class Animation(Drawn):
 class Draw:
     """Images of a field.
 
-    A quantity is a name, a formula or a value of cells; by default it is von Mises' stress, of a potential itself. Options
-    are checked at the call: `TypeError` for one that there is not, `ValueError` for a value that it cannot have.
+    A quantity is a name, a formula or a value of cells; the default is von Mises' stress, or a potential itself. Options are
+    checked at the call: unknown ones raise `TypeError`, wrong values `ValueError`.
     """
 
     _field: "Field"
@@ -102,7 +96,7 @@ class Draw:
     def render(
         self, quantity: str | None = None, *, dtype: Any = np.float64, **options: Unpack[RasterOptions]
     ) -> NDArray[Any]:
-        """Values at the centres of the pixels of a view: shape (rows, columns), rows from the top; NaN outside.
+        """Return values at the centres of the pixels of a view: shape (rows, columns), rows from the top; NaN outside.
 
         They are computed in `dtype`, float64 or float32, with a warning where float32 has no three digits.
 
@@ -121,26 +115,25 @@ class Draw:
 
     @takes(ImageOptions)
     def image(self, quantity: str | None = None, **options: Unpack[ImageOptions]) -> NDArray[np.uint8]:
-        """The colours of an image: shape (rows, columns, 4), rows from the top; transparent outside.
+        """Return the colours of an image: shape (rows, columns, 4), rows from the top; transparent outside.
 
         Example:
             >>> f.draw.image("ux", size=(40, 80), cmap="magma", vmin=0).shape
             (80, 40, 4)
         """
-        _, window, size = self._field._asked(quantity, options)
+        view = self._field._seen(options)
         scene: Any = {name: value for name, value in options.items() if name != "size"}
-        asked = request_text(self._field, request(self._field, quantity, scene, window))
-        colors, messages = _core.rgba(self._field._core, asked, window, size)
+        asked = checked_request(self._field, request(self._field, quantity, scene, view))
+        colors, messages = _core.rgba(self._field._core, asked, view)
         warn(*messages)
         return colors
 
     @takes(FigureOptions)
     def figure(self, quantity: str | Sequence[str] | None = None, **options: Unpack[FigureOptions]) -> Figure:
-        """A figure with axes and a colour bar, as the program draws it; notebooks show it. Several quantities, or parts
-        of the field, have a panel each.
+        """Make a figure with axes and a colour bar, as the program does; several quantities or parts have a panel each.
 
-        The figure is drawn when its bytes are asked for. What is to be known of it, such as pixels without a value, is warned
-        of then, and kept as `Figure.warnings`.
+        It is drawn when its bytes are asked for. Messages, such as about pixels without a value, are warned of then, and kept
+        as `Figure.warnings`.
 
         Example:
             >>> figure = f.draw.figure("von_mises", tip=0, zoom=1e6, norm="log")
@@ -157,7 +150,7 @@ class Draw:
 
     @takes(SeriesOptions)
     def animate(self, quantity: str | None = None, **options: Unpack[SeriesOptions]) -> Animation:
-        """An animation of the steps of a series, as the program's: one range of colours, one factor of deformation, one place.
+        """Make an animation of the steps of a series: one range of colours, one factor of deformation, one place.
 
         Example:
             >>> moving = f.draw.animate("uy", deformed="auto", size=(320, 400))
@@ -167,20 +160,19 @@ class Draw:
         """
         if quantities(quantity)[1]:
             raise ValueError("quantity: an animation shows one; `figure` has panels for those of one step")
-        known, steps = self._field.dataset.steps, options["steps"]
+        steps, known = options["steps"], range(len(self._field.dataset.steps))
         made = self._request(quantity, options, is_one=False, is_figure=not options["bare"])
         if steps is None or isinstance(steps, slice):
-            numbers = list(range(len(known))[steps or slice(None)])
+            numbers = list(known[steps or slice(None)])
         else:
-            numbers = [known[step].number for step in steps]
+            numbers = [self._field.dataset.steps[step].number for step in steps]
         if not numbers:
             raise ValueError("steps: an animation needs one step at least")
-        return Animation(self._field, (made, numbers), milliseconds(options["fps"]), options["progress"])
+        return Animation(self._field, made, numbers, options["fps"], options["progress"])
 
     @passes(PlotOptions)
     def plot(self, quantity: str | None = None, **options: Unpack[PlotOptions]) -> Any:
-        """Draws the field into matplotlib axes: exact at every pixel of the device, on screen, in PNG and PDF, zoomed or not.
-        Needs the package matplotlib, and returns the artist, a `matplotlib.image.AxesImage`.
+        """Draw the field into matplotlib axes, exact at every pixel of the device, and return the `matplotlib.image.AxesImage`.
 
         Example:
             >>> image = f.draw.plot("uy", vmin=0, cmap="vik", tip=1, zoom=4)
@@ -194,14 +186,14 @@ class Draw:
 
     def _request(
         self, quantity: str | Sequence[str] | None, options: AnimationOptions, *, is_one: bool, is_figure: bool = True
-    ) -> str:
-        """All that is asked of an image, checked; a tip is followed where the plate is deformed."""
+    ) -> dict[str, Any]:
+        """Return the request for a page, checked; a tip is followed where the plate is deformed."""
         field, size, tip = self._field, options["size"], options.get("tip")
         if size is not None and options["inches"] is not None:
             raise TypeError("give `size` or `inches`, not both")
         at = field._place(options, SIZE if size is None else pixels(size))
         made = request(field, quantity, options, at, may_find=is_one)
-        place: dict[str, Any] = {} if at is None else {"center": at[0], "width": at[1]}
+        place: dict[str, Any] = {} if at is None else {"center": at.center, "width": at.width}
         if tip is not None and options.get("width") is None:
             place = {"tip": field.step.tips._number(tip), "zoom": options.get("zoom")}
-        return request_text(field, {**made, "figure": is_figure, "place": place})
+        return checked_request(field, {**made, "figure": is_figure, "place": place})

@@ -10,8 +10,7 @@ from typing import Any
 from ._warnings import with_old_names
 
 class PpumError(Exception):
-    """What all exceptions of ppum are, but for those of files (`OSError`) and of numbers of steps, cracks and
-    tips (`IndexError`)."""
+    """The base of all exceptions of ppum, except for files (`OSError`) and numbers of steps, cracks and tips (`IndexError`)."""
 
 
 class BuildError(PpumError, ValueError):
@@ -19,11 +18,11 @@ class BuildError(PpumError, ValueError):
 
 
 class FormatError(PpumError, ValueError):
-    """No dataset, or a damaged one."""
+    """A file that is no dataset, or a damaged one."""
 
 
 class QuantityError(PpumError, ValueError):
-    """No quantity of the field, a formula that is wrong, a part or a replacement that the field cannot have."""
+    """An unknown quantity, a wrong formula, a part or a replacement that the field cannot have."""
 
 
 class RenderError(PpumError, ValueError):
@@ -35,7 +34,7 @@ class SolveError(PpumError, RuntimeError):
 
 
 class InternalError(PpumError, RuntimeError):
-    """A mistake in ppum itself; please report it."""
+    """A bug in ppum; please report it."""
 
 
 class MissingKey(KeyError):
@@ -47,13 +46,13 @@ class MissingKey(KeyError):
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """One thing that is wrong in a problem.
+    """An error in a problem.
 
     Attributes:
         place: The file, or the key of a problem made in Python, e.g. ``crack[0]``.
         line: Line in the file, from 1; none where there is no file.
         column: Column in characters, from 1.
-        message: What is wrong, and the remedy.
+        message: The error, and the remedy.
     """
 
     place: str
@@ -68,18 +67,18 @@ class Diagnostic:
 
 @with_old_names
 class ProblemError(PpumError, ValueError):
-    """A problem with mistakes, all of which are in `diagnostics`."""
+    """A problem with errors, all of which are in `diagnostics`."""
 
     def __init__(self, message: str, diagnostics: list[Any] | None = None) -> None:
         #: The mistakes, in the order of the problem.
-        self.diagnostics: list[Diagnostic] = [f if isinstance(f, Diagnostic) else Diagnostic(**f) for f in diagnostics or []]
+        self.diagnostics: list[Diagnostic] = [f if isinstance(f, Diagnostic) else Diagnostic(*f) for f in diagnostics or []]
         super().__init__(message, self.diagnostics)
 
     __str__ = MissingKey.__str__
 
 
 def require(package: str, remedy: str, what: str, by: str = "pip install") -> Any:
-    """A package beyond numpy that `what` needs; without it an `ImportError` that says how to get it."""
+    """Import a package that `what` needs; without it raise an `ImportError` that says how to get it."""
     try:
         return importlib.import_module(package)
     except ImportError as error:

@@ -13,11 +13,12 @@ import numpy as np
 
 from . import _core
 from ._errors import require
-from ._files import Drawn, folder_of, replace
+from ._files import Drawn
 from ._options import Option, passes, takes
-from ._styles import HtmlOptions, request, request_text
+from ._sample import names_of
+from ._styles import HtmlOptions, checked_request, request
 from ._units import Floats, positive
-from ._views import SIZE, ProgressOptions
+from ._views import ProgressOptions
 from ._warnings import warn
 
 if TYPE_CHECKING:
@@ -27,23 +28,13 @@ if TYPE_CHECKING:
 #: Degrees of the polynomials in triangles.
 ORDERS = range(1, 5)
 
-
-RADIUS = (
-    "the radius about tips outside of which stresses are resolved; by default 1/50 of the crack, of half of it if both ends "
-    "are tips, or of the distance from other borders and cracks if that is less. A smaller one means a larger range"
-)
-ORDER = (
-    "degree of the polynomials between the points of a triangle, 1 to 4; higher ones take fewer triangles for fine "
-    "tolerances"
-)
-AVERAGE = (
-    "average where stresses jump between patches or elements, so that triangles share their points but for cracks and "
-    "interfaces"
-)
+RADIUS = "radius about tips outside of which stresses are resolved; by default 1/50 of the crack, or of the distance to others"
+ORDER = "degree of the polynomials on triangles, 1 to 4; higher ones take fewer triangles for fine tolerances"
+AVERAGE = "average where stresses jump between patches or elements: triangles share points except at cracks and interfaces"
 
 
 class TriangleOptions(ProgressOptions, total=False):
-    """How fine triangles are."""
+    """The accuracy of triangles."""
 
     tolerance: Annotated[float, Option(1e-3, "largest difference from the field, in parts of the range of each array")]
     tip_radius: Annotated[float | None, Option(None, RADIUS)]
@@ -54,13 +45,13 @@ class TriangleOptions(ProgressOptions, total=False):
 
 @dataclass(frozen=True)
 class ArrayAccuracy:
-    """How well an array is resolved by triangles.
+    """The accuracy of an array on triangles.
 
     Attributes:
-        range: Largest minus smallest value, where the array is infinite outside of the radius about such points.
+        range: Largest minus smallest value, outside of `TriangleMesh.tip_radii`.
         allowed: The tolerance times the range.
         largest: Largest difference from the field at 20,000 random points that had no part in making the triangles.
-        share: The share of these points that are within what is allowed.
+        share: The share of these points within the tolerance.
         is_singular: Whether the array is infinite somewhere.
     """
 
@@ -72,22 +63,18 @@ class ArrayAccuracy:
 
 
 class TriangleMesh(Drawn):
-    """Triangles that resolve a field to a tolerance: between points values are linear, or polynomials of a higher order. Made
-    by `field.export.triangles`.
+    """Triangles on which values are linear, or polynomials of a higher order. Made by `field.export.triangles`.
 
-    No triangle crosses a crack; a point on one is there twice, with the values of both sides. They are saved as ``vtu``
-    or ``vtkhdf``.
+    No triangle crosses a crack; a point on one is there twice, with the values of both sides. Files are ``vtu`` or ``vtkhdf``.
 
     Attributes:
         points: Shape (n, 2).
-        cells: Numbers of the points of each: shape (m, 3), counter-clockwise; of order n (m, (n + 1)(n + 2)/2), in VTK's
-            order: corners, points on edges, points inside.
-        values: Arrays at the points by their names: shape (n,); vectors (n, 3); symmetric tensors (n, 6), as VTK has them:
-            XX, YY, ZZ, XY, YZ, XZ.
-        accuracy: How well each of them is resolved.
+        cells: Numbers of points: shape (m, 3), counter-clockwise; of order n (m, (n + 1)(n + 2)/2), in VTK's order.
+        values: Arrays at the points by name: shape (n,); vectors (n, 3); symmetric tensors (n, 6): XX, YY, ZZ, XY, YZ, XZ.
+        accuracy: The accuracy of each array.
         singular: Points where arrays are infinite: shape (k, 2).
         tip_radii: The tolerance of such arrays holds outside of these radii about them: shape (k,).
-        is_complete: Whether the work was not ended by the limit of triangles.
+        is_complete: False if the limit of triangles was reached before the tolerance.
 
     Example:
         >>> mesh = f.export.triangles(["displacement", "uy"], tolerance=0.01)
@@ -101,25 +88,21 @@ class TriangleMesh(Drawn):
     def __init__(self, core: _core.Triangles) -> None:
         super().__init__()
         self._core = core
-        self.points = core.points()
-        self.cells = core.cells()
-        self.singular = core.singular()
-        self.tip_radii = core.radii()
-        self.is_complete = core.is_complete()
+        self.points, self.cells, self.singular, self.tip_radii, self.is_complete = core.mesh()
 
     @cached_property
     def accuracy(self) -> Mapping[str, ArrayAccuracy]:
-        """How well each array is resolved."""
-        return MappingProxyType({one.pop("name"): ArrayAccuracy(**one) for one in self._core.accuracy()})
+        """Accuracy of each array by its name."""
+        return MappingProxyType({name: ArrayAccuracy(*numbers, infinite) for name, numbers, infinite in self._core.accuracy()})
 
     @cached_property
     def values(self) -> Mapping[str, Floats]:
-        """The arrays by their names."""
+        """Arrays at the points by their names."""
         arrays = {name: self._core.values(k) for k, name in enumerate(self.accuracy)}
         return MappingProxyType({name: rows[:, 0] if rows.shape[1] == 1 else rows for name, rows in arrays.items()})
 
     def to_pyvista(self) -> Any:
-        """The same as a `pyvista.UnstructuredGrid`."""
+        """Return a `pyvista.UnstructuredGrid`."""
         pyvista = require("pyvista", "pyvista", "grids of PyVista")
         points = np.column_stack([self.points, np.zeros(len(self.points))])
         types = pyvista.CellType
@@ -145,16 +128,16 @@ class TriangleMesh(Drawn):
 
 @dataclass(frozen=True)
 class Export:
-    """A field for programs and people that have no ppum."""
+    """Files and meshes of a field for other programs."""
 
     _field: "Field"
 
     @takes(TriangleOptions)
     def triangles(self, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]) -> TriangleMesh:
-        """Triangles for programs that interpolate, fine enough for a tolerance. Warns where the tolerance is not kept.
+        """Make triangles for programs that interpolate, fine enough for a tolerance. Warns where the tolerance is not kept.
 
-        Quantities are names and formulas, ``displacement`` and ``stress`` among them; by default the displacement, the stress
-        tensor and von Mises' stress, of a potential itself and its gradient.
+        Quantities are names and formulas, ``displacement`` and ``stress`` among them; the default is the displacement, the
+        stress tensor and von Mises' stress, or a potential and its gradient.
 
         Raises:
             RenderError: More triangles are needed along cracks and borders alone.
@@ -170,28 +153,20 @@ class Export:
             positive(name, options[name])
         if options["order"] not in ORDERS:
             raise ValueError(f"order: {options['order']} is not one of 1, 2, 3 and 4")
-        if isinstance(quantities, str):
-            raise TypeError(f"quantities: give a list, [{quantities!r}]")
-        if quantities is not None and not quantities:
+        names = None if quantities is None else names_of(quantities)
+        if names == []:
             raise ValueError("quantities: give one at least, or none for those that suit")
-        made = _core.triangles(
-            self._field._core,
-            None if quantities is None else list(quantities),
-            float(options["tolerance"]),
-            options["tip_radius"],
-            int(options["max_cells"]),
-            int(options["order"]),
-            bool(options["average"]),
-            hashed,
-            options["progress"],
-        )
+        accuracy = float(options["tolerance"]), options["tip_radius"], int(options["max_cells"]), int(options["order"])
+        average, progress = bool(options["average"]), options["progress"]
+        made = _core.triangles(self._field._core, names, *accuracy, average, hashed, progress)
+        mesh = TriangleMesh(made)
         if text := made.complaint():
-            warn(text + ("" if made.is_complete() else "; raise max_cells or tolerance"))
-        return TriangleMesh(made)
+            warn(text + ("" if mesh.is_complete else "; raise max_cells or tolerance"))
+        return mesh
 
     @passes(TriangleOptions)
     def to_pyvista(self, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]) -> Any:
-        """The field as a `pyvista.UnstructuredGrid`, to a tolerance: `triangles`, whose arguments these are."""
+        """Return a `pyvista.UnstructuredGrid` of `triangles`, whose arguments these are."""
         require("pyvista", "pyvista", "grids of PyVista")
         return self.triangles(quantities, **options).to_pyvista()
 
@@ -199,8 +174,9 @@ class Export:
     def to_html(
         self, path: str | os.PathLike[str] | None = None, quantity: str | None = None, **options: Unpack[HtmlOptions]
     ) -> str | None:
-        """A page that shows and explores the field exactly in a browser of 2024 or later: one file, without network and
-        server, or its text if there is no path. Quantity and options say what is seen first; people change it in the page.
+        """Write a page that explores the field exactly in a browser of 2024 or later, or return its text without a path.
+
+        It is one file, without network and server. Quantity and options are those of the first view.
 
         Example:
             >>> f.export.to_html("plate.html", "uy", tip=0, zoom=100)
@@ -211,18 +187,18 @@ class Export:
             raise TypeError("quantity: a page shows one first; give its name")
         field, target = self._field, None if path is None else Path(path)
         if target is not None:
-            folder_of(target)
-        at = field._place(options, SIZE)
-        asked = request_text(field, request(field, quantity, options, at))
-        page = _core.page(field._core, field.dataset._core, asked, at, f"{target.stem if target else 'dataset'}.h5")
+            _core.check_target(target)
+        at = field._place(options)
+        asked = checked_request(field, request(field, quantity, options, at))
+        page = _core.page(field._core, asked, at, f"{target.stem if target else 'dataset'}.h5")
         if target is None:
             return page
-        replace(target, page.encode())
+        _core.replace(target, page.encode())
         return None
 
 
 def hash_of(dataset: "Dataset") -> str:
-    """SHA-256 of a dataset's file, in hexadecimal digits."""
+    """Return the SHA-256 of a dataset's file, in hexadecimal digits."""
     return hashlib.sha256(dataset.to_bytes()).hexdigest()
 
 
@@ -230,15 +206,15 @@ def hash_of(dataset: "Dataset") -> str:
 def save_triangles(
     dataset: "Dataset", path: Path, quantities: Sequence[str] | None = None, **options: Unpack[TriangleOptions]
 ) -> None:
-    """Writes the triangles of all steps to a ``.vtkhdf`` file, or of the only one to a ``.vtu`` file: `Dataset.save`."""
+    """Write the triangles of all steps to a ``.vtkhdf`` file, or of the only one to a ``.vtu`` file."""
     steps = list(dataset.steps)
     if path.suffix.lower() == ".vtu" and len(steps) > 1:
         words = "end its name in .vtkhdf, or save `field.export.triangles` of one"
         raise ValueError(f"{path.name}: a .vtu file has one step, this dataset has {len(steps)}; {words}")
-    folder_of(path)
+    _core.check_target(path)
     hashed = hash_of(dataset)
     meshes = [step.field.export._triangles(quantities, hashed, options) for step in steps]
     if path.suffix.lower() == ".vtu":
         meshes[0].save(path)
     else:
-        replace(path, _core.vtkhdf([mesh._core for mesh in meshes]))
+        _core.replace(path, _core.vtkhdf([mesh._core for mesh in meshes]))

@@ -19,7 +19,7 @@ class Crack:
     """A crack: a polyline with a direction, whose left side is above.
 
     Attributes:
-        index: Its number, from 0.
+        index: Number of the crack, from 0.
         points: The vertices, shape (n, 2), lengths.
         ends: The kinds of its ends: ``tip``, ``mouth`` or ``junction``.
     """
@@ -41,7 +41,7 @@ class Crack:
 class Hole:
     """A hole: a circle (`center`, `radius`) or a polygon (`points`, shape (n, 2)); the others are None.
 
-    With `is_outside` it is all that is outside of the polygon, which is the outline of the body.
+    With `is_outside` the polygon is the outline of the body, and the hole all that is outside of it.
     """
 
     center: Point | None = None
@@ -52,12 +52,12 @@ class Hole:
 
 @dataclass(frozen=True)
 class Tip:
-    """A crack tip with its stress intensity factors; what is not known is NaN.
+    """A crack tip with its stress intensity factors; unknown numbers are NaN.
 
     Attributes:
         crack: Number of its crack.
         end: ``start`` or ``end``, the crack's first or last vertex.
-        xy: Its place.
+        xy: Position.
         angle: Direction of growth, the angle to the x axis, radians.
         k1, k2: K_I and K_II, stress · length^½.
         t_stress: T, a stress.
@@ -66,7 +66,7 @@ class Tip:
         growth_angle: Direction of the largest hoop stress, radians from `angle`.
         error: Estimated error of (K_I, K_II), stress · length^½.
         spread: Largest relative difference of two rings, a check and no estimate of the error.
-        rings: Of each ring inner and outer radius, K_I and K_II; shape (n, 4).
+        rings: Inner and outer radius, K_I and K_II of each ring; shape (n, 4).
     """
 
     crack: int
@@ -90,14 +90,14 @@ class Tip:
 
 @dataclass(frozen=True)
 class Warning:
-    """A finding that does not make a solution wrong to have, but wrong to trust unread.
+    """A diagnostic that should be read before the solution is used.
 
     Attributes:
         kind: A word, e.g. ``faces-overlap``.
-        at: The place, if it is about one.
+        at: The place, if it has one.
         value: The number that gave rise to it.
         limit: The bound that the number passes.
-        message: What is wrong, and the remedy.
+        message: The finding, and the remedy.
     """
 
     kind: str
@@ -116,9 +116,9 @@ class Reaction:
 
     Attributes:
         on: The support in words, e.g. ``bottom``.
-        held: Of each component, whether the support holds it.
+        held: Whether the support holds each component.
         force: Force per thickness of each component, stress · length; zero where not held.
-        moment: About the centre of the domain's box, counter-clockwise, stress · length².
+        moment: Moment about the centre of the domain's box, counter-clockwise, stress · length².
     """
 
     on: str
@@ -129,15 +129,15 @@ class Reaction:
 
 @dataclass(frozen=True)
 class Advance:
-    """What one tip of a growing crack does next.
+    """The next increment of a tip of a growing crack.
 
     Attributes:
         crack, end: The tip.
         fate: In words, e.g. ``grows``, ``held``, ``meets crack 3``.
-        strength: What is compared with the toughness, stress · length^½.
-        direction: Of the path at the tip, angle to the x axis, radians.
-        curvature: Of the path, 1 / length.
-        path: The vertices that the crack gets, shape (n, 2).
+        strength: The value compared with the toughness, stress · length^½.
+        direction: Angle of the path at the tip to the x axis, radians.
+        curvature: Curvature of the path, 1 / length.
+        path: New vertices of the crack, shape (n, 2).
         length: Length of the path.
         extension: Length of all growth at this end since the first step.
     """
@@ -155,12 +155,12 @@ class Advance:
 
 @dataclass(frozen=True)
 class Growth:
-    """How the cracks of a step grow on from there.
+    """The growth of the cracks after a step.
 
     Attributes:
         cycles: Load cycles up to the step; None where growth has no time.
-        stop: What ends the series with this step; None if it goes on.
-        tips: What each tip does.
+        stop: Why the series ends with this step; None if it goes on.
+        tips: The increment of each tip.
     """
 
     cycles: float | None
@@ -169,7 +169,6 @@ class Growth:
 
 
 def tips_of(facts: list[dict[str, Any]], ends: Sequence[str]) -> Table[Tip]:
-    """The tips of facts, and of the names of their ends."""
     both = zip(facts, ends, strict=True)
     tips = (row(Tip, t, end=end, xy=t["tip"], rings=_rings(t["rings"])) for t, end in both)
     return Table(tips, "tip")
@@ -186,25 +185,17 @@ def _rings(rings: list[dict[str, Any]]) -> NDArray[np.float64]:
 
 
 def number(value: Any) -> float:
-    """A number of the facts: undefined ones are null there, infinite ones texts."""
+    """Return a number of the facts: undefined ones are None there, infinite ones texts."""
     return math.nan if value is None else float(value)
 
 
-def _numbers(values: Sequence[Any]) -> tuple[float, ...]:
-    return tuple(number(v) for v in values)
-
-
-_READERS: dict[Any, Callable[[Any], Any]] = {
-    float: number,
-    Point: tuple,
-    Point | None: lambda point: None if point is None else tuple(point),
-    tuple[bool, ...]: tuple,
-    tuple[float, ...]: _numbers,
-}
+def _read(kind: Any, value: Any) -> Any:
+    if isinstance(value, list):
+        return tuple(v if isinstance(v, bool) else number(v) for v in value)
+    return number(value) if kind is float else value
 
 
 def row(kind: Callable[..., _Row], facts: dict[str, Any], **others: Any) -> _Row:
-    """A row of the facts of a dataset, some of whose attributes are given."""
+    """Return a row of the facts of a dataset, some of whose attributes are given."""
     values = {**facts, **others}
-    attributes = fields(kind)  # type: ignore[arg-type]
-    return kind(**{f.name: _READERS.get(f.type, lambda v: v)(values[f.name]) for f in attributes})
+    return kind(**{f.name: _read(f.type, values[f.name]) for f in fields(kind)})  # type: ignore[arg-type]

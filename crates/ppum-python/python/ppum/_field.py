@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, Unpack, overload
@@ -15,9 +14,9 @@ from ._facts import Tip, tips_of
 from ._options import passes, takes
 from ._styles import ViewerOptions
 from ._tables import Table
-from ._units import Floats, pair, pixels
+from ._units import Floats, pixels
 from ._values import Quantities, Quantity, SideName, Values
-from ._views import SIZE, PixelOptions, PlaceOptions, View, Window, view_of, window
+from ._views import SIZE, PixelOptions, PlaceOptions, View, checked_view, view_at
 from ._warnings import warn, with_old_names
 
 if TYPE_CHECKING:
@@ -34,10 +33,10 @@ KEPT = 4
 
 @with_old_names
 class Field:
-    """A field of one step, to be evaluated exactly wherever one likes. Made by `Step.field` and `Dataset.field`.
+    """A field of one step, evaluated exactly at any point. Made by `Step.field` and `Dataset.field`.
 
-    It never changes: `part`, `with_function`, `with_weight` and `with_quantity` give others. It can be pickled. `sample`
-    gives values along curves and on grids, `draw` images, `export` files for other programs, `compare` differences.
+    It never changes: `part`, `with_function`, `with_weight` and `with_quantity` return others. It can be pickled. `sample`
+    has values along curves and on grids, `draw` images, `export` files for other programs, `compare` differences.
 
     Example:
         >>> f = ds.field
@@ -60,11 +59,11 @@ class Field:
         self.dataset = dataset
         self._number = step if step >= 0 else count + step
         self._subject = dict(_subject or {})
-        self._core = _core.Field(dataset._core, self._number, json.dumps(self._subject))
+        self._core = _core.Field(dataset._core, self._number, self._subject)
 
     @property
     def step(self) -> Step:
-        """The step that the field belongs to."""
+        """Step that the field belongs to."""
         return self.dataset.steps[self._number]
 
     @cached_property
@@ -74,24 +73,22 @@ class Field:
 
     @cached_property
     def quantities(self) -> Mapping[str, Quantity]:
-        """All quantities that have a name. Formulas of them are quantities too."""
-        return Quantities([Quantity(**q) for q in self._core.known()])
+        """Named quantities; formulas of them are quantities too."""
+        return Quantities([Quantity(*q) for q in self._core.known()])
 
     def at(self, x: ArrayLike, y: ArrayLike, *, side: SideName = "above", anchor: ArrayLike | None = None) -> Values:
-        """The field at points.
+        """Return the field at points.
 
         A value depends on its point alone, to the last bit, whatever other points there are.
 
         Args:
             x, y: Coordinates, lengths; numbers or arrays, which are broadcast against each other.
-            side: Of points on a crack the side that is meant: ``above`` is on the left of the crack's
-                direction; ``both`` gives both along a last axis. Elsewhere sides are equal.
-            anchor: Where x and y are offsets from. They are not rounded by it: 1e-20 from a tip
-                is as exact as 1.
+            side: Side of points on a crack: ``above`` is left of its direction, ``both`` adds a last axis.
+            anchor: Origin of x and y, to which they are never added: 1e-20 from a tip is as exact as 1.
 
         Raises:
-            TypeError: Coordinates that are no real numbers.
-            ValueError: Shapes that cannot be broadcast; no such side.
+            TypeError: Coordinates are no real numbers.
+            ValueError: Shapes cannot be broadcast, or the side is unknown.
 
         Example:
             >>> f.at(0.0, 0.0, side="both").uy.shape
@@ -113,17 +110,16 @@ class Field:
         gradient: bool = False,
         out: Floats | None = None,
     ) -> Any:
-        """Several quantities in one pass over the points.
+        """Evaluate several quantities in one pass over the points.
 
         Args:
             x, y, side, anchor: As in `at`.
             quantities: q names or formulas.
-            gradient: Whether gradients are wanted too.
+            gradient: Whether to return gradients too.
             out: An array for the result, float64 in C order, which is returned; not with gradients or both sides.
 
         Returns:
-            Shape (..., q), or with both sides (..., 2, q). With `gradient` two arrays: this, and the gradients
-            of shape (..., q, 2).
+            Shape (..., q), or (..., 2, q) of both sides; with `gradient` also an array (..., q, 2).
 
         Example:
             >>> f.evaluate([0.0, 0.1], 0.5, ["ux", "sxx + syy"]).shape
@@ -138,7 +134,7 @@ class Field:
         return (found[..., 0], found[..., 1:]) if gradient else found
 
     def _is_quantity(self, name: str) -> bool:
-        """Whether points have values by this name: those of cells and what there is not have none."""
+        """Return whether points have values by this name; values of cells are not such."""
         try:
             self._core.check(name)
         except QuantityError:
@@ -146,7 +142,7 @@ class Field:
         return True
 
     def part(self, part: str) -> Field:
-        """A part of the field: ``smooth``, ``jump``, ``tip``, ``other``, or ``patch:N``. The parts add up to the whole.
+        """Return a part of the field: ``smooth``, ``jump``, ``tip``, ``other``, or ``patch:N``. The parts add up to the whole.
 
         Example:
             >>> parts = [f.part(name).at(0.3, 0.1).ux for name in ("smooth", "jump", "tip")]
@@ -158,8 +154,7 @@ class Field:
         return self._changed(part=part)
 
     def with_function(self, functions: Mapping[str | int, str]) -> Field:
-        """The field with other functions in place of its own, by name or number: formulas of x, y, r, theta. The
-        coefficients stay.
+        """Replace functions, by name or number, by formulas of x, y, r, theta. The coefficients stay.
 
         Example:
             >>> g = f.with_function({"westergaard 1": "r"})
@@ -169,7 +164,7 @@ class Field:
         return self._with_formulas("functions", functions)
 
     def with_weight(self, weight: str) -> Field:
-        """The field with another weight function: one of the library by name, or a formula of t. The coefficients stay.
+        """Replace the weight function by one of the library, by name, or a formula of t. The coefficients stay.
 
         Example:
             >>> bool(f.with_weight("bump").at(0.26, 0.1).ux != f.at(0.26, 0.1).ux)
@@ -180,11 +175,10 @@ class Field:
         return self._changed(weight=weight)
 
     def with_quantity(self, quantities: Mapping[str, str]) -> Field:
-        """The field with other formulas for quantities that the dataset names."""
+        """Replace the formulas of quantities that the dataset names."""
         return self._with_formulas("quantities", quantities)
 
     def _with_formulas(self, what: str, formulas: Mapping[Any, str]) -> Field:
-        """The field with more formulas in place of functions or quantities."""
         for which, text in formulas.items():
             if not isinstance(text, str):
                 raise TypeError(f"{which}: a formula is needed, such as 'r*theta', not {text!r}")
@@ -192,7 +186,7 @@ class Field:
         return self._changed(**{what: [*known, *((str(which), text) for which, text in formulas.items())]})
 
     def _at_step(self, number: int) -> Field:
-        """The field of another step, changed as this one is."""
+        """Return the field of another step, changed as this one is."""
         if not self._subject:
             return self.dataset.steps[number].field
         return Field(self.dataset, number, self._subject)
@@ -209,14 +203,13 @@ class Field:
     def intensities(
         self, tip: int | None = None, radius: float | None = None, *, progress: Any = None
     ) -> Table[Tip] | Tip:
-        """Stress intensity factors, T and J found from the field by interaction integrals, whoever made it.
+        """Compute stress intensity factors, T and J by interaction integrals, of any field, also of other programs.
 
-        The loads near the tips are those of the problem that the dataset holds; without one none act there. What the
-        diagnostics find is warned of.
+        The loads near the tips are those of the dataset's problem; without one none act there. Diagnostics are warned of.
 
         Args:
             tip: The number of a tip; by default all.
-            radius: That of the largest disc; by default nine tenths of the largest one that nothing disturbs.
+            radius: Radius of the largest disc; by default nine tenths of the largest one that nothing disturbs.
             progress: A function that is called with phase, parts done, all parts and step.
 
         Returns:
@@ -224,7 +217,7 @@ class Field:
 
         Raises:
             IndexError: There is no such tip.
-            SolveError: A potential; a radius that something else lies within; loads that are not known.
+            SolveError: The field is a potential, a disc contains something else, or loads are unknown.
 
         Example:
             >>> found = f.intensities(1)
@@ -241,19 +234,19 @@ class Field:
         if radius is None:
             return self._found_tips(progress)[number]
         found, ends, _ = _core.intensities(self._core, (number, float(radius)), progress)
-        return tips_of(json.loads(found), ends)[0]
+        return tips_of(found, ends)[0]
 
     def _found_tips(self, progress: Any) -> Table[Tip]:
-        """The factors of all tips, found once."""
+        """Return the factors of all tips, computed once."""
         if self._tips is None:
             found, ends, messages = _core.intensities(self._core, None, progress)
             warn(*messages)
-            self._tips = tips_of(json.loads(found), ends)
+            self._tips = tips_of(found, ends)
         return self._tips
 
     @passes(ViewerOptions)
     def view(self, quantity: str | None = None, **options: Unpack[ViewerOptions]) -> Viewer:
-        """Shows the field in a notebook: pan, zoom, read values, exact in every frame. Needs the package anywidget.
+        """Show the field in a notebook: pan, zoom, read values, exact in every frame. Needs the package anywidget.
 
         Example:
             >>> view = f.view("uy", width=0.5, center=(0, 0), clim=(0, 1))
@@ -267,7 +260,7 @@ class Field:
 
     @takes(PixelOptions)
     def view_at(self, **options: Unpack[PixelOptions]) -> View:
-        """What an image with these options shows: all of the plate, a width around a center, or a tip enlarged.
+        """Return the view of an image with these options: all of the plate, a width around a center, or a tip enlarged.
 
         Example:
             >>> f.view_at(tip=1, zoom=4, size=(100, 100)).width
@@ -276,31 +269,23 @@ class Field:
         return self._seen(options)
 
     def _seen(self, options: PixelOptions) -> View:
-        """What an image in pixels shows."""
+        """Return the view of an image in pixels."""
         if (view := options.get("view")) is not None:
-            return view_of(view, options)
-        size = options.get("size")
-        size = pixels(SIZE if size is None else size)
-        return View(*self._window(size, options), size)
-
-    def _asked(self, quantity: str | None, options: PixelOptions) -> tuple[str, Window, tuple[int, int]]:
-        """The quantity, by default the one that suits, and what an image in pixels shows."""
-        seen = self._seen(options)
-        return quantity or self._core.default_quantity(), seen._window, seen.size
-
-    def _place(self, options: PlaceOptions, size: tuple[int, int]) -> Window | None:
-        """Center and width of what a page of this size shows; None where nothing is said."""
-        seen: Any = {name: options.get(name) for name in PlaceOptions.__annotations__}
-        return None if all(value is None for value in seen.values()) else self._seen(seen | {"size": size})._window
-
-    def _window(self, size: tuple[int, int], options: PlaceOptions) -> Window:
-        center, tip = options.get("center"), options.get("tip")
+            return checked_view(view, options)
+        center, tip, size = options.get("center"), options.get("tip"), options.get("size")
         if tip is not None and center is not None:
             raise TypeError("give a tip or a center, not both")
-        at = None if center is None else pair(center)
-        if tip is not None:
-            at = self.step.tips[tip].xy
-        return window(self.dataset.domain, size, at, options.get("width"), options.get("zoom"))
+        at = center if tip is None else self.step.tips[tip].xy
+        return view_at(self.dataset.domain, pixels(SIZE if size is None else size), at, options.get("width"), options.get("zoom"))
+
+    def _asked(self, quantity: str | None, options: PixelOptions) -> tuple[str, View]:
+        """Return the quantity, by default the one that suits, and the view of an image in pixels."""
+        return quantity or self._core.default_quantity(), self._seen(options)
+
+    def _place(self, options: PlaceOptions, size: tuple[int, int] = SIZE) -> View | None:
+        """Return the view of a page of this size; None where nothing is said."""
+        seen: Any = {name: options.get(name) for name in PlaceOptions.__annotations__}
+        return None if all(value is None for value in seen.values()) else self._seen(seen | {"size": size})
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Field):
@@ -317,5 +302,4 @@ class Field:
     def __repr__(self) -> str:
         changes = [k if k != "part" else self._subject[k] for k in self._subject]
         changed = f", changed: {', '.join(changes)}" if changes else ""
-        names = ", ".join(self.components)
-        return f"<ppum.Field {names} of {self.dataset.title!r}, step {self._number}{changed}>"
+        return f"<ppum.Field {', '.join(self.components)} of {self.dataset.title!r}, step {self._number}{changed}>"

@@ -1,19 +1,18 @@
-"""Files that are drawn when they are asked for, and how files are replaced."""
+"""Files that are drawn when they are asked for."""
 
-import errno
 import os
-import secrets
 from pathlib import Path
 from typing import ClassVar
 
+from . import _core
 from ._warnings import warn
 
 
 class Drawn:
-    """Drawn when its bytes are asked for, once for each form of file.
+    """A file that is drawn when its bytes are asked for, once for each form.
 
     Attributes:
-        warnings: What is to be known of what was drawn, such as pixels without a value; each is warned of once too.
+        warnings: Messages about what was drawn, such as pixels without a value; each is also warned of once.
     """
 
     #: The forms that there are; the first one is drawn if none is asked for.
@@ -34,14 +33,14 @@ class Drawn:
         raise NotImplementedError
 
     def to_bytes(self, form: str | None = None) -> bytes:
-        """The bytes of its file.
+        """Return the bytes of a file.
 
         Args:
-            form: The end of the file's name, such as ``png``; by default that of the first form that the class names.
+            form: The end of the file's name, such as ``png``; by default the first form that the class names.
 
         Raises:
-            QuantityError, RenderError: What cannot be drawn.
-            ValueError: A form that there is not; a size without room.
+            QuantityError, RenderError: The content cannot be drawn.
+            ValueError: The form is unknown, or the size leaves no room.
         """
         form = self._forms[0] if form is None else form
         if form not in self._forms:
@@ -51,13 +50,13 @@ class Drawn:
         return self._known[form]
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file, of the form that its name ends in. What was there stays until it is complete."""
+        """Write a file in the form that its name ends in. An existing file is replaced only by a complete one."""
         path = Path(path)
-        folder_of(path)
         form = path.suffix[1:].lower()
         if not form:
             raise ValueError(f"the name {path.name!r} has no end that says a form: {self._known_forms()}")
-        replace(path, self.to_bytes(form))
+        _core.check_target(path)
+        _core.replace(path, self.to_bytes(form))
 
     def _known_forms(self) -> str:
         return f"the forms of {type(self).__name__} are {', '.join(self._forms)}"
@@ -69,34 +68,16 @@ class Page(Drawn):
     _forms = ("png", "svg", "pdf")
 
     def png(self) -> bytes:
-        """Pixels."""
+        """Return the bytes of an image in pixels."""
         return self.to_bytes("png")
 
     def svg(self) -> str:
-        """Vector lines and text, for the web."""
+        """Return the text of a vector image for the web."""
         return self.to_bytes("svg").decode()
 
     def pdf(self) -> bytes:
-        """Vector lines and text, for papers."""
+        """Return the bytes of a vector image for papers."""
         return self.to_bytes("pdf")
 
     def _repr_png_(self) -> bytes:
         return self.png()
-
-
-def folder_of(path: Path) -> Path:
-    """The folder that a file is to lie in."""
-    if not path.parent.is_dir():
-        raise FileNotFoundError(errno.ENOENT, "there is no such folder", str(path.parent))
-    return path.parent
-
-
-def replace(path: Path, data: bytes) -> None:
-    """Puts bytes in the place of a file: what was there stays until they are all written."""
-    part = folder_of(path) / f"{path.name}.{secrets.token_hex(4)}"
-    try:
-        part.write_bytes(data)
-        os.replace(part, path)
-    except BaseException:
-        part.unlink(missing_ok=True)
-        raise

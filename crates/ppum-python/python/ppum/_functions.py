@@ -32,8 +32,7 @@ class Component:
     """The function 1 on one connected part of what cracks leave of a patch, 0 on the others: a tree of cuts.
 
     Attributes:
-        cuts: Shape (k, 4), rows of crack, segment, what follows on the left and on the right: the number of a later
-            cut, -1 for outside (0), -2 for inside (1).
+        cuts: Rows of crack, segment, and the next cut on the left and the right, -1 for 0, -2 for 1; shape (k, 4).
     """
 
     cuts: ArrayLike
@@ -41,19 +40,17 @@ class Component:
 
 @dataclass(frozen=True, eq=False)
 class Formula:
-    """A function by a formula of x, y, r and theta, in the world, in a fixed frame, in that of a crack tip or of two level
-    fields.
+    """A function by a formula of x, y, r and theta in a frame: the world, a fixed one, that of a tip or of two level fields.
 
     Attributes:
         text: The formula, e.g. ``sqrt(r)*cos(theta/2)``; ``table(name, x)`` reads a table of the dataset.
-        tip: Crack and end, ``start`` or ``end`` as `Tip.end` has them: the frame has its origin there, x points in the
-            direction of growth, and theta jumps on the crack.
+        tip: Crack and end, ``start`` or ``end``, of a frame with x in the direction of growth; theta jumps on the crack.
         origin, angle: A fixed frame: its origin, and the angle of its x axis.
         levels: On meshes, names of the level fields ψ and φ that are x and y; theta jumps where φ = 0, ψ < 0.
         parameters: Constants that the formula may use, by name.
         kinks: Segments x0, y0, x1, y1 in the frame across which it or a derivative jumps; values do not depend on them.
         singular: Points in the frame where it or a derivative is infinite; values do not depend on them.
-        role: What it stands for: ``tip``, ``corner``, ``force``, ``interface`` or ``user``; values do not depend on it.
+        role: Its purpose: ``tip``, ``corner``, ``force``, ``interface`` or ``user``; values do not depend on it.
 
     Example:
         >>> ppum.build.Formula("r^a*sin(a*theta)", tip=(0, "end"), parameters={"a": 0.7}).tip
@@ -86,8 +83,9 @@ TIP = {
 
 
 def tip_functions(crack: int = 0, end: str = "end") -> dict[str, Formula]:
-    """The four functions √r cos θ/2, √r sin θ/2, √r sin θ sin θ/2, √r sin θ cos θ/2 of a crack tip, by names that tell
-    the tip; `end` is ``start`` or ``end``, as `Tip.end` has it.
+    """Return √r cos θ/2, √r sin θ/2, √r sin θ sin θ/2, √r sin θ cos θ/2 of a tip, by names that tell the tip.
+
+    The tip is the ``start`` or ``end`` of a crack, as `Tip.end` has it.
 
     Example:
         >>> list(ppum.build.tip_functions(0, "end"))[0]
@@ -100,7 +98,7 @@ def tip_functions(crack: int = 0, end: str = "end") -> dict[str, Formula]:
 
 
 def columns(functions: Mapping[str, Function], cracks: Sequence[int], fields: Sequence[str] = ()) -> dict[str, Any]:
-    """The arrays of the group `functions`; `cracks` has the number of segments of each crack, `fields` names of fields."""
+    """Return the group `functions`; `cracks` has the number of segments of each crack, `fields` names of fields."""
     known = [_row(f"functions[{name!r}]", name, f, cracks, fields) for name, f in functions.items()]
     plain = ("name", "kind", "crack", "formula", "frame", "frame_end", "frame_origin", "frame_angle")
     arrays: dict[str, Any] = {key: [row[key] for row in known] for key in plain}
@@ -180,7 +178,6 @@ def _frame(place: str, f: Formula, cracks: Sequence[int], fields: Sequence[str])
 
 
 def level_field(place: str, name: str, fields: Sequence[str]) -> int:
-    """The number of a level field."""
     if name not in fields[1:]:
         known = ", ".join(map(repr, fields[1:])) or "none"
         raise BuildError(f"{place}: names {short(name)}, which is no field after the first; there are {known}")

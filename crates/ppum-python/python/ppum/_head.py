@@ -1,4 +1,4 @@
-"""What all steps of a dataset share: the domain, holes, the equation, tables, quantities; and the ends of cracks in it."""
+"""Data that all steps of a dataset share: domain, holes, equation, tables, quantities; and the ends of cracks."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -19,15 +19,12 @@ from ._state import State
 
 Arrays = dict[str, Any]
 
-EQUATION = (
-    "the material, if there are to be stresses or energy: then the first field is ``displacement`` or ``potential``. Without "
-    "one there are values, derivatives and the dataset's own quantities"
-)
+EQUATION = "the material, for stresses and energy; then the first field is ``displacement`` or ``potential``"
 TABLES = "data that formulas read, by name: (x, values), or (x, y, values) with a row of values for each y"
 
 
 class DatasetOptions(TypedDict, total=False):
-    """What all steps of a dataset share."""
+    """The data that all steps of a dataset share."""
 
     title: Annotated[str, Option("", "one line that names the problem")]
     program: Annotated[str, Option("", "name and version of the code that the arrays come from")]
@@ -41,7 +38,7 @@ class DatasetOptions(TypedDict, total=False):
 
 
 class BuildOptions(DatasetOptions, total=False):
-    """What all steps share, and how exactly fields are verified."""
+    """The data that all steps share, and the accuracy that is verified."""
 
     tolerance: Annotated[
         SupportsFloat, Option(1e-10, "largest difference from `Coefficients.verify` that is no error, relative to the largest value")
@@ -49,7 +46,6 @@ class BuildOptions(DatasetOptions, total=False):
 
 
 def listed(place: str, given: Any, kind: Any, remedy: str) -> list[Any]:
-    """The entries of a list, all of a class."""
     entries = sequence(place, given, remedy)
     for k, one in enumerate(entries):
         check_type(f"{place}[{k}]", one, isinstance(one, kind), remedy)
@@ -58,7 +54,7 @@ def listed(place: str, given: Any, kind: Any, remedy: str) -> list[Any]:
 
 @contextmanager
 def of_state(number: int, count: int) -> Iterator[None]:
-    """Puts the state of a series before the places of mistakes in it."""
+    """Put the state of a series before the places of errors in it."""
     try:
         yield
     except BuildError as error:
@@ -66,7 +62,7 @@ def of_state(number: int, count: int) -> Iterator[None]:
 
 
 def shared(series: Sequence[State], options: DatasetOptions) -> Arrays:
-    """The arrays of what all steps share."""
+    """Return the arrays of what all steps share."""
     holes, tables, quantities = options["holes"], options["tables"], options["quantities"]
     named = _tables({} if tables is None else tables) | _quantities({} if quantities is None else quantities)
     for k, state in enumerate(series):
@@ -96,10 +92,9 @@ def _domain(cover: Cover | Mesh, holes: Sequence[Hole]) -> str:
 
 def _holes(holes: Sequence[Hole]) -> Arrays:
     points = [_outline(f"holes[{k}]", hole) for k, hole in enumerate(holes)]
+    kinds = ["circle" if h.points is None else "outside" if h.is_outside else "polygon" for h in holes]
     return {
-        "domain/holes/kind": [
-            "circle" if h.points is None else "outside" if h.is_outside else "polygon" for h in holes
-        ],
+        "domain/holes/kind": kinds,
         "domain/holes/points": np.concatenate(points),
         "domain/holes/offsets": np.cumsum([0, *map(len, points)]),
         "domain/holes/radius": [scalar(f"holes[{k}].radius", h.radius if h.points is None else 0) for k, h in enumerate(holes)],
@@ -107,7 +102,7 @@ def _holes(holes: Sequence[Hole]) -> Arrays:
 
 
 def _outline(place: str, hole: Hole) -> NDArray[np.float64]:
-    """The points of a polygon, or the centre of a circle."""
+    """Return the points of a polygon, or the centre of a circle."""
     if hole.points is not None:
         return rows(f"{place}.points", hole.points, 2)
     if hole.center is None or hole.radius is None:
@@ -168,7 +163,6 @@ def _quantity(name: str, given: Any) -> tuple[str, str]:
 
 
 def components_of(equation: Elastic | Poisson | None) -> list[str]:
-    """The components of an equation."""
     if isinstance(equation, Elastic):
         return ["ux", "uy", "temperature"] if equation.expansion is not None else ["ux", "uy"]
     return [] if equation is None else ["u"]
@@ -185,10 +179,8 @@ def crack_arrays(state: State, cracks: Sequence[NDArray[np.float64]], holes: Seq
         if ((high < state.cover.domain[0]) | (low > state.cover.domain[1])).any(axis=1).all():
             box = " to ".join(f"({x:g}, {y:g})" for x, y in state.cover.domain)
             raise BuildError(f"cracks[{k}]: lies outside of the domain, {box}; leave it out, or give its points in this frame")
-    ends = [
-        list(given.ends) if isinstance(given, Crack) else _ends(k, cracks, state.cover, holes)
-        for k, given in enumerate(state.cracks)
-    ]
+    named = [list(given.ends) if isinstance(given, Crack) else None for given in state.cracks]
+    ends = [known or _ends(k, cracks, state.cover, holes) for k, known in enumerate(named)]
     return {
         "cracks/points": np.concatenate([np.empty((0, 2)), *cracks]),
         "cracks/offsets": np.cumsum([0, *map(len, cracks)]),
@@ -213,7 +205,7 @@ def _ends(crack: int, cracks: Sequence[NDArray[np.float64]], cover: Cover | Mesh
 
 
 def _distance(p: NDArray[np.float64], line: NDArray[np.float64]) -> float:
-    """From a point to a polyline."""
+    """Return the distance from a point to a polyline."""
     start, along = line[:-1], np.diff(line, axis=0)
     t = np.clip(((p - start) * along).sum(axis=1) / (along**2).sum(axis=1), 0, 1)
     return float(np.hypot(*(start + t[:, None] * along - p).T).min())

@@ -5,15 +5,15 @@ from typing import Any
 
 
 def link(one: Any, other: Any, traits: tuple[str, ...] = ("center", "width")) -> ExitStack:
-    """Lets two views show the same place: what one does the other does.
+    """Link two views, so that they show the same place.
 
     Args:
         one: A view, which gives its values first.
         other: Another view, of the same or of another dataset.
-        traits: Names of the traits that are linked; centers to the digits of double precision.
+        traits: Names of the linked traits; centers to the digits of double precision.
 
     Returns:
-        What parts them again by its `close()`.
+        A handle, whose `close()` unlinks the views.
 
     Example:
         >>> left, right = ds.view("ux"), ds.view("uy")

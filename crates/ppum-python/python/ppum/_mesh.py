@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._blocks import MAX_DEGREE, degrees, exponents
+from ._blocks import DEGREES, MAX_DEGREE, TENSOR, degrees, exponents
 from ._checks import Ragged, check_shape, check_type, index, integers, known, numbers, repeated, rows, sequence, short
 from ._errors import BuildError
 from ._functions import level_field
@@ -19,8 +19,7 @@ Clip = tuple[str, int]
 
 
 class Mesh:
-    """The elements of a mesh, in the place of a `Cover`: on each one a field is a sum of function × polynomial of the
-    element's own coordinates ξ.
+    """The elements of a mesh, in the place of a `Cover`, each with functions times polynomials of its own coordinates ξ.
 
     A patch is an element, p = origin + M(ξ), with ξ in the triangle (−½, −½), (1, −½), (−½, 1) or in the square [−1, 1]²,
     both about 0. An element that a level field cuts is two patches with the same map and opposite clips.
@@ -29,12 +28,11 @@ class Mesh:
         shape: ``triangle`` or ``square``, one for all or one per patch; or 0 and 1.
         origin: Images of ξ = 0, shape (n, 2).
         map: Coefficients of M from ξ on, it has no constant: an array (n, m, 2), or a list of n arrays (m, 2).
-        space: Polynomials of M: ``total`` degree with (d + 1)(d + 2)/2 − 1 coefficients of ξ, η, ξ², ξη, …; ``tensor``
-            products with (d + 1)² − 1, powers of ξ fastest; or ``shape``: tensor products on squares alone. One for all or one
-            per patch.
+        space: Polynomials of M, for all or per patch: ``total`` degree with (d + 1)(d + 2)/2 − 1 coefficients of ξ, η, ξ², ξη, …;
+            ``tensor`` products with (d + 1)² − 1, powers of ξ fastest; or ``shape``: tensor products on squares alone.
         element: Number of each patch's element, for reports; by default they are counted.
-        clips: By the number of the patch, pairs of a level field and a side: (name, 1) keeps what is ≥ 0, (name, -1) what
-            is < 0. A level field is a field of one component of the state, after the first.
+        clips: Pairs of a level field and a side by the number of the patch: (name, 1) keeps values ≥ 0, (name, -1) values < 0.
+            A level field is a field of one component of the state, after the first.
 
     Example:
         >>> corners = np.array([[(0, 0), (1, 0), (0, 1)], [(1, 0), (1, 1), (0, 1)]])
@@ -79,12 +77,12 @@ class Mesh:
         element: ArrayLike | None = None,
         clips: Mapping[int, Sequence[Clip]] | None = None,
     ) -> "Mesh":
-        """Elements by the places of their nodes: 3, 6, 10, … nodes make triangles of order 1, 2, 3, …, 4, 9, 16, … squares.
+        """Make elements from nodes: 3, 6, 10, … nodes for triangles of order 1, 2, 3, …, 4, 9, 16, … for squares.
 
         Args:
             nodes: Shape (n, k, 2). Nodes of order 1 go around the element, others stand in the order of `at`.
             at: Reference places of the nodes, shape (k, 2); by default `Mesh.lattice`.
-            element, clips: As of the class.
+            element, clips: As in `Mesh`.
 
         Example:
             >>> bent = ppum.build.Mesh.lattice("square", 2)
@@ -103,14 +101,14 @@ class Mesh:
 
     @staticmethod
     def lattice(shape: str, order: int) -> Floats:
-        """Reference places of equally spaced nodes, row by row from below, in a row from the left: shape (k, 2)."""
+        """Return reference places of equally spaced nodes, row by row from below, in a row from the left: shape (k, 2)."""
         (count,) = integers("order", [order], 1)
         if not 1 <= count <= MAX_DEGREE:
             raise BuildError(f"order: is {count}, expected 1 to {MAX_DEGREE}")
         return lattice(int(_shapes(shape, 1)[0]), count)
 
     def in_space(self, place: str, space: str | Sequence[str]) -> NDArray[np.bool_]:
-        """True for the patches on which polynomials of a space are tensor products."""
+        """Return True for the patches on which polynomials of a space are tensor products."""
         words = [space] * len(self) if isinstance(space, str) else [*map(str, sequence(place, space, "words"))]
         known = {"total": (False, False), "tensor": (True, True), "shape": (False, True)}
         unknown = [word for word in words if word not in known]
@@ -120,13 +118,13 @@ class Mesh:
         return np.array([known[word][shape] for word, shape in zip(words, self.shape.tolist())])
 
     def places(self, patch: int, xi: ArrayLike) -> Floats:
-        """The points that reference places (k, 2) of a patch have."""
+        """Return the points of reference places (k, 2) of a patch."""
         powers = exponents(int(self.degree[patch]), bool(self.tensor[patch]))[1:]
         result: Floats = self.origin[patch] + vandermonde(rows("xi", xi, 2), powers) @ self.map[patch]
         return result
 
     def arrays(self, fields: Sequence[str] = ()) -> dict[str, Any]:
-        """The group `partition` of the file format; `fields` are the names of the state's fields."""
+        """Return the group `partition` of the file format; `fields` are the names of the state's fields."""
         starts, shared = self._shared()
         arrays: dict[str, Any] = {
             "shape": self.shape,
@@ -145,7 +143,7 @@ class Mesh:
         return arrays
 
     def around(self, points: Floats) -> list[int]:
-        """The patches that can hold some of the points: their boxes do."""
+        """Return the patches whose boxes hold some of the points."""
         found: set[int] = set()
         for of, _, c in self._alike():
             reach = np.abs(c).sum(axis=1)
@@ -153,14 +151,14 @@ class Mesh:
         return sorted(found)
 
     def spread(self, random: np.random.Generator, count: int) -> Floats:
-        """Random points of the patches, which are taken in turn; those of cut elements on either side."""
+        """Return random points of the patches, which are taken in turn; those of cut elements on either side."""
         points = []
         for patch in np.resize(random.permutation(len(self))[:count], count).tolist():
             points.append(self.places(patch, random_places(random, int(self.shape[patch]), 1)))
         return np.concatenate(points)
 
     def _alike(self) -> Iterator[tuple[NDArray[np.int64], Powers, Floats]]:
-        """Patches whose maps have the same powers, these, and the coefficients (k, m, 2)."""
+        """Yield patches whose maps have the same powers, these, and the coefficients (k, m, 2)."""
         kinds = 2 * self.degree + self.tensor
         for kind in np.unique(kinds).tolist():
             of = np.flatnonzero(kinds == kind)
@@ -168,7 +166,7 @@ class Mesh:
             yield of, powers, self.map.at(of).values.reshape(len(of), len(powers), 2)
 
     def _orientation(self) -> None:
-        """Refuses elements that are flipped or flat at ξ = 0."""
+        """Refuse elements that are flipped or flat at ξ = 0."""
         for of, powers, c in self._alike():
             x, y = c[:, powers.index((1, 0))].T, c[:, powers.index((0, 1))].T
             wrong = of[~(x[0] * y[1] > x[1] * y[0])]
@@ -178,7 +176,7 @@ class Mesh:
                 )
 
     def _repetition(self) -> None:
-        """Refuses an element that is there twice, but for sides of a cut."""
+        """Refuse repeated elements, except for the sides of a cut."""
         for of, _, c in self._alike():
             rows = np.column_stack([self.shape[of], self.origin[of], c.reshape(len(of), -1)]) + 0.0
             for k, first in repeated(rows):
@@ -190,7 +188,7 @@ class Mesh:
                     )
 
     def _shared(self) -> tuple[NDArray[np.int64], Floats]:
-        """First columns of the patches' maps, and the maps; both sides of a cut share theirs."""
+        """Return first columns of the patches' maps, and the maps; both sides of a cut share theirs."""
         own, known = np.arange(len(self)), dict[Any, int]()
         _, which, counts = np.unique(self.element, return_inverse=True, return_counts=True)
         for k in np.flatnonzero(counts[which] > 1).tolist():
@@ -200,7 +198,7 @@ class Mesh:
         return shared.starts[np.searchsorted(kept, own)], shared.values
 
     def _box(self) -> list[Floats]:
-        """Lower left and upper right corner of the images of all borders."""
+        """Return the corners of the box around the images of all borders."""
         box = [np.full(2, np.inf), np.full(2, -np.inf)]
         for of, powers, c in self._alike():
             for shape in np.unique(self.shape[of]).tolist():
@@ -215,7 +213,7 @@ class Mesh:
         return box
 
     def _turning(self, patch: int) -> list[Floats]:
-        """On each edge of a patch the corner, and the places where x or y turns."""
+        """Return the corner and the places on each edge of a patch where x or y turns."""
         corners, degree = CORNERS[int(self.shape[patch])], int(self.degree[patch])
         at, found = (1 - np.cos(np.pi * np.arange(degree + 1) / degree)) / 2, []
         for a, b in zip(corners, np.roll(corners, -1, axis=0)):
@@ -235,12 +233,11 @@ class Mesh:
 
 
 def _around(box: list[Floats], points: Floats) -> list[Floats]:
-    """The box that holds points too."""
     return [np.minimum(box[0], points.min(axis=0)), np.maximum(box[1], points.max(axis=0))]
 
 
 def _extremes(at: Floats, values: Floats) -> Floats:
-    """Where a polynomial, by its values, has no slope."""
+    """Return the places where a polynomial, by its values, has no slope."""
     slope = np.polynomial.Polynomial.fit(at, values, len(at) - 1).deriv()
     # roots of a polynomial whose highest coefficient is rounding have no digits
     result: Floats = slope.trim(1e-12 * float(np.abs(slope.coef).max())).roots().real
@@ -277,11 +274,9 @@ def _maps(map: Any, n: int) -> Ragged:
 
 
 def _kind(shape: tuple[int, ...], count: int) -> tuple[int, int]:
-    """Shape and order of elements with a number of nodes."""
-    for order in range(1, MAX_DEGREE + 1):
-        for kind in (TRIANGLE, SQUARE):
-            if len(exponents(order, kind == SQUARE)) == count:
-                return kind, order
+    for kind, known in ((SQUARE, TENSOR), (TRIANGLE, DEGREES)):
+        if order := known.get(count):
+            return kind, order
     raise BuildError(
         f"nodes: has the shape {shape}, expected (n, k, 2) with k = 3, 6, 10, … nodes of a triangle or 4, 9, 16, … of a "
         f"square, of orders 1 to {MAX_DEGREE}"

@@ -34,7 +34,7 @@ _TEXTS = _core.option_texts()
 
 
 class _Unset:
-    """The default of what is left out where it is not given."""
+    """The default of options that are left out."""
 
     def __repr__(self) -> str:
         return "..."
@@ -59,7 +59,7 @@ class Option:
 
 
 def options_of(kind: type) -> dict[str, tuple[Any, Option]]:
-    """The types and options of a dictionary, by their names; its module has no annotations as texts."""
+    """Return types and options of a dictionary by name; its module has no annotations as texts."""
     return {name: _split(name, *get_args(hint)) for name, hint in kind.__annotations__.items()}
 
 
@@ -70,26 +70,24 @@ def _split(name: str, kind: Any, option: Option) -> tuple[Any, Option]:
 
 
 def _shared_text(name: str) -> str:
-    """What the program says of an option, with Python's names of options."""
+    """Return the program's text about an option, with Python's names of options."""
     names = [name, *(foreign for foreign, ours in FOREIGN.items() if ours == name)]
     (text,) = (_TEXTS[known] for known in names if known in _TEXTS)
     return re.sub(r"--([a-z-]+)", lambda found: f"`{FOREIGN.get(found[1], found[1])}`", text)
 
 
 def defaults(kind: type) -> Any:
-    """The defaults of a dictionary's options."""
     return {name: option.default for name, (_, option) in options_of(kind).items() if option.default is not UNSET}
 
 
-def takes(kind: type, called: str = "") -> Callable[[_F], _F]:
-    """Makes a function check the options of a dictionary, and know their defaults, see the head of the module; messages call
-    it by its name, or as is said."""
-    return lambda function: _checking(function, options_of(kind), defaults(kind), called)
+def takes(kind: type, called: str = "", *, fill: bool = True) -> Callable[[_F], _F]:
+    """Make a function check the options of a dictionary and know their defaults; `called` is its name in messages."""
+    return lambda function: _checking(function, options_of(kind), defaults(kind) if fill else {}, called)
 
 
 def passes(kind: type) -> Callable[[_F], _F]:
-    """Makes a function check the options of a dictionary, and get those alone that are given."""
-    return lambda function: _checking(function, options_of(kind), {}, "")
+    """Make a function check the options of a dictionary, and receive only those that are given."""
+    return takes(kind, fill=False)
 
 
 def _checking(function: _F, known: Mapping[str, Any], defaults: Mapping[str, Any], called: str) -> _F:
@@ -114,7 +112,6 @@ def _checking(function: _F, known: Mapping[str, Any], defaults: Mapping[str, Any
 
 
 def refuse_unknown(what: str, given: Iterable[str], known: Iterable[str]) -> None:
-    """Refuses names that are not known."""
     names = sorted(known)
     for name in given:
         if name in names:
@@ -124,7 +121,7 @@ def refuse_unknown(what: str, given: Iterable[str], known: Iterable[str]) -> Non
 
 
 def _check(name: str, kind: Any, value: Any) -> None:
-    """Refuses words that are not among those that an option may have, and other things than it takes.
+    """Refuse other words and types than an option may have.
 
     Only options of words, numbers, truth values and None are looked at, and lists of words; others check themselves.
     """
@@ -144,7 +141,7 @@ def _check(name: str, kind: Any, value: Any) -> None:
 
 
 def _fits(value: Any, atom: Any) -> bool:
-    """Truth values are numbers of Python, but no numbers that are meant."""
+    """Return whether a value is of a type; truth values are no numbers."""
     return isinstance(value, _PLAIN.get(atom, ())) and (atom is bool or not isinstance(value, bool))
 
 
@@ -154,7 +151,7 @@ _CALLED = {bool: "True or False", float: "a number", int: "a whole number", type
 
 
 def _atoms(kind: Any) -> Iterable[Any]:
-    """The types of a union, and the words of its literals; items of sequences count as their own."""
+    """Return the types of a union and the words of its literals; items of sequences count as their own."""
     if get_origin(kind) is Literal:
         return get_args(kind)
     parts = get_args(kind)

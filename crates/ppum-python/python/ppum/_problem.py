@@ -48,26 +48,24 @@ class Poisson:
 
 
 class Problem:
-    """A problem, frozen: each call gives a new one.
+    """A problem, which never changes: each call returns a new one.
 
     Options are the keys of problem files (docs/problem-file.md); `section` and `add` take what has no method of its own.
 
     Example:
-        >>> plate = (
-        ...     ppum.Problem(
-        ...         domain=((-1, -2), (1, 2)),
-        ...         material=ppum.Elastic(young=1.0, poisson=0.3),
-        ...         title="Slanted crack",
-        ...     )
-        ...     .crack((-0.3535533906, -0.3535533906), (0.3535533906, 0.3535533906))
-        ...     .boundary("bottom", traction=(0, -1))
-        ...     .boundary("top", traction=(0, 1))
-        ...     .discretization(cells=(8, 16), order=2)
-        ... )
+        >>> body = ppum.Problem(((-1, -2), (1, 2)), ppum.Elastic(young=1.0, poisson=0.3), title="Slanted crack")
+        >>> plate = body.crack((-0.3535533906, -0.3535533906), (0.3535533906, 0.3535533906))
+        >>> plate = plate.boundary("bottom", traction=(0, -1)).boundary("top", traction=(0, 1))
+        >>> plate = plate.discretization(cells=(8, 16), order=2)
         >>> plate.check()
         ()
         >>> plate.crack((2, 2), (3, 3)).check()[0].place
         'crack[1].points'
+        >>> more = plate.hole(center=(0.6, 1.2), radius=0.2).quantity("safety", "2/von_mises").section("solver", kind="direct")
+        >>> more = more.force((1, 0), (0.5, 0)).force((-1, 0), (-0.5, 0)).support((0, 1)).support((0, -1), (0, "free"))
+        >>> more = more.add("refine", center=(0.3, 0.4), radius=0.2, size=0.1).adaptivity(tolerance=0.01, keep="all")
+        >>> more.check()
+        ()
     """
 
     def __init__(
@@ -83,13 +81,11 @@ class Problem:
             spec["equation"] = {"kind": "poisson"}
         elif material.eigenstrain is not None:
             spec["strain"] = dict(zip(("xx", "yy", "xy", "zz"), material.eigenstrain, strict=True))
-        self._spec, self._text, self._name, self._folder = plain(spec), None, "problem", Path()
+        self._spec: dict[str, Any] = plain(spec)
 
-    _spec: dict[str, Any]
-    #: The text of the file, whose name and folder follow; None of problems made in Python.
-    _text: str | None
-    _name: str
-    _folder: Path
+    #: The text of the file, whose name and folder follow; None for problems made in Python.
+    _text: str | None = None
+    _name, _folder = "problem", Path()
 
     @classmethod
     def _of(cls, spec: dict[str, Any], text: str | None = None, name: str = "problem", folder: Path = Path()) -> "Problem":
@@ -99,12 +95,12 @@ class Problem:
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> "Problem":
-        """The problem of a file; files that it names are looked for beside it. Mistakes are found by `check` and `solve`.
+        """Read a file; files that it names are looked for beside it. Errors are found by `check` and `solve`.
 
         Raises:
-            OSError: It cannot be read.
-            ProblemError: It is not TOML.
-            ValueError: It is a dataset.
+            OSError: The file cannot be read.
+            ProblemError: The file is not TOML.
+            ValueError: The file is a dataset.
         """
         path = Path(path)
         data = path.read_bytes()
@@ -119,7 +115,7 @@ class Problem:
 
     @classmethod
     def parse(cls, text: str) -> "Problem":
-        """The problem of a text, as `read`; files that it names are looked for in the working folder."""
+        """Read a text, as `read`; files that it names are looked for in the working folder."""
         return cls._parse(text, "problem", Path())
 
     @classmethod
@@ -128,13 +124,13 @@ class Problem:
             spec = tomllib.loads(text)
         except tomllib.TOMLDecodeError as error:
             # the library says it with line and column
-            diagnostics = [Diagnostic(**f) for f in _core.check(text, name, folder)]
+            diagnostics = [Diagnostic(*f) for f in _core.check(text, name, folder)]
             raise _error_of(diagnostics or [Diagnostic(name, None, None, str(error))]) from None
         return cls._of(spec, text, name, folder)
 
     @classmethod
     def from_dict(cls, spec: Mapping[str, Any]) -> "Problem":
-        """The problem of a dictionary with the sections and keys of problem files.
+        """Make a problem of a dictionary with the sections and keys of problem files.
 
         Example:
             >>> ppum.Problem.from_dict(plate.to_dict()) == plate
@@ -143,17 +139,16 @@ class Problem:
         return cls._of(plain(dict(spec)))
 
     def to_dict(self) -> dict[str, Any]:
-        """The problem as a dictionary, a copy."""
-        copied: dict[str, Any] = plain(self._spec)
-        return copied
+        """Return a copy of the problem as a dictionary."""
+        return dict(plain(self._spec))
 
     def to_toml(self) -> str:
-        """The text of a problem file."""
+        """Return the text of a problem file."""
         return self._text if self._text is not None else toml_lines(self._spec)[0]
 
     @takes(CrackOptions)
     def crack(self, *points: ArrayLike, **options: Unpack[CrackOptions]) -> "Problem":
-        """One more crack, through points or an array of them; or by one of the options.
+        """Add a crack, through points or an array of them, or by one of the options.
 
         Example:
             >>> one = plate.crack((-0.9, -1.5), (-0.6, -1.5))
@@ -162,25 +157,19 @@ class Problem:
         """
         if len(points) == 1 and np.ndim(plain(points[0], "points")) == 2:
             points = tuple(np.asarray(points[0]))
-        return self.add("crack", **({"points": points} if points else {}), **options)
+        return self.add("crack", points=points or None, **options)
 
     @takes(HoleOptions)
     def hole(self, **options: Unpack[HoleOptions]) -> "Problem":
-        """One more hole.
-
-        Example:
-            >>> plate.hole(center=(0.6, 1.2), radius=0.2).check()
-            ()
-        """
+        """Add a hole."""
         return self.add("hole", **options)
 
     @takes(BoundaryOptions)
     def boundary(self, on: str | Mapping[str, Any], **options: Unpack[BoundaryOptions]) -> "Problem":
-        """One more condition.
+        """Add a boundary condition.
 
         Args:
-            on: ``left``, ``right``, ``bottom``, ``top`` or ``outline``; or a dictionary of edge, from, to; of hole; of
-                piece; of crack and face.
+            on: ``left``, ``right``, ``bottom``, ``top``, ``outline``, or a table: edge, from, to; hole; piece; crack, face.
 
         Example:
             >>> plate.boundary({"crack": 0, "face": "above"}, pressure=1).check()
@@ -189,38 +178,22 @@ class Problem:
         return self.add("boundary", on=on, **options)
 
     def force(self, at: ArrayLike, value: ArrayLike, face: str | None = None) -> "Problem":
-        """One more force at a point; on a crack with the face that it acts on.
-
-        Example:
-            >>> plate.force((0, 1), (0.5, 0)).force((0, -1), (-0.5, 0)).check()
-            ()
-        """
-        return self.add("force", at=at, value=value, **({"face": face} if face else {}))
+        """Add a force at a point; on a crack with the face that it acts on."""
+        return self.add("force", at=at, value=value, face=face or None)
 
     def support(self, at: ArrayLike, displacement: Iterable[float | str] = (0, 0)) -> "Problem":
-        """One more point that is held against rigid motion; components may be ``free``.
-
-        Example:
-            >>> plate.support((0, 1)).support((0, -1), (0, "free")).check()
-            ()
-        """
+        """Add a point that is held against rigid motion; components may be ``free``."""
         return self.add("support", at=at, displacement=displacement)
 
     def quantity(self, name: str, formula: str, unit: str = "") -> "Problem":
-        """One more quantity with a name.
-
-        Example:
-            >>> plate.quantity("safety", "2/von_mises").check()
-            ()
-        """
-        return self.add("quantity", name=name, formula=formula, **({"unit": unit} if unit else {}))
+        """Add a named quantity."""
+        return self.add("quantity", name=name, formula=formula, unit=unit or None)
 
     @takes(DiscretizationOptions)
     def discretization(self, **options: Unpack[DiscretizationOptions]) -> "Problem":
-        """Cells and functions.
+        """Set cells and functions; options that were given before stay.
 
-        Options that were given before stay, unless they are given anew. `level`, `cells`, `points` and `accuracy` each replace
-        the others.
+        `level`, `cells`, `points` and `accuracy` each replace the others.
 
         Example:
             >>> plate.discretization(level=3, order=3).to_dict()["discretization"]
@@ -234,7 +207,7 @@ class Problem:
 
     @takes(SpaceOptions)
     def accuracy(self, error: float, **options: Unpack[SpaceOptions]) -> "Problem":
-        """Cells and orders that give K to a relative error, in place of a number of cells.
+        """Choose cells and orders that give K to a relative error, in place of a number of cells.
 
         Example:
             >>> plate.accuracy(1e-3).to_dict()["discretization"]
@@ -244,7 +217,7 @@ class Problem:
 
     @takes(GrowthOptions)
     def growth(self, steps: int, **options: Unpack[GrowthOptions]) -> "Problem":
-        """Lets the cracks grow, in so many steps at most.
+        """Let the cracks grow, in at most so many steps.
 
         Example:
             >>> plate.growth(3, increment=0.05).check()
@@ -254,54 +227,36 @@ class Problem:
 
     @takes(AdaptivityOptions)
     def adaptivity(self, **options: Unpack[AdaptivityOptions]) -> "Problem":
-        """Improves cells until the field is good enough.
-
-        Example:
-            >>> plate.adaptivity(tolerance=0.01, keep="all").check()
-            ()
-        """
+        """Improve cells until the field is good enough."""
         return self.section("adaptivity", **options)
 
     def section(self, name: str, /, **keys: Any) -> "Problem":
-        """The problem with a section of this name, e.g. ``solver``, ``body_force``, in place of what it had. `check` finds keys
-        that there are not.
-
-        Example:
-            >>> plate.section("solver", kind="direct").check()
-            ()
-        """
+        """Replace a section, e.g. ``solver``, ``body_force``. `check` reports unknown keys."""
         return self._with({**self._spec, name: keys})
 
     def add(self, name: str, /, **keys: Any) -> "Problem":
-        """The problem with one more section of a kind that there may be several of, e.g. ``refine``, ``table``. `check` finds
-        keys that there are not.
-
-        Example:
-            >>> plate.add("refine", center=(0.3, 0.4), radius=0.2, size=0.1).check()
-            ()
-        """
+        """Append to a section that may occur several times, e.g. ``refine``, ``table``. `check` reports unknown keys."""
         return self._with({**self._spec, name: [*self._spec.get(name, ()), keys]})
 
     def _with(self, spec: dict[str, Any]) -> "Problem":
         return self._of(plain(spec), folder=self._folder)
 
     def check(self) -> tuple[Diagnostic, ...]:
-        """What is wrong; nothing if the problem can be solved as far as its text tells.
+        """Return the errors; none if the problem can be solved as far as its text tells.
 
-        Diagnostics of problems made in Python name keys, those of files lines. Where a table is missing, others are looked into
-        once it is there.
+        Diagnostics of problems made in Python name keys, those of files lines. A missing table hides errors in others.
 
         Example:
             >>> plate.boundary("nowhere", traction=(0, 1)).check()[0].place
             'boundary[2].on'
         """
         text, keys = (self._text, None) if self._text is not None else toml_lines(self._spec)
-        found = (Diagnostic(**f) for f in _core.check(text, self._name, self._folder))
+        found = (Diagnostic(*f) for f in _core.check(text, self._name, self._folder))
         return tuple(found if keys is None else (_of_key(diagnostic, keys) for diagnostic in found))
 
     @passes(SolveOptions)
     def solve(self, **options: Unpack[SolveOptions]) -> Dataset:
-        """Solves the problem, see `ppum.solve`."""
+        """Solve the problem, see `ppum.solve`."""
         return solve(self, **options)
 
     def __eq__(self, other: object) -> bool:
@@ -321,7 +276,7 @@ class Problem:
 
 
 def _domain(domain: Any) -> Mapping[str, Any]:
-    """The table of a domain, which may be two corners."""
+    """Return the table of a domain, which may be two corners."""
     if isinstance(domain, Mapping):
         return domain
     try:
@@ -337,7 +292,7 @@ def _error_of(diagnostics: Iterable[Diagnostic]) -> ProblemError:
 
 
 def _of_key(diagnostic: Diagnostic, keys: list[str]) -> Diagnostic:
-    """The diagnostic with a key in place of the line of a text that nobody wrote."""
+    """Return a diagnostic with a key in place of the line of a text that nobody wrote."""
     if diagnostic.line is None:
         return diagnostic
     key = keys[min(diagnostic.line, len(keys)) - 1] if keys else diagnostic.place
@@ -346,16 +301,15 @@ def _of_key(diagnostic: Diagnostic, keys: list[str]) -> Diagnostic:
 
 @takes(SolveOptions)
 def solve(problem: Problem | Mapping[str, Any] | str | os.PathLike[str], **options: Unpack[SolveOptions]) -> Dataset:
-    """Solves a problem; a problem with growing cracks gives a dataset of all steps. Ctrl-C ends it within moments.
+    """Solve a problem; one with growing cracks gives a dataset of all steps. Ctrl-C ends it within moments.
 
-    The result depends on the problem alone, not on the number of threads.
-
-    The problem is a `Problem`, a dictionary as for `Problem.from_dict`, or the path of a problem file.
+    It is a `Problem`, a dictionary as for `Problem.from_dict`, or the path of a problem file. The result depends on the
+    problem alone, not on the number of threads.
 
     Raises:
-        ProblemError: Mistakes in the problem, all in `diagnostics`.
-        SolveError: What cannot be solved, e.g. loads that nothing holds.
-        OSError: A file that cannot be read.
+        ProblemError: The problem has errors, all in `diagnostics`.
+        SolveError: It cannot be solved, e.g. loads that nothing holds.
+        OSError: A file cannot be read.
         KeyboardInterrupt: Ctrl-C.
 
     Example:

@@ -1,6 +1,5 @@
 """Values of a field along curves and on grids, as xarray datasets."""
 
-import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any, TypedDict, Unpack
@@ -19,6 +18,9 @@ from ._views import PixelOptions
 if TYPE_CHECKING:
     from ._field import Field
 
+#: A curve as the libraries read it.
+Curve = dict[str, dict[str, Any]]
+
 STRESSES = ("sxx", "syy", "sxy", "von-mises")
 
 
@@ -27,12 +29,11 @@ class Extremum:
     """An extreme value.
 
     Attributes:
-        value: To about 1e-6 of its size; infinite at a singular point.
-        xy: Its place.
-        offset: The way there from the middle of the view, in all digits.
-        on: What it lies on: ``inside``, ``border``, ``face``, ``rim``, ``interface``, ``singular``, ``pixel``,
-            ``everywhere`` (one value but for rounding).
-        side: Of a face, ``above`` or ``below``.
+        value: The value, to about 1e-6 of its size; infinite at a singular point.
+        xy: Position.
+        offset: Position relative to the view's centre, in full precision.
+        on: ``inside``, ``border``, ``face``, ``rim``, ``interface``, ``singular``, ``pixel``, or ``everywhere`` for one value.
+        side: Side of a face, ``above`` or ``below``.
     """
 
     value: float
@@ -43,21 +44,25 @@ class Extremum:
 
 
 class ValueOptions(TypedDict, total=False):
-    """What is evaluated."""
+    """The quantities that are evaluated."""
 
     quantities: Annotated[
         Sequence[str] | None, Option(None, "names or formulas; by default the components, for elasticity also the stresses")
     ]
 
 
-class CurveOptions(ValueOptions, total=False):
-    """What is evaluated along a curve, and where."""
+class PointOptions(TypedDict, total=False):
+    """The number of points."""
 
     num: Annotated[int, Option(201, "number of points")]
 
 
+class CurveOptions(ValueOptions, PointOptions, total=False):
+    """The quantities and the points of a curve."""
+
+
 class GridOptions(ValueOptions, total=False):
-    """What is evaluated on a grid, and where."""
+    """The quantities and the points of a grid."""
 
     x: Annotated[ArrayLike | None, Option(None, "coordinates of the columns, in place of their number")]
     y: Annotated[ArrayLike | None, Option(None, "coordinates of the rows, in place of their number")]
@@ -75,7 +80,7 @@ class Sample:
 
     @takes(CurveOptions)
     def line(self, start: ArrayLike, end: ArrayLike, **options: Unpack[CurveOptions]) -> Any:
-        """Values along a line, over the distance `s` from its start.
+        """Evaluate along a line, over the distance `s` from its start.
 
         Example:
             >>> line = f.sample.line((-1, 0), (1, 0), num=5, quantities=["uy"])
@@ -86,7 +91,7 @@ class Sample:
 
     @takes(CurveOptions)
     def circle(self, center: ArrayLike, radius: float, **options: Unpack[CurveOptions]) -> Any:
-        """Values on a circle, over the angle `theta` from the x axis, radians.
+        """Evaluate on a circle, over the angle `theta` from the x axis, radians.
 
         Example:
             >>> f.sample.circle((0, 0), 0.6, num=5, quantities=["uy"]).theta.values
@@ -96,8 +101,9 @@ class Sample:
 
     @takes(CurveOptions)
     def crack(self, crack: Any = 0, **options: Unpack[CurveOptions]) -> Any:
-        """Values on both sides of a crack, a `Crack` or its number, over the arc length `s`: of each quantity `…_above` and
-        `…_below`, and of a displacement the jumps `jump_ux` and `jump_uy`, `opening` and `sliding`.
+        """Evaluate on both sides of a crack, a `Crack` or its number, over the arc length `s`.
+
+        Each quantity is there as `…_above` and `…_below`, a displacement also as `jump_ux`, `jump_uy`, `opening` and `sliding`.
 
         Example:
             >>> sorted(f.sample.crack(0, quantities=["ux", "uy"]))
@@ -107,8 +113,9 @@ class Sample:
 
     @takes(CurveOptions)
     def around(self, tip: int, radius: float | None = None, **options: Unpack[CurveOptions]) -> Any:
-        """Values on a circle around a tip, over the angle `theta` from the crack's extension, radians; by default a hundredth
-        of the crack's length away.
+        """Evaluate on a circle around a tip, over the angle `theta` from the crack's extension, radians.
+
+        The default radius is a hundredth of the crack's length.
 
         Example:
             >>> f.sample.around(1, num=5, quantities=["syy"]).sizes["theta"]
@@ -118,10 +125,10 @@ class Sample:
 
     @takes(CurveOptions)
     def ray(self, tip: int, angle: float = 0.0, length: float | None = None, **options: Unpack[CurveOptions]) -> Any:
-        """Values on a ray from a tip, over the distance `r` in steps of its logarithm.
+        """Evaluate on a ray from a tip, over the distance `r` in steps of its logarithm.
 
         Args:
-            angle: That from the crack's extension, radians, as `Tip.growth_angle`.
+            angle: Angle from the crack's extension, radians, as `Tip.growth_angle`.
             length: The largest distance; by default a tenth of the crack's length.
 
         Example:
@@ -132,9 +139,9 @@ class Sample:
         return self._curve(ray(tip, angle, length), options)
 
     def _curve(self, along: Any, options: CurveOptions) -> Any:
-        """The table of a curve: the first column is the dimension, x, y and side are coordinates."""
+        """Return the table of a curve: the first column is the dimension, x, y and side are coordinates."""
         xarray, names = _xarray(), self._names(options["quantities"])
-        heads, rows = self._field._core.table(curve_text(along), options["num"], names)
+        heads, rows = self._field._core.table(along, options["num"], names)
         dimension = heads[0][0]
         coords: dict[str, Any] = {}
         variables: dict[str, Any] = {}
@@ -150,7 +157,7 @@ class Sample:
 
     @takes(GridOptions)
     def grid(self, nx: int | None = None, ny: int | None = None, **options: Unpack[GridOptions]) -> Any:
-        """Values on a grid, over y and x, both rising: `nx` columns and `ny` rows from border to border of the domain's box.
+        """Evaluate on a grid, over rising y and x: `nx` columns and `ny` rows from border to border of the domain's box.
 
         Example:
             >>> f.sample.grid(3, 5, quantities=["s1"]).s1.dims
@@ -167,17 +174,18 @@ class Sample:
 
     @takes(PixelOptions)
     def extrema(self, quantity: str | None = None, **options: Unpack[PixelOptions]) -> tuple[Extremum, Extremum]:
-        """The smallest and the largest value of a quantity in a view, also between its pixels, at tips infinite.
+        """Find the smallest and the largest value in a view, also between its pixels; they are infinite at tips.
 
         Example:
             >>> low, high = f.sample.extrema("uy")
             >>> low.value < 0 < high.value
-            True"""
-        name, window, size = self._field._asked(quantity, options)
-        found = _core.extrema(self._field._core, name, window, size)
+            True
+        """
+        name, view = self._field._asked(quantity, options)
+        found = _core.extrema(self._field._core, name, view)
         if found is None:
             raise RenderError(f"`{name}` has no value in the view; show some of the plate")
-        low, high = (Extremum(**one) for one in found)
+        low, high = (Extremum(*one) for one in found)
         return low, high
 
     def _names(self, quantities: Sequence[str] | None) -> list[str]:
@@ -191,33 +199,32 @@ class Sample:
         return {key: value for key, value in words.items() if value}
 
 
-def line(start: ArrayLike, end: ArrayLike) -> dict[str, Any]:
+def line(start: ArrayLike, end: ArrayLike) -> Curve:
     return {"line": {"from": pair(start), "to": pair(end)}}
 
 
-def circle(center: ArrayLike, radius: float) -> dict[str, Any]:
-    return {"circle": {"center": pair(center), "radius": radius}}
+def circle(center: ArrayLike, radius: float) -> Curve:
+    return _curve("circle", center=pair(center), radius=radius)
 
 
-def along_crack(crack: Any) -> dict[str, Any]:
-    return {"crack": {"index": getattr(crack, "index", crack)}}
+def along_crack(crack: Any) -> Curve:
+    return _curve("crack", index=getattr(crack, "index", crack))
 
 
-def around(tip: int, radius: float | None) -> dict[str, Any]:
-    return {"around": {"tip": tip, "radius": radius}}
+def around(tip: int, radius: float | None) -> Curve:
+    return _curve("around", tip=tip, radius=radius)
 
 
-def ray(tip: int, angle: float, length: float | None) -> dict[str, Any]:
-    return {"ray": {"tip": tip, "angle": degrees(angle), "far": length}}
+def ray(tip: int, angle: float, length: float | None) -> Curve:
+    return _curve("ray", tip=tip, angle=degrees(angle), far=length)
 
 
-def curve_text(curve: dict[str, Any]) -> str:
-    """A curve as the libraries read it."""
-    return json.dumps(plain(curve, "curve"))
+def _curve(kind: str, **numbers: Any) -> Curve:
+    return {kind: plain(numbers, f"curve.{kind}")}
 
 
 def names_of(names: Sequence[str], what: str = "quantities") -> list[str]:
-    """A list of names, which a single text is not."""
+    """Return a list of names, which a single text is not."""
     if isinstance(names, str):
         raise TypeError(f"{what}: give a list of names")
     return list(names)
@@ -228,7 +235,7 @@ def _xarray() -> Any:
 
 
 def _attribute(name: str) -> str:
-    """The name of a variable, so that it can be an attribute."""
+    """Return the name of a variable, so that it can be an attribute."""
     dashed = name.replace("-", "_")
     return dashed if dashed.isidentifier() else name
 

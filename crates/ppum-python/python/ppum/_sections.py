@@ -16,10 +16,7 @@ from ._units import degrees, pair
 #: A number, or a formula of x and y.
 Value = float | str
 Table = Mapping[str, Any]
-PROGRESS = (
-    "True for a line on standard error; or a function that is called with phase, parts done, all parts and step, and ends the "
-    "solution by what it raises"
-)
+PROGRESS = "True for a line on standard error; or a function of phase, parts done, all parts and step, which may raise to end it"
 
 
 def _key(text: str) -> Option:
@@ -44,7 +41,7 @@ class HoleOptions(CurveOptions, total=False):
 
 
 class CrackOptions(CurveOptions, total=False):
-    """A curve in place of points, and what faces that touch do."""
+    """A curve in place of points, and the contact of the faces."""
 
     arc: Annotated[Table, _key("an arc of a circle: `ppum.arc`, or a table of problem files")]
     contact: Annotated[bool, _key("whether its faces press on each other where they touch, instead of overlapping")]
@@ -52,16 +49,16 @@ class CrackOptions(CurveOptions, total=False):
 
 
 class BoundaryOptions(TypedDict, total=False):
-    """What holds or loads an edge, a rim or the faces of a crack."""
+    """The supports and loads of an edge, a rim or the faces of a crack."""
 
     displacement: Annotated[Sequence[Value] | str, _key("[ux, uy], each a value, `free` or `exact`")]
     traction: Annotated[Sequence[Value] | str, _key("[tx, ty], each a value or `free`")]
     pressure: Annotated[Value, _key("pressure p: the traction −p n")]
     symmetry: Annotated[bool, _key("whether the normal displacement is 0, the other one free")]
     antisymmetry: Annotated[bool, _key("whether the tangential displacement is 0, the other one free")]
-    value: Annotated[Value, _key("of a potential: u, or `exact`")]
-    exchange: Annotated[Value, _key("of a potential: the coefficient of exchange with surroundings of that value")]
-    flux: Annotated[Value, _key("of a potential: the flux into the plate")]
+    value: Annotated[Value, _key("value u of a potential, or `exact`")]
+    exchange: Annotated[Value, _key("coefficient of a potential's exchange with surroundings of that value")]
+    flux: Annotated[Value, _key("flux of a potential into the plate")]
 
 
 class SpaceOptions(TypedDict, total=False):
@@ -73,7 +70,7 @@ class SpaceOptions(TypedDict, total=False):
     weight: Annotated[str, _key("the weight function: a name or a formula of t")]
     enrichment: Annotated[
         Literal["none", "tip-patch", "zone", "williams", "additive-only", "jumps"],
-        _key("what the functions have beside polynomials"),
+        _key("the functions beside polynomials"),
     ]
     interfaces: Annotated[bool, _key("whether interfaces of materials are resolved")]
     enrichment_radius: Annotated[float, _key("radius of the zone around each tip")]
@@ -91,7 +88,7 @@ class DiscretizationOptions(SpaceOptions, total=False):
 
 
 class SolveOptions(TypedDict, total=False):
-    """How a problem is solved."""
+    """The resources of a solution."""
 
     threads: Annotated[int | None, Option(None, "how many to work on; by default as many as there are processors")]
     memory: Annotated[int | None, Option(None, "bytes that may be used; a solution that needs more is refused")]
@@ -99,7 +96,7 @@ class SolveOptions(TypedDict, total=False):
 
 
 class GrowthOptions(TypedDict, total=False):
-    """How cracks grow."""
+    """The growth of cracks."""
 
     criterion: Annotated[Literal["hoop", "local-symmetry", "energy"], _key("the direction in which a tip goes")]
     increment: Annotated[float, _key("length by which the fastest tip grows in a step")]
@@ -109,7 +106,7 @@ class GrowthOptions(TypedDict, total=False):
 
 
 class AdaptivityOptions(TypedDict, total=False):
-    """How cells are improved until the field is good enough."""
+    """The improvement of cells."""
 
     kind: Annotated[Literal["h", "p", "hp"], _key("cells are divided, or their order is raised")]
     steps: Annotated[int, _key("most times that cells are improved")]
@@ -120,13 +117,12 @@ class AdaptivityOptions(TypedDict, total=False):
 
 
 def arc(center: ArrayLike, radius: float, start: float, end: float) -> dict[str, Any]:
-    """An arc of a circle, for `Problem.crack`.
+    """Return an arc of a circle, for `Problem.crack`.
 
     Args:
-        center: Of the circle.
-        radius: Of the circle.
+        center, radius: Centre and radius of the circle.
         start: The angle of the first point from the x axis, radians.
-        end: That of the last point; the arc goes there counter-clockwise if it is larger, else clockwise.
+        end: The angle of the last point; the arc goes there counter-clockwise if it is larger, else clockwise.
 
     Example:
         >>> bent = plate.crack(arc=ppum.arc((0, 1), 0.4, np.pi, 1.5 * np.pi))
@@ -139,14 +135,13 @@ def arc(center: ArrayLike, radius: float, start: float, end: float) -> dict[str,
 def ellipse(
     center: ArrayLike, axes: ArrayLike, angle: float = 0.0, *, start: float | None = None, end: float | None = None
 ) -> dict[str, Any]:
-    """An ellipse, for `Problem.hole`; with `start` and `end` a part of one, for `Problem.crack`.
+    """Return an ellipse, for `Problem.hole`; with `start` and `end` a part of one, for `Problem.crack`.
 
     Args:
-        center: Its centre.
-        axes: Its half axes.
-        angle: Of the first axis to the x axis, radians.
+        center, axes: Centre and half axes.
+        angle: Angle of the first axis to the x axis, radians.
         start: The angle t of the first point `center + a cos t + b sin t`, a and b the half axes, radians.
-        end: That of the last one.
+        end: The angle t of the last point.
 
     Example:
         >>> plate.hole(ellipse=ppum.ellipse((0.5, 1.2), (0.2, 0.1), np.pi / 4)).check()

@@ -19,26 +19,26 @@ CORNERS = {
 
 
 def vandermonde(places: Floats, powers: Powers) -> Floats:
-    """Products ξ^i η^j at places (k, 2): shape (k, m)."""
+    """Return products ξ^i η^j at places (k, 2): shape (k, m)."""
     i, j = np.array(powers).T
     result: Floats = places[:, :1] ** i * places[:, 1:] ** j
     return result
 
 
 def lattice(shape: int, order: int) -> Floats:
-    """Equally spaced places, row by row from below, in a row from the left."""
+    """Return equally spaced places, row by row from below, in a row from the left."""
     return _rows(shape, np.linspace(0, 1, order + 1))
 
 
 def nodes(shape: int, order: int) -> Floats:
-    """Places that fix a polynomial of a degree and keep its coefficients accurate: Chebyshev's, one for order 0."""
+    """Return places that fix a polynomial of a degree accurately: Chebyshev's, one for order 0."""
     if order == 0:
         return np.zeros((1, 2))
     return _rows(shape, (1 - np.cos(np.pi * np.arange(order + 1) / order)) / 2)
 
 
 def _rows(shape: int, at: Floats) -> Floats:
-    """Products of places in [0, 1], for triangles blended towards the third edge."""
+    """Return products of places in [0, 1], for triangles blended towards the third edge."""
     order = len(at) - 1
     if shape == SQUARE:
         return np.array([(2 * x - 1, 2 * y - 1) for y in at for x in at])
@@ -52,8 +52,7 @@ def _rows(shape: int, at: Floats) -> Floats:
 
 
 def interpolated(values: ArrayLike, places: Floats, powers: Powers) -> Floats:
-    """Coefficients (n, m, c) of polynomials by their values (n, k, c) at k places, m ≤ k; of more values than coefficients
-    those of least squares."""
+    """Return coefficients (n, m, c) of polynomials by values (n, k, c) at k places, those of least squares if m < k."""
     basis = vandermonde(places, powers)
     if len(basis) < len(powers) or np.linalg.matrix_rank(basis) < len(powers):
         raise BuildError(f"at: {len(places)} places do not fix a polynomial of {len(powers)} coefficients")
@@ -68,6 +67,5 @@ def interpolated(values: ArrayLike, places: Floats, powers: Powers) -> Floats:
 
 
 def random_places(random: np.random.Generator, shape: int, count: int) -> Floats:
-    """Random places inside of a reference shape."""
     at = random.uniform(-0.999, 0.999, (count, 2))
     return at if shape == SQUARE else 0.75 * np.where(at.sum(axis=1, keepdims=True) > 0, -at, at) + 0.25

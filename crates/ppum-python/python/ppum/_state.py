@@ -33,24 +33,21 @@ class Coefficients:
     be a tensor product, with m = (d + 1)² coefficients of 1, ξ, …, ξ^d, η, ξη, …
 
     Attributes:
-        name: Its name. With an equation the first field is ``displacement`` or ``potential``.
+        name: Name of the field. With an equation the first field is ``displacement`` or ``potential``.
         blocks: The coefficients by the name of the function, ``one`` for 1 or a name of `State.functions`. An array of
             shape (n, m), with several components (n, m, c), for all n patches; a list with an array (m,) or (m, c) or
             None for each patch; or a dictionary of such arrays by the number of the patch.
-        components: Their names; by default ``ux``, ``uy`` of ``displacement``, of others its name, with 0, 1, … if
-            there are several.
+        components: Names; by default ``ux``, ``uy`` of ``displacement``, else `name`, with 0, 1, … if there are several.
         unit: For labels.
         exact: Formulas of x and y of the exact solution, one per component.
-        verify: One's own evaluation, with which the field is compared: a function of arrays x and y that gives values
-            of shape (k,) or (k, c), or a pair of points (k, 2) and such values.
-        space: On meshes the polynomials, of all functions or by their names: ``shape``, tensor products on squares alone;
-            ``total`` degree; or ``tensor``.
+        verify: Reference values: a function of arrays x and y with the shape (k,) or (k, c), or points (k, 2) and values.
+        space: Polynomials on meshes, of all functions or by name: ``shape``, tensor products on squares alone; ``total``
+            degree; or ``tensor``.
 
     Example:
         >>> cover = ppum.build.Cover.uniform([(0, 0), (2, 1)], cells=(2, 1))
         >>> c = np.column_stack([cover.center[:, 0], cover.half[:, 0], np.zeros(2)])
         >>> made = ppum.build.dataset(ppum.build.State(cover, ppum.build.Coefficients("u", {"one": c}, verify=lambda x, y: x)))
-        verified: field 'u' at 1000 points, largest difference ... of its largest value
         >>> float(made.field.at(1.25, 0.5).u)
         1.25
     """
@@ -73,7 +70,7 @@ class State:
         fields: One field or several; images and quantities are of the first.
         cracks: Points of each crack, shape (k, 2), or `ppum.Crack`. By default an end on the border of the domain or of a
             hole is a ``mouth``, one on another crack a ``junction``, any other a ``tip``; values do not depend on it.
-        functions: Functions beside ``one`` by name: `Jump`, `Component`, `Level`, `Formula` or the text of a formula of x and y.
+        functions: Functions beside ``one`` by name: `Jump`, `Component`, `Level`, `Formula` or the text of a formula.
         attributes: Values for each patch by name, shape (n,), NaN for none.
         load: Load factor or time.
     """

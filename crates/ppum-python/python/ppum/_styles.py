@@ -1,10 +1,10 @@
-"""How images look: their options, and what the libraries read of them."""
+"""Options of images, and the requests that the libraries draw."""
 
-import json
 import math
 import os
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypedDict
 
 import numpy as np
@@ -13,7 +13,7 @@ from . import _core
 from ._options import Option, options_of, refuse_unknown
 from ._text import plain
 from ._units import pixels
-from ._views import SIZE, PixelOptions, PlaceOptions, ProgressOptions, Window, window
+from ._views import SIZE, PixelOptions, PlaceOptions, ProgressOptions, View, view_at
 
 if TYPE_CHECKING:
     from ._field import Field
@@ -40,21 +40,12 @@ def _list(given: str | Sequence[str]) -> list[str]:
     return [given] if isinstance(given, str) else list(given)
 
 
-def _layout(layout: tuple[int, int]) -> tuple[int, int]:
-    return pixels(layout, "layout")
-
-
-def _mirror(asked: bool | str) -> str | None:
-    """The edges at which a body is mirrored."""
-    return asked if isinstance(asked, str) else "auto" if asked else None
-
-
-def _bar(asked: bool | str) -> str | None:
-    return asked if isinstance(asked, str) else None if asked else "none"
+def _word(yes: str | None, no: str | None) -> Callable[[bool | str], str | None]:
+    """Make the conversion of an option that is a word, True or False."""
+    return lambda asked: asked if isinstance(asked, str) else yes if asked else no
 
 
 def _inches(inches: Any) -> str:
-    """A size on paper."""
     try:
         sides = [float(side) for side in np.atleast_1d(inches)]
     except (TypeError, ValueError):
@@ -65,7 +56,7 @@ def _inches(inches: Any) -> str:
 
 
 def _color(color: Any) -> str:
-    """A colour as `#rrggbb`; names and numbers are those of matplotlib."""
+    """Return a colour as `#rrggbb`; names and numbers are those of matplotlib."""
     if isinstance(color, str) and re.fullmatch("#[0-9a-fA-F]{6}", color):
         return color
     try:
@@ -101,14 +92,13 @@ class Ticks(TypedDict, total=False):
     colorbar: Levels
 
 
-def _ticks(ticks: Mapping[str, Any]) -> list[str]:
-    refuse_unknown("ticks", ticks, Ticks.__annotations__)
-    return [f"{'bar' if name == 'colorbar' else name}={_levels(marks)}" for name, marks in ticks.items()]
-
-
-def _labels(labels: Mapping[str, str]) -> dict[str, str]:
-    refuse_unknown("labels", labels, Labels.__annotations__)
+def _labels(labels: Mapping[str, Any], what: str = "labels", kind: type = Labels) -> dict[str, Any]:
+    refuse_unknown(what, labels, kind.__annotations__)
     return {"bar" if name == "colorbar" else name: text for name, text in labels.items()}
+
+
+def _ticks(ticks: Mapping[str, Any]) -> list[str]:
+    return [f"{name}={_levels(marks)}" for name, marks in _labels(ticks, "ticks", Ticks).items()]
 
 
 LABELS = "texts in place of those of the figure: a dictionary of title, x, y, colorbar"
@@ -132,7 +122,7 @@ class ColorOptions(RangeOptions, total=False):
 
 
 class SceneOptions(ColorOptions, total=False):
-    """What an image shows."""
+    """The content of an image."""
 
     bands: Annotated[int | None, Option(None, at="colors.bands")]
     symmetric: Annotated[bool, Option(False, at="colors.symmetric")]
@@ -148,13 +138,13 @@ class SceneOptions(ColorOptions, total=False):
 
 
 class HtmlOptions(PlaceOptions, SceneOptions, total=False):
-    """What a page shows first."""
+    """The first view of a page for browsers."""
 
 
 class ComputedOptions(SceneOptions, total=False):
-    """What an image shows, and how it is computed."""
+    """The content of an image, and how it is computed."""
 
-    mirror: Annotated[bool | str, Option(False, more="``True`` is auto", at="mirror", written=_mirror)]
+    mirror: Annotated[bool | str, Option(False, more="``True`` is auto", at="mirror", written=_word("auto", None))]
     samples: Annotated[int, Option(1, at="samples")]
     precision: Annotated[Literal["f64", "f32"] | None, Option(None, at="precision")]
     blank: Annotated[bool, Option(False, at="blank")]
@@ -169,13 +159,13 @@ class PageOptions(TypedDict, total=False):
     font_size: Annotated[float | None, Option(None, at="look.font_size")]
     theme: Annotated[Literal["light", "dark"], Option("light", at="look.theme")]
     transparent: Annotated[bool, Option(False, at="look.transparent")]
-    colorbar: Annotated[bool | Literal["right", "bottom"], Option(True, at="look.bar", written=_bar)]
+    colorbar: Annotated[bool | Literal["right", "bottom"], Option(True, at="look.bar", written=_word(None, "none"))]
     ticks: Annotated[Ticks, Option({}, more="a dictionary of x, y, colorbar", at="look.ticks", written=_ticks)]
     labels: Annotated[Labels, Option({}, LABELS, at="labels", written=_labels)]
 
 
 class AnimationOptions(PlaceOptions, ComputedOptions, PageOptions, total=False):
-    """What an animation and a figure show, and their pages."""
+    """The content of an animation or a figure, and its page."""
 
 
 class SeriesOptions(AnimationOptions, ProgressOptions, total=False):
@@ -190,7 +180,7 @@ class FigureOptions(AnimationOptions, total=False):
     """All options of a figure."""
 
     parts: Annotated[Sequence[str] | None, Option(None, PARTS, at="panels.parts", written=list)]
-    layout: Annotated[tuple[int, int] | None, Option(None, at="panels.layout", written=_layout)]
+    layout: Annotated[tuple[int, int] | None, Option(None, at="panels.layout", written=partial(pixels, name="layout"))]
     shared_range: Annotated[bool, Option(False, at="panels.shared_range")]
 
 
@@ -199,10 +189,10 @@ class ImageOptions(PixelOptions, ComputedOptions, total=False):
 
 
 class ViewerOptions(PlaceOptions, ColorOptions, total=False):
-    """What is seen first, and the traits of a `Viewer`."""
+    """The first view, and the traits of a `Viewer`."""
 
     cracks: Annotated[bool, Option(True, "whether cracks are drawn")]
-    height: Annotated[int, Option(480, "of the image on the page, pixels")]
+    height: Annotated[int, Option(480, "height of the image on the page, pixels")]
 
 
 class PlotOptions(PlaceOptions, RangeOptions, total=False):
@@ -227,19 +217,20 @@ REQUEST_OPTIONS = {name: option for name, (_, option) in options_of(FigureOption
 
 
 def span(options: RangeOptions) -> str | Ends:
-    """The range of the colours, as `clim` or `vmin` and `vmax` say it; an end that is not given is None."""
-    clim, low, high = options.get("clim", "auto"), options.get("vmin"), options.get("vmax")
-    if low is not None or high is not None:
-        if not (isinstance(clim, str) and clim == "auto"):
+    """Return the range of the colours from `clim`, or `vmin` and `vmax`; an end that is not given is None."""
+    ends: list[Any] = [options.get("vmin"), options.get("vmax")]
+    clim = options.get("clim", "auto")
+    is_auto = isinstance(clim, str) and clim == "auto"
+    if ends != [None, None]:
+        if not is_auto:
             raise TypeError("give `clim`, or `vmin` and `vmax`, not both")
-        return _ends(low, high)
-    if isinstance(clim, str):
-        if clim in ("auto", "full"):
-            return clim
-        raise ValueError(f"clim: {clim!r} is not a range; give 'auto', 'full', two values or two percentiles")
-    ends: Any = list(clim) if isinstance(clim, Iterable) else []
+        return _ends(*ends)
+    if isinstance(clim, str) and clim in ("auto", "full"):
+        return clim
+    ends = list(clim) if isinstance(clim, Iterable) and not isinstance(clim, str) else []
     if len(ends) != 2 or None in ends:
-        raise ValueError(f"clim: {clim!r} is not a range; give the lower and the upper value")
+        words = "give 'auto', 'full', two percentiles, or give the lower and the upper value"
+        raise ValueError(f"clim: {clim!r} is not a range; {words}")
     return _ends(*ends)
 
 
@@ -250,15 +241,16 @@ def _ends(low: Any, high: Any) -> Ends:
         low, high = (None if end is None else float(end) for end in (low, high))
     except (TypeError, ValueError):
         raise ValueError(f"clim: {low!r} and {high!r} are not two values") from None
-    if not all(end is None or math.isfinite(end) for end in (low, high)):
+    known = [end for end in (low, high) if end is not None]
+    if not all(map(math.isfinite, known)):
         raise ValueError(f"clim: from {low} to {high} is not a range; give finite values")
-    if low is not None and high is not None and not low < high:
+    if known != sorted(set(known)):
         raise ValueError(f"clim: from {low} to {high} is not a range; give the smaller value first")
     return low, high
 
 
 def quantities(asked: str | Sequence[str] | None) -> tuple[str | None, list[str]]:
-    """The quantity of an image, and those of panels where there are several."""
+    """Return the quantity of an image, and those of panels if there are several."""
     if asked is None or isinstance(asked, str):
         return asked, []
     several = list(asked)
@@ -268,15 +260,9 @@ def quantities(asked: str | Sequence[str] | None) -> tuple[str | None, list[str]
 
 
 def request(
-    field: "Field",
-    asked: str | Sequence[str] | None,
-    options: ColorOptions,
-    at: Window | None,
-    *,
-    may_find: bool = True,
+    field: "Field", asked: str | Sequence[str] | None, options: ColorOptions, at: View | None, *, may_find: bool = True
 ) -> dict[str, Any]:
-    """What an image is asked for, as the libraries read it; what is not given is left out. An end of the range that is not
-    given is that of an automatic one."""
+    """Return the request for an image; an end of the range that is not given is that of an automatic one."""
     made: dict[str, Any] = {"colors": {}, "panels": {}}
     for name, option in REQUEST_OPTIONS.items():
         if (value := options.get(name)) is not None:
@@ -284,23 +270,17 @@ def request(
             inner = made.setdefault(group[0], {}) if group else made
             inner[key] = option.written(value) if option.written else value
     made["quantity"], made["panels"]["quantities"] = quantities(asked)
-    found = span(options)
+    made, found = plain(made, "image"), span(options)
     if not isinstance(found, str) and None in found:
         if not may_find:
             raise ValueError("give both vmin and vmax: the range is that of all panels or steps")
-        ends = _core.frame(field._core, to_json(made), at or window(field.dataset.domain, SIZE), SIZE)[1]["range"]
+        ends = _core.frame(field._core, made, at or view_at(field.dataset.domain, SIZE))[1]["range"]
         found = _ends(*(end if given is None else given for given, end in zip(found, ends, strict=True)))
     made["colors"]["range"] = found if isinstance(found, str) else ",".join(map(str, found))
     return made
 
 
-def to_json(made: Mapping[str, Any]) -> str:
-    """The text of a request."""
-    return json.dumps(plain(made, "image"))
-
-
-def request_text(field: "Field", made: Mapping[str, Any]) -> str:
-    """The text of a request that the field can be drawn by."""
-    text = to_json(made)
-    _core.check_request(field._core, text)
-    return text
+def checked_request(field: "Field", made: dict[str, Any]) -> dict[str, Any]:
+    """Return a request that the field can be drawn by."""
+    _core.check_request(field._core, made)
+    return made

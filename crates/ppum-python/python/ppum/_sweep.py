@@ -28,20 +28,16 @@ _Row = dict[str, Any]
 
 
 def sweep(make: _Make, **parameters: Sequence[Any]) -> "Sweep":
-    """All combinations of parameters, each a problem.
+    """Combine all values of parameters, each combination a problem.
 
     Args:
-        make: Gives the problem for one value of each parameter, which it takes by their names.
+        make: Returns the problem for one value of each parameter, which it takes by name.
         parameters: The values of each, a list or an array.
 
     Example:
-        >>> cases = ppum.sweep(
-        ...     lambda length, load: plate.crack((-0.8, -1.2), (-0.8 + length, -1.2)).add(
-        ...         "boundary", on="left", traction=(load, 0)
-        ...     ),
-        ...     length=[0.2, 0.4],
-        ...     load=[0.0, 1.0],
-        ... )
+        >>> def make(length, load):
+        ...     return plate.crack((-0.8, -1.2), (-0.8 + length, -1.2)).boundary("left", traction=(load, 0))
+        >>> cases = ppum.sweep(make, length=[0.2, 0.4], load=[0.0, 1.0])
         >>> result = cases.run()
         >>> result.k1.dims, result.k1.shape
         (('length', 'load', 'tip'), (2, 2, 4))
@@ -70,7 +66,7 @@ class Sweep:
         return f"<ppum.Sweep {names}>"
 
     def problems(self) -> Iterator[tuple[dict[str, Any], Problem]]:
-        """Each combination with its problem, the last parameter running fastest."""
+        """Yield each combination with its problem, the last parameter running fastest."""
         for chosen in self._combinations():
             yield chosen, self._problem(chosen)
 
@@ -90,25 +86,23 @@ class Sweep:
         threads: int | None = None,
         progress: bool | Callable[[int, int], object] = False,
     ) -> Any:
-        """Solves all problems.
+        """Solve all problems.
 
         Numbers come back, not datasets. A problem that cannot be made or solved, or whose worker dies again and again, has
         NaN, and the reason in `status`, which is empty otherwise.
 
         Args:
-            client: A `dask.distributed.Client`; its workers solve, one problem a task. Without one this process solves, one
-                after the other on all processors, which on one machine is as fast.
-            save: A folder for the datasets, which workers have to see under this name. A problem whose dataset is there is not
-                solved again, so that a sweep goes on where it ended.
-            threads: Of each solution.
+            client: A `dask.distributed.Client`, whose workers solve; by default this process, which on one machine is as fast.
+            save: A folder for datasets, the same for all workers. Problems whose datasets are there are not solved again.
+            threads: Threads of each solution.
             progress: True for a line on standard error, or a function of how many are done and of all.
 
         Returns:
-            An `xarray.Dataset` over the parameters: energy, unknowns, patches, warnings, status; and over `tip` as well: k1, k2,
-            t_stress, j, g, growth_angle, error, and the place x, y; with symbols as `long_name`.
+            An `xarray.Dataset` of energy, unknowns, patches, warnings and status over the parameters, and of k1, k2, t_stress, j,
+            g, growth_angle, error and the place x, y also over `tip`; with symbols as `long_name`.
 
         Raises:
-            Exception: What is raised for the first combination, if no problem can be made.
+            Exception: No problem can be made; the error of the first combination.
 
         Example:
             >>> cases = ppum.sweep(lambda order: plate.discretization(level=2, order=order), order=[1, 2])
@@ -129,7 +123,7 @@ class Sweep:
         return self._gathered(rows, xarray)
 
     def _made(self) -> tuple[dict[int, Problem], list[_Row]]:
-        """The problems by the numbers of their combinations, and the rows of those that cannot be made."""
+        """Return the problems by the numbers of their combinations, and the rows of those that cannot be made."""
         made: dict[int, Problem] = {}
         errors: dict[int, Exception] = {}
         for k, chosen in enumerate(self._combinations()):
@@ -160,8 +154,10 @@ class Sweep:
 def _rows_of(
     problems: Mapping[int, Problem], client: Any, folder: Path | None, threads: int | None
 ) -> Iterator[tuple[int, _Row]]:
-    """The rows of problems by their numbers, here or from the workers of a client. Results of these are taken and released
-    one by one: a worker that dies loses none."""
+    """Yield the rows of problems by their numbers, here or from the workers of a client.
+
+    Results are taken and released one by one: a worker that dies loses none.
+    """
     if client is None:
         yield from ((k, _one(problem, folder, threads)) for k, problem in problems.items())
         return
@@ -175,7 +171,6 @@ def _rows_of(
 
 
 def _one(problem: Problem, folder: Path | None, threads: int | None) -> _Row:
-    """The numbers of one problem."""
     path = None if folder is None else folder / f"{_name(problem)}.h5"
     try:
         if path is not None and path.exists():
@@ -189,7 +184,7 @@ def _one(problem: Problem, folder: Path | None, threads: int | None) -> _Row:
 
 
 def _name(problem: Problem) -> str:
-    """The name of a problem's dataset: it follows from the problem and the version that solves it."""
+    """Return the name of a problem's dataset, from the problem and the version that solves it."""
     text = f"{_core.VERSION}\n{problem._folder}\n{problem.to_toml()}"
     return hashlib.sha256(text.encode()).hexdigest()[:32]
 
@@ -197,14 +192,8 @@ def _name(problem: Problem) -> str:
 def _row(dataset: Dataset) -> _Row:
     step = dataset.steps[-1]
     tips = [[*(getattr(tip, name) for name in TIPS), *tip.xy] for tip in step.tips]
-    return {
-        "energy": step.history.get("energy", np.nan),
-        "unknowns": step.unknowns,
-        "patches": step.patches,
-        "warnings": len(step.warnings),
-        "tips": tips,
-        "status": "",
-    }
+    numbers = {"energy": step.history.get("energy", np.nan), "unknowns": step.unknowns, "patches": step.patches}
+    return numbers | {"warnings": len(step.warnings), "tips": tips, "status": ""}
 
 
 def _failed(error: BaseException) -> _Row:

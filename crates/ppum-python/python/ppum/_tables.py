@@ -14,7 +14,7 @@ _Row = TypeVar("_Row")
 
 
 class Numbered(tuple[_Row, ...], Generic[_Row]):
-    """Things of one kind, numbered from 0: a tuple that tells how many there are where a number is none."""
+    """A tuple of things numbered from 0; errors tell how many there are."""
 
     #: What one of them is called, and several.
     _called: tuple[str, str]
@@ -34,7 +34,7 @@ class Numbered(tuple[_Row, ...], Generic[_Row]):
         return super().__getitem__(key if isinstance(key, slice) else self._number(key))
 
     def _number(self, key: SupportsIndex) -> int:
-        """A number counted from the first one."""
+        """Return a number counted from the first one."""
         number, count = operator.index(key), len(self)
         if not -count <= number < count:
             one, more = self._called
@@ -44,7 +44,7 @@ class Numbered(tuple[_Row, ...], Generic[_Row]):
 
 
 class Table(Numbered[_Row]):
-    """Rows of one kind, a tuple that pandas and notebooks show as a table.
+    """A tuple of rows of one kind, which pandas and notebooks show as a table.
 
     Example:
         >>> [tip.end for tip in ds.tips]
@@ -52,7 +52,7 @@ class Table(Numbered[_Row]):
     """
 
     def to_pandas(self) -> Any:
-        """The rows as a `pandas.DataFrame`; those attributes that are arrays are left out."""
+        """Return the rows as a `pandas.DataFrame`, without attributes that are arrays."""
         pandas = require("pandas", "pandas", "tables")
         return pandas.DataFrame(self._records(), columns=self._columns() or None)
 
@@ -96,7 +96,7 @@ class History(Mapping[str, float]):
         return len(self._first)
 
     def unit(self, name: str) -> str:
-        """The unit of a number, e.g. ``s``; empty of plain numbers."""
+        """Return the unit of a number, e.g. ``s``; empty for plain numbers."""
         return self._of(name)[1]
 
     def _of(self, name: str) -> tuple[float, str]:

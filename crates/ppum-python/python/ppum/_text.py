@@ -13,21 +13,20 @@ import numpy as np
 
 
 def nearest(name: str, known: Iterable[str]) -> str | None:
-    """The known word that a word is most like, if there is one."""
+    """Return the known word that a word is most like, if there is one."""
     by_lower = {word.lower(): word for word in known}
     found = difflib.get_close_matches(name.lower(), by_lower, n=1, cutoff=0.7)
     return by_lower[found[0]] if found else None
 
 
 def hint(name: str, known: Iterable[str]) -> str:
-    """What to write in place of a name that there is not."""
+    """Suggest a name in place of an unknown one."""
     known = list(known)
     near = nearest(name, known)
     return f"did you mean `{near}`?" if near else f"there are {', '.join(known)}"
 
 
 def one_of(name: str, value: str, words: Sequence[str], others: str = "") -> None:
-    """Refuses a word that is not among those that there are."""
     if value in words:
         return
     known = ", ".join(repr(word) for word in words)
@@ -37,17 +36,16 @@ def one_of(name: str, value: str, words: Sequence[str], others: str = "") -> Non
 
 
 def plural(count: int, one: str, more: str | None = None) -> str:
-    """A number of things in words."""
     return f"{count} {one if count == 1 else more or one + 's'}"
 
 
 def math_text(symbol: str) -> str:
-    """A symbol with its subscripts as matplotlib's mathtext has them; words stay words."""
+    """Return a symbol with its subscripts as matplotlib's mathtext; words stay words."""
     return re.sub(r"_\{(.*?)\}", r"$_{\1}$", symbol)
 
 
 def plain(value: Any, place: str = "a problem") -> Any:
-    """Values that TOML has; frozen data are copied. `place` is that of the value, for messages."""
+    """Copy data as types that TOML and JSON have; `place` is that of the value, for messages."""
     if isinstance(value, Mapping):
         return {str(k): plain(v, f"{place}.{k}".removeprefix("a problem.")) for k, v in value.items() if v is not None}
     if isinstance(value, (np.ndarray, np.generic)):
@@ -62,7 +60,7 @@ def plain(value: Any, place: str = "a problem") -> Any:
 
 
 def toml_lines(spec: Mapping[str, Any]) -> tuple[str, list[str]]:
-    """The text of a problem file, and the key of each of its lines."""
+    """Return the text of a problem file, and the key of each of its lines."""
     lines: list[tuple[str, str]] = []
     for name, value in spec.items():
         if not isinstance(value, dict) and not _is_tables(value):
@@ -121,10 +119,9 @@ class ProgressLine:
 
 
 def html_row(cells: Iterable[str], kind: str = "td") -> str:
-    """A row of an HTML table."""
     return f"<tr>{''.join(f'<{kind}>{html.escape(cell)}</{kind}>' for cell in cells)}</tr>"
 
 
 def _text(value: Any) -> str:
-    """A basic string, integer or truth value: that of JSON, which leaves one character of control as it is."""
+    """Return a basic string, integer or truth value: that of JSON, which leaves one character of control as it is."""
     return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")

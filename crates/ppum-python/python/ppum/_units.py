@@ -12,7 +12,7 @@ Floats = NDArray[np.float64]
 
 
 def floats(values: ArrayLike) -> Floats:
-    """An array of float64, one number after the other where that is so already; no copy where it need not be."""
+    """Return an array of float64, without a copy where it need not be."""
     if isinstance(values, np.ma.MaskedArray):
         values = np.ma.filled(values.astype(np.float64), np.nan)
     try:
@@ -25,7 +25,6 @@ def floats(values: ArrayLike) -> Floats:
 
 
 def pair(point: ArrayLike) -> tuple[float, float]:
-    """The coordinates of a point."""
     array = floats(point)
     if array.shape != (2,) or not np.isfinite(array).all():
         raise ValueError("a point is two finite numbers: x, y")
@@ -33,14 +32,13 @@ def pair(point: ArrayLike) -> tuple[float, float]:
 
 
 def degrees(angle: float) -> float:
-    """An angle in degrees, which the libraries take."""
+    """Return an angle in degrees, which the libraries take."""
     if not abs(angle) <= 2 * math.pi:
         raise ValueError(f"angle: {angle!r} is more than a turn; angles are in radians, see math.radians")
     return math.degrees(angle)
 
 
 def check_out(out: Floats, shape: tuple[int, ...]) -> None:
-    """Refuses arrays that results cannot be written to."""
     if not isinstance(out, np.ndarray) or out.dtype != np.float64 or out.shape != shape:
         raise ValueError(f"`out` has to be a float64 array of shape {shape}")
     if not out.flags.c_contiguous or not out.flags.writeable:
@@ -48,7 +46,7 @@ def check_out(out: Floats, shape: tuple[int, ...]) -> None:
 
 
 def pixels(size: tuple[int, int], name: str = "size") -> tuple[int, int]:
-    """Columns and rows, both positive, of an option of this name."""
+    """Return columns and rows, both positive, of an option of this name."""
     try:
         columns, rows = (operator.index(n) for n in size)
     except (TypeError, ValueError):
@@ -59,13 +57,12 @@ def pixels(size: tuple[int, int], name: str = "size") -> tuple[int, int]:
 
 
 def positive(name: str, value: float | None) -> None:
-    """Raises a `ValueError` if a number is given that is not positive."""
     if value is not None and not (math.isfinite(value) and value > 0):
         raise ValueError(f"{name}: {value} is not a positive number")
 
 
 def milliseconds(fps: float) -> int:
-    """The time for which an image is shown, where so many are shown in a second."""
+    """Return the time of an image, with so many images in a second."""
     if not 1 / 60 <= fps <= 50:
         raise ValueError(f"fps: {fps} is not a rate; give a number of steps a second, from 1/60 to 50")
     return int(1000 / fps + 0.5)

@@ -23,10 +23,10 @@ class Quantity:
     """A quantity of a field.
 
     Attributes:
-        name: Its name as the program writes it, e.g. ``von-mises``.
-        symbol: For labels, with subscripts as ``_{…}``.
-        unit: For labels; may be empty.
-        formula: The text, if it is one that the dataset names.
+        name: Name in the program, e.g. ``von-mises``.
+        symbol: Symbol for labels, with subscripts as ``_{…}``.
+        unit: Unit for labels; may be empty.
+        formula: Text of a formula that the dataset names.
     """
 
     name: str
@@ -58,7 +58,7 @@ class Quantities(Mapping[str, Quantity]):
 
 
 class Values:
-    """A field at points; made by `Field.at`. Evaluates when it is asked.
+    """The values of a field at points, evaluated when they are asked for. Made by `Field.at`.
 
     Attributes are quantities with ``_`` for ``-``, items are quantities and formulas of them. Results have the
     shape of the points, with one axis more for ``side="both"``: above, below. They are NaN outside the domain.
@@ -101,7 +101,7 @@ class Values:
         return self._evaluate([quantity], False, None)[..., 0]
 
     def gradient(self, quantity: str) -> Floats:
-        """The exact gradient of a quantity, no difference: shape (..., 2) with ∂/∂x and ∂/∂y last.
+        """Return the exact gradient of a quantity: shape (..., 2) with ∂/∂x and ∂/∂y last.
 
         The quantity `gradient` of a potential, the length of ∇u, is ``values["gradient"]``.
 
@@ -112,26 +112,25 @@ class Values:
         return self._evaluate([quantity], True, None)[..., 0, 1:]
 
     def _evaluate(self, names: list[str], gradient: bool, out: Floats | None) -> Floats:
-        """Shape (..., q), (..., q, 3) with gradients; before these an axis of two for both sides."""
-        tail = (len(names), 3) if gradient else (len(names),)
+        """Return shape (..., q), or (..., q, 3) with gradients; both sides have an axis of two before these."""
+        shape = self._shape + ((len(names), 3) if gradient else (len(names),))
         if self._side == "both":
-            sides = [self._run(names, below, gradient, None) for below in (False, True)]
-            both = np.stack(sides, axis=-1).reshape(*self._shape, *tail, 2)
-            return np.moveaxis(both, -1, len(self._shape))
-        if out is not None:
-            check_out(out, self._shape + tail)
+            sides = [self._run(names, below, gradient, np.empty(shape)) for below in (False, True)]
+            return np.stack(sides, axis=len(self._shape))
+        if out is None:
+            out = np.empty(shape)
+        else:
+            check_out(out, shape)
             if any(np.may_share_memory(out, points) for points in (self._x, self._y)):
                 raise ValueError("`out` shares memory with the coordinates")
-            self._run(names, self._side == "below", gradient, out.reshape(-1))
-            return out
-        return self._run(names, self._side == "below", gradient, None).reshape(self._shape + tail)
+        return self._run(names, self._side == "below", gradient, out)
 
-    def _run(self, names: list[str], below: bool, gradient: bool, out: Floats | None) -> Floats:
+    def _run(self, names: list[str], below: bool, gradient: bool, out: Floats) -> Floats:
         x, y = np.atleast_1d(self._x), np.atleast_1d(self._y)
         if self._shape == ():
             x, y = x.astype(np.float64), y.astype(np.float64)
-        found = self._field._core.evaluate(names, x, y, below, self._anchor, gradient, out)
-        return found if found is not None else out  # type: ignore[return-value]
+        self._field._core.evaluate(names, x, y, below, self._anchor, gradient, out.reshape(-1))
+        return out
 
     def __dir__(self) -> list[str]:
         names = (name.replace("-", "_") for name in self._field.quantities)

@@ -1,5 +1,6 @@
 """Fields that are built compared with the evaluation of the code that they come from."""
 
+import logging
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
@@ -11,17 +12,21 @@ from ._errors import BuildError
 from ._functions import Component, Formula, Jump, Level
 from ._state import Coefficients, Sampled, State
 from ._units import Floats
+
+LOG = logging.getLogger("ppum")
+
 POINTS = 1000
 #: Points beside each face of a crack, and how far from it, in parts of the domain's size.
 BESIDE, DISTANCE = 50, 1e-7
 
 
 def verified(field: Callable[[int], Any], state: State, tolerance: float) -> dict[str, float]:
-    """Largest differences of the fields that have a reference, by their names, in parts of their largest values; `field`
-    gives those of the step by their numbers."""
+    """Return the largest differences of fields from their references, relative to their largest values, by name.
+
+    The function `field` returns a field of the step by its number.
+    """
     fields = [state.fields] if isinstance(state.fields, Coefficients) else state.fields
-    with_reference = [(number, given) for number, given in enumerate(fields) if given.verify is not None]
-    return {given.name: _compared(given, field(number), state, tolerance) for number, given in with_reference}
+    return {g.name: _compared(g, field(k), state, tolerance) for k, g in enumerate(fields) if g.verify is not None}
 
 
 def _compared(given: Coefficients, field: Any, state: State, tolerance: float) -> float:
@@ -52,7 +57,7 @@ def _compared(given: Coefficients, field: Any, state: State, tolerance: float) -
             f"{_short(wanted[k])}: a difference of {worst:.1e} of the largest value, and more than {tolerance:g} at "
             f"{np.mean(wrong):.0%} of {count} points. {_remedy(given, field, state, (x, y), wrong)}"
         )
-    print(f"verified: field {given.name!r} at {count} points, largest difference {worst:.1e} of its largest value")
+    LOG.info("verified: field %r at %d points, largest difference %.1e of its largest value", given.name, count, worst)
     return worst
 
 
@@ -66,7 +71,7 @@ LOOKS = {
 
 
 def _remedy(given: Coefficients, field: Any, state: State, at: tuple[Floats, Floats], wrong: NDArray[np.bool_]) -> str:
-    """What may be the reason for differences at some of the points."""
+    """Describe what may be the reason for differences at some of the points."""
     if isinstance(given.verify, Sampled):
         return (
             "The field is not a polynomial of this degree on elements; interpolate it into L2, a discontinuous space, of a "
@@ -91,13 +96,12 @@ def _remedy(given: Coefficients, field: Any, state: State, at: tuple[Floats, Flo
 
 
 def _looks(state: State, names: Sequence[str]) -> str:
-    """What to look at for some functions."""
     kinds = {type(state.functions[name]) for name in names}
     return "; ".join(look for kind, look in LOOKS.items() if kind in kinds or kind is Formula and str in kinds)
 
 
 def _touched(field: Any, function: str, at: tuple[Floats, Floats]) -> NDArray[np.bool_]:
-    """True for points where a function is a part of the field."""
+    """Return True for points where a function is a part of the field."""
     names = field._core.components()
     with_, without = (f.evaluate(*at, names) for f in (field, field.with_function({function: "0"})))
     different: NDArray[np.bool_] = (with_ != without).any(axis=1)
@@ -105,7 +109,7 @@ def _touched(field: Any, function: str, at: tuple[Floats, Floats]) -> NDArray[np
 
 
 def _few(patches: Sequence[int], given: Coefficients, functions: Sequence[str]) -> str:
-    """Some of the patches that have a function."""
+    """Name some of the patches that have a function."""
     blocks = [given.blocks[name] for name in functions]
     having = [k for k in patches if all(k in b if isinstance(b, Mapping) else b[k] is not None for b in blocks)]
     return ", ".join(map(str, having[:5])) + (", …" if len(having) > 5 else "")
@@ -134,7 +138,7 @@ def _shaped(place: str, wanted: ArrayLike, shape: tuple[int, int]) -> Floats:
 
 
 def _points(state: State, field: Any) -> Floats:
-    """Random points in the domain, the same for the same cover: of patches that are taken in turn, and beside cracks."""
+    """Return random points of patches taken in turn and beside cracks, the same for the same cover."""
     random = np.random.default_rng(len(state.cover))
     points = np.empty((0, 2))
     while len(points) < POINTS:
@@ -148,7 +152,7 @@ def _cracks(state: State) -> list[Any]:
 
 
 def _beside(crack: Floats, state: State, random: np.random.Generator) -> Floats:
-    """Points close to both faces of a crack."""
+    """Return points close to both faces of a crack."""
     segments = np.diff(crack, axis=0)
     lengths = np.hypot(*segments.T)
     k = random.choice(len(segments), BESIDE, p=lengths / lengths.sum())

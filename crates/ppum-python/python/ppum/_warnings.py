@@ -37,7 +37,7 @@ NAMES = {
 
 
 def renamed(owner: str, name: str, thing: Any) -> Any:
-    """The attribute of a thing that an old name stands for."""
+    """Return the attribute of a thing that an old name stands for."""
     if name not in NAMES[owner]:
         raise AttributeError(f"{owner} has no attribute {name!r}", name=name, obj=thing)
     new = NAMES[owner][name]
@@ -46,7 +46,6 @@ def renamed(owner: str, name: str, thing: Any) -> Any:
 
 
 class _Renamed:
-    """An attribute by its old name."""
 
     def __init__(self, owner: str, name: str) -> None:
         self._owner, self._name = owner, name
@@ -56,7 +55,7 @@ class _Renamed:
 
 
 def with_old_names(kind: type[_T]) -> type[_T]:
-    """Makes the attributes of a class have their old names too, which completion does not offer."""
+    """Give the attributes of a class their old names too, which completion does not offer."""
     names = NAMES[kind.__name__]
     for name in names:
         setattr(kind, name, _Renamed(kind.__name__, name))
@@ -65,7 +64,7 @@ def with_old_names(kind: type[_T]) -> type[_T]:
 
 
 def warn(*texts: str, kind: type[Warning] = UserWarning) -> None:
-    """Warns at the line outside of the package that led here."""
+    """Warn at the line outside of the package that led here."""
     level, frame = 1, sys._getframe()
     while frame.f_code.co_filename.startswith(PACKAGE) and frame.f_back:
         level, frame = level + 1, frame.f_back

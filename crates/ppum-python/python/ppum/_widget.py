@@ -8,7 +8,8 @@ import base64
 import math
 import os
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Unpack, get_args
@@ -22,8 +23,9 @@ from ._draw import Figure
 from ._errors import PpumError
 from ._field import KEPT
 from ._options import passes, takes
-from ._styles import FigureOptions, Norm, ViewerOptions, request, span, to_json
-from ._views import PlaceOptions, View, Window, window
+from ._styles import FigureOptions, Norm, ViewerOptions, request, span
+from ._text import plural
+from ._views import ZOOM, PlaceOptions, View, view_at
 
 if TYPE_CHECKING:
     from ._field import Field
@@ -56,13 +58,12 @@ _NORMS = get_args(Norm)
 
 
 class Viewer(anywidget.AnyWidget):
-    """Shows a field in a notebook; made by `Dataset.view` and `Field.view`. What is seen at the moment is its `view`, a `View`.
+    """A field in a notebook; made by `Dataset.view` and `Field.view`. The current view is `view`, a `View`.
 
     Drag to pan, turn the wheel to zoom about the mouse, point to read values: near a crack those of both faces. With the
-    image in focus the arrows, ``+``, ``-`` and ``0`` do the same. All that is shown are traits, to be read, set and observed.
-
-    The traits `center`, `width`, `quantity`, `step`, `clim`, `norm`, `cmap`, `cracks`, `deformed` and `height` are the options
-    that it is made by; a cmap of None is ``auto`` here. `error` says what is wrong with the last frame, if anything.
+    image in focus the arrows, ``+``, ``-`` and ``0`` do the same. The traits `center`, `width`, `quantity`, `step`, `clim`,
+    `norm`, `cmap`, `cracks`, `deformed` and `height` are its options; a cmap of None is ``auto`` here. `error` has the error of
+    the last frame.
 
     Raises:
         traitlets.TraitError: A value that a trait cannot have, such as a center that is not finite.
@@ -108,21 +109,13 @@ class Viewer(anywidget.AnyWidget):
         # of the last frame
         self._size = (4, 3)
         seen = field._place(options, self._size)
-        center, width = seen or self._whole()
+        view = seen or self._whole()
         name = quantity or field._core.default_quantity()
-        super().__init__(
-            center=center,
-            width=width,
-            quantity=name,
-            clim=_clim(field, name, options, (center, width)),
-            norm=options["norm"],
-            cmap="auto" if options["cmap"] is None else os.fspath(options["cmap"]),
-            deformed=options["deformed"],
-            cracks=options["cracks"],
-            height=options["height"],
-            step=field._number,
-            _offers=_offers(field),
-        )
+        own: dict[str, Any] = {key: options[key] for key in ("norm", "deformed", "cracks", "height")}
+        own["cmap"] = "auto" if options["cmap"] is None else os.fspath(options["cmap"])
+        own["clim"] = _clim(field, name, options, view)
+        place = {"center": view.center, "width": view.width, "step": field._number}
+        super().__init__(quantity=name, **place, **own, _offers=_offers(field))
         # whether all of the plate is shown, which then fits into the page however that changes
         self._is_whole = seen is None
         self.on_msg(self._hear)
@@ -163,25 +156,28 @@ class Viewer(anywidget.AnyWidget):
 
     @property
     def view(self) -> View:
-        """What is seen at the moment, for `field.draw.figure` and all that take a `view`."""
+        """Current view, for `field.draw.figure` and all that take a `view`."""
         return View(self.center, self.width, self._size)
 
     def home(self) -> None:
-        """Shows all of the plate."""
-        self.center, self.width = self._whole()
+        """Show all of the plate."""
+        self._show(self._whole())
         self._is_whole = True
 
-    def _whole(self) -> tuple[tuple[float, float], float]:
-        center, width = window(self.field.dataset.domain, self._size)
-        return center, MARGIN * width
+    def go_to_tip(self, tip: int, zoom: float = ZOOM) -> None:
+        """Show a tip, enlarged `zoom` times."""
+        self._show(self._at_step()._seen({"tip": tip, "zoom": zoom, "size": self._size}))
 
-    def go_to_tip(self, tip: int, zoom: float = 10.0) -> None:
-        """Shows a tip, enlarged `zoom` times."""
-        self.center, self.width = self._at_step()._window(self._size, {"tip": tip, "zoom": zoom})
+    def _show(self, view: View) -> None:
+        self.center, self.width = view.center, view.width
+
+    def _whole(self) -> View:
+        view = view_at(self.field.dataset.domain, self._size)
+        return replace(view, width=MARGIN * view.width)
 
     @passes(FigureOptions)
     def figure(self, **options: Unpack[FigureOptions]) -> Figure:
-        """A figure of what is seen; what is not given is as in the view.
+        """Make a figure of the current view, with its options where none are given.
 
         Example:
             >>> ds.view("ux", tip=1, zoom=4).figure(theme="dark")
@@ -202,7 +198,7 @@ class Viewer(anywidget.AnyWidget):
         return self.field if self.step == self.field._number else self._other(self.step)
 
     def _hear(self, _: Any, content: Any, buffers: Any) -> None:
-        """Answers a message of the browser: a frame, or what is under the mouse. All views hear it, and ask for their own."""
+        """Answer a message of the browser: all views hear it, and ask for their own."""
         if not isinstance(content, Mapping) or "from" not in content:
             return
         self._is_answering = True
@@ -242,11 +238,11 @@ class Viewer(anywidget.AnyWidget):
             self._move(k, x, y, size)
 
     def _move(self, k: float, x: float, y: float, size: tuple[int, int]) -> None:
-        """Pixel p of what is seen goes to k p + (x, y)."""
+        """Move pixel p of the view to k p + (x, y)."""
         if not (k > 0 and all(map(math.isfinite, (k, x, y)))):
             raise ValueError("a move is a positive factor and two finite numbers")
         asked, width = k, self.width
-        k = width / min(max(width / k, self._least()), FARTHEST * self._whole()[1])
+        k = width / min(max(width / k, self._least()), FARTHEST * self._whole().width)
         if k != asked:
             x, y = ((1 - k) / (1 - asked) * v if asked != 1 else v for v in (x, y))
         pixel, (columns, rows) = width / size[0], size
@@ -261,59 +257,40 @@ class Viewer(anywidget.AnyWidget):
         return float(max(FINEST * abs(x), FINEST * abs(y), SMALLEST))
 
     def _frame(self, size: tuple[int, int], moving: bool) -> tuple[bytes, dict[str, Any]]:
-        """The bytes of a PNG, and what the colour bar says."""
+        """Return the bytes of a PNG, and the texts of the colour bar."""
         look = self._look()
         is_found = isinstance(self.clim, str)
         if moving and is_found and self._held:
             look["clim"] = self._held
-        field, seen = self._at_step(), (self.center, self.width)
-        made = to_json(request(field, self.quantity, look, seen))  # type: ignore[arg-type]
-        png, facts = _core.frame(field._core, made, seen, size)
+        field, view = self._at_step(), replace(self.view, size=size)
+        png, facts = _core.frame(field._core, request(field, self.quantity, look, view), view)  # type: ignore[arg-type]
         self._held = facts["range"] if is_found else None
         return png, facts
 
     def _controls(self) -> dict[str, Any]:
-        """What the controls show."""
         place = f"({self.center[0]:.9g}, {self.center[1]:.9g}), {self.width:.3g} wide"
         return {"state": {name: getattr(self, name) for name in _SETTABLE}, "place": place}
 
     def _probed(self, pixel: Any, size: tuple[int, int]) -> str:
-        """Values under the mouse, near a crack those of its faces, in words."""
-        side = self.width / size[0]
-        offset = np.array([float(pixel[0]) - 0.5 * size[0], 0.5 * size[1] - float(pixel[1])]) * side
-        anchor = np.array(self.center)
-        near = None if self.deformed is not None else _nearest(self._at_step(), anchor, offset, REACH * side)
-        anchor, offset = near or (anchor, offset)
-        x, y = anchor + offset
-        place = f"x = {x:.12g}, y = {y:.12g}"
-        if self.deformed is not None:
-            return f"{place}: {self._on_deformed((x, y), side)}"
-        if near is None or not self._at_step()._is_quantity(self.quantity):
-            return f"{place}: {self._value(anchor, offset, side):.9g}"
-        above, below = self._at_step().at(*offset, anchor=anchor, side="both")[self.quantity]
-        return f"{place}: {above:.9g} above, {below:.9g} below the crack"
-
-    def _on_deformed(self, place: tuple[float, float], side: float) -> str:
-        """What a pixel of the deformed plate shows: the value, and where that point of the plate was before."""
-        found = _core.material(self._at_step()._core, str(self.deformed), (place, side))
+        """Return values under the mouse in words: near a crack of its faces, of a deformed plate at the point that moved there."""
+        x, y, factor = float(pixel[0]), float(pixel[1]), None if self.deformed is None else str(self.deformed)
+        view = replace(self.view, size=size)
+        place, found = _core.probe(self._at_step()._core, self.quantity, view, (x, y), REACH, factor)
         if found is None:
-            return "the deformed plate is not here"
-        anchor, offset = np.array(found["anchor"]), np.array(found["offset"])
-        x, y = anchor + offset
-        text = f"{self._value(anchor, offset, side):.9g}, moved from x = {x:.12g}, y = {y:.12g}"
-        others = found["count"] - 1
-        return f"{text}, over {others} more point{'s' if others > 1 else ''} of the plate" if others else text
-
-    def _value(self, anchor: Any, offset: Any, side: float) -> float:
-        """The quantity at a point; of cells that of the cell."""
-        field = self._at_step()
-        if not field._is_quantity(self.quantity):
-            return float(field.draw.render(self.quantity, center=anchor + offset, width=side, size=(1, 1))[0, 0])
-        return float(field.at(*offset, anchor=anchor)[self.quantity])
+            return f"{_place(place)}: the deformed plate is not here"
+        point, values, count = found
+        if len(values) == 2 and factor is None:
+            return f"{_place(place)}: {values[0]:.9g} above, {values[1]:.9g} below the crack"
+        text = f"{_place(place)}: {values[0]:.9g}"
+        if factor is not None:
+            text += f", moved from {_place(point)}"
+        return text + (f", over {plural(count - 1, 'more point')} of the plate" if count > 1 else "")
 
     def _repr_mimebundle_(self, **options: Any) -> Any:
-        """The widget, and an image for where there is no kernel: pages with the widget's state show `_still`. Where a program
-        runs the notebook the image is alone: nobody could touch the widget, whose code would come from the network."""
+        """Return the widget, and an image for pages without a kernel; these show `_still` with the widget's state.
+
+        Where a program runs the notebook the image is alone: nobody could touch the widget, whose code is on the network.
+        """
         try:
             self._still = self.figure(size=(640, 480)).png()
         except (PpumError, ValueError) as error:
@@ -331,8 +308,7 @@ class Viewer(anywidget.AnyWidget):
 
 
 def _is_unattended() -> bool:
-    """Whether a program runs the notebook, such as `jupyter nbconvert --execute`: it answers no questions. Voilà does
-    neither, but shows the widgets of its notebooks."""
+    """Return whether a program runs the notebook, such as `jupyter nbconvert --execute`, and not Voilà for its widgets."""
     shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
     answers = getattr(getattr(shell, "kernel", None), "_allow_stdin", True)
     return not answers and "voila" not in os.environ.get("SERVER_SOFTWARE", "").lower()
@@ -344,12 +320,16 @@ def _offers(field: "Field") -> dict[str, Any]:
     return {"quantities": list(field.quantities), "cmaps": ["auto", *_core.colormaps()], "tips": tips, "steps": steps}
 
 
-def _clim(field: "Field", quantity: str, options: ViewerOptions, at: Window) -> Any:
-    """The range that options say; an end that they leave is that of an automatic one."""
+def _place(point: Sequence[float]) -> str:
+    return f"x = {point[0]:.12g}, y = {point[1]:.12g}"
+
+
+def _clim(field: "Field", quantity: str, options: ViewerOptions, view: View) -> Any:
+    """Return the range that options say; an end that they leave is that of an automatic one."""
     found = span(options)
     if isinstance(found, str) or None not in found:
         return found
-    made = request(field, quantity, options, at)
+    made = request(field, quantity, options, view)
     return tuple(float(end) for end in made["colors"]["range"].split(","))
 
 
@@ -361,23 +341,10 @@ def _size(size: Any) -> tuple[int, int]:
 
 
 def _sum(high: float, low: float, more: float) -> tuple[float, float]:
-    """high + low + more as a number and what it lacks of the sum (Knuth's sum of two)."""
+    """Return high + low + more as a number and what it lacks of the sum (Knuth's sum of two)."""
     total = high + more
     part = total - high
     lacks = (high - (total - part)) + (more - part) + low
     again = total + lacks
     return again, lacks - (again - total)
 
-
-def _nearest(field: "Field", anchor: Any, offset: Any, reach: float) -> Any:
-    """The point of a crack within reach, as an offset from the nearer vertex of its segment, not rounded; None without."""
-    found = None
-    for crack in field.step.cracks:
-        for ends in zip(crack.points[:-1], crack.points[1:], strict=True):
-            near, far = sorted(ends, key=lambda end: np.hypot(*(anchor - end + offset)))
-            way, to = far - near, (anchor - near) + offset
-            along = min(max(float(to @ way) / float(way @ way), 0.0), 1.0)
-            distance = float(np.hypot(*(to - along * way)))
-            if distance <= reach:
-                found, reach = (near, along * way), distance
-    return found

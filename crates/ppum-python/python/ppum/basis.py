@@ -38,9 +38,8 @@ class Basis:
     Attributes:
         indices: Pairs (i, j), in the order of the coefficients.
         degree: Total degree of the products.
-        matrix: Monomials' coefficients from those of the basis, shape ((d + 1)(d + 2)/2, m); its entries are exact, but
-            for the rounding to doubles.
-        condition: Its condition number: how much relative errors of coefficients may grow.
+        matrix: Monomials' coefficients from those of the basis, shape ((d + 1)(d + 2)/2, m); exact except for rounding.
+        condition: Condition number of the matrix.
     """
 
     def __init__(self, x: Sequence[Any], y: Sequence[Any], indices: Sequence[tuple[int, int]]) -> None:
@@ -63,8 +62,7 @@ class Basis:
         self.condition = float(np.linalg.cond(self.matrix))
 
     def convert(self, coefficients: ArrayLike, axis: int = 1) -> Floats:
-        """The coefficients of monomials: `axis` has those of the basis, the others are kept. A condition number above
-        1e6 is warned of."""
+        """Return coefficients of monomials, on `axis` in place of those of the basis. Warns of a condition number above 1e6."""
         given, count = numbers("coefficients", coefficients), len(self.indices)
         if not -given.ndim <= axis < given.ndim or given.shape[axis] != count:
             one = "; give axis=0 for those of one patch" if given.shape[:1] == (count,) else ""
@@ -80,25 +78,24 @@ class Basis:
 
 
 def legendre(degree: int, order: Any = "total", interval: tuple[float, float] = (-1, 1)) -> Basis:
-    """Legendre polynomials, P_k(1) = 1.
+    """Return the Legendre polynomials, P_k(1) = 1.
 
     Args:
         degree: Highest degree in each variable.
-        order: Of the products: ``total``, degree by degree, of each first the highest power of ξ, as the format has it;
-            ``total-y``, of each first the highest power of η; ``tensor``, all i, j ≤ degree with i running first;
-            ``tensor-y``, with j first; or the pairs (i, j) themselves.
+        order: Order of the products: ``total`` (by degree, powers of ξ descending, as in files), ``total-y`` (powers of η
+            descending), ``tensor`` (all i, j ≤ degree, i first), ``tensor-y`` (j first), or the pairs (i, j) themselves.
         interval: The local coordinate of the basis where ξ is -1 and 1: (0, 1) for shifted polynomials.
     """
     return _basis(_recurrent(degree, lambda k: (Fraction(2 * k + 1, k + 1), Fraction(k, k + 1))), order, interval)
 
 
 def chebyshev(degree: int, order: Any = "total", interval: tuple[float, float] = (-1, 1)) -> Basis:
-    """Chebyshev polynomials of the first kind; arguments as of `legendre`."""
+    """Return the Chebyshev polynomials of the first kind; arguments as of `legendre`."""
     return _basis(_recurrent(degree, lambda k: (Fraction(2 if k else 1), Fraction(1))), order, interval)
 
 
 def bernstein(degree: int, order: Any = "tensor", interval: tuple[float, float] = (0, 1)) -> Basis:
-    """Bernstein polynomials C(p, k) t^k (1 − t)^(p − k), products of two; arguments as of `legendre`.
+    """Return the Bernstein polynomials C(p, k) t^k (1 − t)^(p − k), products of two; arguments as of `legendre`.
 
     Example:
         >>> ppum.basis.bernstein(1).convert([[1.0, 1.0, 1.0, 1.0]]).tolist()
@@ -109,7 +106,7 @@ def bernstein(degree: int, order: Any = "tensor", interval: tuple[float, float] 
 
 
 def lagrange(nodes: ArrayLike, order: Any = "tensor", interval: tuple[float, float] = (-1, 1)) -> Basis:
-    """Lagrange polynomials of nodes, the same in both directions: values at the nodes are the coefficients."""
+    """Return the Lagrange polynomials of nodes, the same in both directions: values at the nodes are the coefficients."""
     at = [Fraction(v) for v in numbers("nodes", nodes).reshape(-1).tolist()]
     if len(set(at)) < len(at):
         raise BuildError("nodes: two are equal; leave one out")
@@ -119,15 +116,16 @@ def lagrange(nodes: ArrayLike, order: Any = "tensor", interval: tuple[float, flo
 
 
 def monomials(degree: int, order: Any = "total-y", interval: tuple[float, float] = (-1, 1)) -> Basis:
-    """Monomials in another order or of another coordinate; arguments as of `legendre`."""
+    """Return the monomials in another order or of another coordinate; arguments as of `legendre`."""
     return _basis([X**k for k in range(_bounded(degree) + 1)], order, interval)
 
 
 def reframe(
     coefficients: ArrayLike, origin: ArrayLike, scale: ArrayLike, new_origin: ArrayLike, new_scale: ArrayLike
 ) -> Floats:
-    """Monomials' coefficients (n, m) or (n, m, c) of ξ = (p − origin)/scale as those of (p − new_origin)/new_scale, which
-    have the same values. Origins and scales have the shape (n, 2), or (2,) for all patches.
+    """Convert monomials' coefficients (n, m) or (n, m, c) of ξ = (p − origin)/scale to those of (p − new_origin)/new_scale.
+
+    Origins and scales have the shape (n, 2), or (2,) for all patches.
 
     Example:
         >>> ppum.basis.reframe([[0.0, 1.0, 0.0]], (0, 0), (1, 1), (0.5, 0.5), (2, 2)).tolist()
@@ -152,7 +150,6 @@ def reframe(
 
 
 def _points(name: str, values: ArrayLike, count: int) -> Floats:
-    """A point for each patch, or one for all."""
     array = numbers(name, values)
     check_shape(name, array, array.shape in ((2,), (count, 2)), f"({count}, 2), or (2,) for all patches")
     return np.broadcast_to(array, (count, 2))
@@ -161,13 +158,13 @@ def _points(name: str, values: ArrayLike, count: int) -> Floats:
 def fit(
     cover: Cover, degree: int, function: Callable[[int, Floats, Floats], ArrayLike], tolerance: float = 1e-10
 ) -> Floats:
-    """The coefficients (n, m) or (n, m, c) of local polynomials that can be evaluated.
+    """Fit local polynomials that can be evaluated: coefficients (n, m) or (n, m, c).
 
     Args:
         cover: The patches.
         degree: Total degree of the polynomials, at most 8.
         function: Called with a patch and arrays x and y of points in its frame; gives values of shape (k,) or (k, c).
-        tolerance: What the polynomial may miss, in parts of its largest coefficient of Chebyshev polynomials.
+        tolerance: Largest coefficient beyond the degree, relative to the largest one, of Chebyshev polynomials.
 
     Raises:
         BuildError: The function of a patch is no polynomial of this degree.
@@ -211,14 +208,14 @@ def _sampled(
 
 
 def _bounded(degree: int) -> int:
-    """The degree, asked before exact arithmetic makes long work of it."""
+    """Return the degree, checked before exact arithmetic makes long work of it."""
     if not isinstance(degree, Integral) or not 0 <= degree <= MAX_DEGREE:
         raise BuildError(f"degree: is {short(degree)}, expected 0 to {MAX_DEGREE}")
     return int(degree)
 
 
 def _recurrent(degree: int, factors: Callable[[int], tuple[Fraction, Fraction]]) -> list[Any]:
-    """Polynomials with p_{k+1} = a ξ p_k − b p_{k−1}."""
+    """Return polynomials with p_{k+1} = a ξ p_k − b p_{k−1}."""
     all_ = [X**0]
     for k in range(_bounded(degree)):
         a, b = factors(k)
@@ -237,13 +234,9 @@ def _basis(polynomials: Sequence[Any], order: Any, interval: tuple[float, float]
 
 
 def _order(order: Any, degree: int) -> Sequence[tuple[int, int]]:
-    each = range(degree + 1)
-    known = {
-        "total": exponents(degree),
-        "total-y": [(j, i) for i, j in exponents(degree)],
-        "tensor": [(i, j) for j in each for i in each],
-        "tensor-y": [(i, j) for i in each for j in each],
-    }
+    total, tensor = exponents(degree), exponents(degree, tensor=True)
+    known = {"total": total, "tensor": tensor}
+    known |= {f"{name}-y": [(j, i) for i, j in pairs] for name, pairs in known.items()}
     if not isinstance(order, str):
         return [(int(i), int(j)) for i, j in rows("order", order, 2)]
     if order not in known:

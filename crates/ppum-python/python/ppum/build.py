@@ -39,15 +39,13 @@ OF_PATCHES = ("level", "element", "order", "blocks", "functions")
 
 @takes(BuildOptions)
 def dataset(states: State | Sequence[State], **options: Unpack[BuildOptions]) -> Dataset:
-    """The dataset of arrays: one step, or the steps of a series on one domain. It is in memory, draws, evaluates and saves as
-    any other.
+    """Make the dataset of arrays: one step, or the steps of a series on one domain.
 
     `Coefficients.verify` is compared at 1000 random points, spread over the patches, and at 100 points close to both
-    sides of each crack. The largest difference is printed, and kept in `Step.history`, as ``verified NAME``.
+    sides of each crack. The largest difference is logged, and kept in `Step.history`, as ``verified NAME``.
 
     Raises:
-        BuildError: What is wrong, with the array, the row and the remedy, before anything is written; or a field that is
-            not the one of its `verify`.
+        BuildError: Arrays are wrong, with the array, the row and the remedy; or a field is not the one of its `verify`.
     """
     series, records = _series(states), dict[str, Any]()
     shared_options: Any = dict(options)
@@ -68,8 +66,9 @@ def dataset(states: State | Sequence[State], **options: Unpack[BuildOptions]) ->
 
 @takes(DatasetOptions)
 def arrays(states: State | Sequence[State], **options: Unpack[DatasetOptions]) -> Arrays:
-    """The arrays and attributes of a dataset by their paths in the file format (FORMAT.md, section 3), for files that are
-    written elsewhere: `dataset` hands them to `from_arrays`. Nothing is verified.
+    """Return arrays and attributes of a dataset by their paths in the file format (FORMAT.md, section 3).
+
+    They are for files that are written elsewhere, and what `dataset` hands to `from_arrays`. Nothing is verified.
 
     Example:
         >>> mesh = ppum.build.Mesh.from_nodes([[(0, 0), (2, 0), (0, 1)]])
@@ -96,10 +95,9 @@ def _series(states: Any) -> list[State]:
 
 
 def from_arrays(arrays: Mapping[str, Any]) -> Dataset:
-    """The dataset of arrays and attributes by the paths that the file format has for them (FORMAT.md, section 3), such as
-    ``steps/0000/partition/center`` and ``steps/0000@load``. `arrays` makes such arrays.
+    """Make the dataset of arrays and attributes by their paths in the file format (FORMAT.md, section 3), as of `arrays`.
 
-    Numbers become those of the format's types; objects that are not optional have to be there, but for ``@format`` and
+    Numbers become those of the format's types; objects that are not optional have to be there, except for ``@format`` and
     ``@format_version``.
 
     Raises:
@@ -117,7 +115,7 @@ def from_arrays(arrays: Mapping[str, Any]) -> Dataset:
 
 
 def _field_of(made: Dataset, arrays: Arrays, step: int, number: int) -> Any:
-    """A field of a step: only the first of a dataset can be evaluated, so another takes its place in a dataset of its own."""
+    """Return a field of a step: only the first of a dataset can be evaluated, so another takes its place in a copy."""
     if number == 0:
         return made.steps[step].field
     path = f"steps/{step:04}"
@@ -131,17 +129,12 @@ def _field_of(made: Dataset, arrays: Arrays, step: int, number: int) -> Any:
 
 
 def _step(path: str, state: State, equation: Elastic | Poisson | None, holes: Sequence[Hole]) -> Arrays:
-    cover = state.cover
-    fields = state.fields
-    if isinstance(fields, Coefficients):
-        fields = [fields]
+    cover, fields = state.cover, [state.fields] if isinstance(state.fields, Coefficients) else state.fields
     fields = listed("fields", fields, Coefficients, "ppum.build.Coefficients(name, blocks)")
     if not fields:
         raise BuildError("fields: a step needs at least one field; give ppum.build.Coefficients(name, blocks)")
-    cracks = [
-        rows(f"cracks[{k}]", c.points if isinstance(c, Crack) else c, 2)
-        for k, c in enumerate(sequence("cracks", state.cracks, "cracks, each its points"))
-    ]
+    given = enumerate(sequence("cracks", state.cracks, "cracks, each its points"))
+    cracks = [rows(f"cracks[{k}]", crack.points if isinstance(crack, Crack) else crack, 2) for k, crack in given]
     functions: dict[str, Any] = {"one": None}
     if "one" in mapping("functions", state.functions, "functions"):
         raise BuildError("functions['one']: is the function 1 already; give yours another name")
@@ -184,7 +177,7 @@ def _field(
 
 
 def _components(place: str, given: Coefficients, count: int, equation: Elastic | Poisson | None) -> list[str]:
-    """The names of the components, as many as the blocks have, and as the equation wants them."""
+    """Return the names of the components, as many as the blocks have, and as the equation wants them."""
     wanted = components_of(equation)
     if equation is not None:
         unknown = "potential" if isinstance(equation, Poisson) else "displacement"
@@ -216,7 +209,7 @@ def _names(name: str, count: int) -> list[str]:
 
 
 def _check_names(group: str, arrays: Arrays, equation: Elastic | Poisson | None) -> None:
-    """Refuses components' names that formulas cannot have for them."""
+    """Refuse components' names that formulas cannot have for them."""
     fields = [key.removesuffix("/components") for key in arrays if key.startswith(group) and key.endswith("/components")]
     for path, k, name in ((f, k, name) for f in fields for k, name in enumerate(arrays[f"{f}/components"])):
         if wrong := _unfit(name, _nameless(type(equation).__name__)):
@@ -227,7 +220,7 @@ def _check_names(group: str, arrays: Arrays, equation: Elastic | Poisson | None)
 
 
 def _unfit(name: str, field: Any) -> str | None:
-    """Why formulas of a field without names cannot have this name."""
+    """Return why formulas of a field without names cannot have this name."""
     try:
         field._core.check(f"let {name} = 1; {name}")
     except QuantityError as error:
@@ -237,7 +230,7 @@ def _unfit(name: str, field: Any) -> str | None:
 
 @lru_cache
 def _nameless(equation: str) -> Any:
-    """A field of an equation whose components have names that nobody gives: in its formulas all others are free."""
+    """Return a field of an equation whose components have names that nobody gives: in its formulas all others are free."""
     materials: dict[str, Elastic | Poisson] = {"Elastic": Elastic(1.0, 0.0), "Poisson": Poisson(1.0)}
     material = materials.get(equation)
     count, name = (2, "displacement") if equation == "Elastic" else (1, "potential")
@@ -257,7 +250,7 @@ def _attributes(attributes: Mapping[str, ArrayLike], patches: int) -> Arrays:
 
 
 def _check_attributes(state: State, field: Any) -> None:
-    """Refuses attributes that are never shown, since their names are those of something else."""
+    """Refuse attributes that are never shown, since their names are those of something else."""
     for name in state.attributes:
         if name in OF_PATCHES or field._is_quantity(name):
             raise BuildError(

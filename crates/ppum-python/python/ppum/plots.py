@@ -11,9 +11,8 @@ Example:
     ['syy', 'sxx']
 """
 
-import json
-from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, TypedDict, Unpack
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias, TypedDict, Unpack, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,7 +20,8 @@ from numpy.typing import ArrayLike, NDArray
 from . import _core, _sample
 from ._files import Page
 from ._options import Option, takes
-from ._sample import names_of
+from ._sample import PointOptions, names_of
+from ._text import one_of
 from ._units import pixels
 from ._warnings import warn
 
@@ -33,6 +33,8 @@ __all__ = ["Plot", "around", "circle", "convergence", "crack", "history", "line"
 
 Fields: TypeAlias = "Field | Mapping[str, Field]"
 Names = Sequence[str] | None
+Work = Literal["seconds", "bytes", "residuals", "levels"]
+Axis = Literal["step", "load", "length", "extension", "cycles"]
 
 
 class PlotOptions(TypedDict, total=False):
@@ -42,10 +44,8 @@ class PlotOptions(TypedDict, total=False):
     size: Annotated[tuple[int, int], Option((900, 600), "columns and rows of pixels")]
 
 
-class ProfileOptions(PlotOptions, total=False):
+class ProfileOptions(PlotOptions, PointOptions, total=False):
     """The points of a curve, and its plot."""
-
-    num: Annotated[int, Option(201, "number of points")]
 
 
 class StepOptions(PlotOptions, total=False):
@@ -57,14 +57,14 @@ class StepOptions(PlotOptions, total=False):
 class Plot(Page):
     """Curves over axes; made by the functions of `ppum.plots`. Notebooks show it; it can be pickled."""
 
-    def __init__(self, curves: Callable[..., _core.Curves], made_of: tuple[Any, ...], size: tuple[int, int]) -> None:
+    def __init__(self, kind: str, named: list[tuple[str, Any]], how: tuple[Any, ...], size: tuple[int, int]) -> None:
         super().__init__()
-        self._core, self._size = curves(*made_of), pixels(size)
-        self._again = curves, made_of, self._size
+        self._made_of, self._size = (kind, named, how, size), pixels(size)
+        self._core: _core.Curves = getattr(_core, kind)([(name, thing._core) for name, thing in named], *how)
         warn(*self._core.warnings())
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return Plot, self._again
+        return Plot, self._made_of
 
     @property
     def curves(self) -> list[tuple[str, NDArray[np.float64]]]:
@@ -83,7 +83,7 @@ class Plot(Page):
 def line(
     fields: Fields, start: ArrayLike, end: ArrayLike, quantities: Names = None, **options: Unpack[ProfileOptions]
 ) -> Plot:
-    """Quantities along a line."""
+    """Plot quantities along a line."""
     return _profiles(fields, _sample.line(start, end), quantities, options)
 
 
@@ -91,13 +91,13 @@ def line(
 def circle(
     fields: Fields, center: ArrayLike, radius: float, quantities: Names = None, **options: Unpack[ProfileOptions]
 ) -> Plot:
-    """Quantities on a circle, over the angle from the x axis, drawn in degrees."""
+    """Plot quantities on a circle, over the angle from the x axis, drawn in degrees."""
     return _profiles(fields, _sample.circle(center, radius), quantities, options)
 
 
 @takes(ProfileOptions)
 def crack(fields: Fields, crack: Any = 0, quantities: Names = None, **options: Unpack[ProfileOptions]) -> Plot:
-    """Opening and sliding along a crack, or quantities on both of its faces."""
+    """Plot opening and sliding along a crack, or quantities on both of its faces."""
     return _profiles(fields, _sample.along_crack(crack), quantities, options)
 
 
@@ -105,7 +105,7 @@ def crack(fields: Fields, crack: Any = 0, quantities: Names = None, **options: U
 def around(
     fields: Fields, tip: int, radius: float | None = None, quantities: Names = None, **options: Unpack[ProfileOptions]
 ) -> Plot:
-    """Quantities on a circle around a tip, over the angle from the crack's extension."""
+    """Plot quantities on a circle around a tip, over the angle from the crack's extension."""
     return _profiles(fields, _sample.around(tip, radius), quantities, options)
 
 
@@ -118,7 +118,7 @@ def ray(
     quantities: Names = None,
     **options: Unpack[ProfileOptions],
 ) -> Plot:
-    """Quantities on a ray from a tip, on logarithmic axes, with the exponents of their power laws near it.
+    """Plot quantities on a ray from a tip, on logarithmic axes, with the exponents of their power laws near it.
 
     Example:
         >>> plot = ppum.plots.ray(f, 1, quantities=["syy"])
@@ -132,25 +132,27 @@ def ray(
 def series(
     datasets: "Dataset | Mapping[str, Dataset]",
     numbers: Sequence[str] = ("k1", "k2"),
-    over: Literal["step", "load", "length", "extension", "cycles"] = "step",
+    over: Axis = "step",
     **options: Unpack[PlotOptions],
 ) -> Plot:
-    """Numbers of the steps of a series, ``k1``, ``k2``, ``load``, ``length``, ``extension``, over another one."""
+    """Plot numbers of the steps of a series, ``k1``, ``k2``, ``load``, ``length``, ``extension``, over another one."""
+    one_of("over", over, get_args(Axis))
     return _reports(datasets, {"series": {"numbers": names_of(numbers, "numbers"), "over": over}}, options)
 
 
 @takes(StepOptions)
 def history(
     datasets: "Dataset | Mapping[str, Dataset]",
-    what: Literal["seconds", "bytes", "residuals", "levels"] = "seconds",
+    what: Work = "seconds",
     **options: Unpack[StepOptions],
 ) -> Plot:
-    """The solver's work: seconds or bytes of its phases, residuals after each iteration, sizes of levels.
+    """Plot the solver's work: seconds or bytes of its phases, residuals after each iteration, sizes of levels.
 
     Example:
         >>> ppum.plots.history(ds).png()[1:4]
         b'PNG'
     """
+    one_of("what", what, get_args(Work))
     return _reports(datasets, {"history": {"what": what, "step": options["step"]}}, options)
 
 
@@ -158,11 +160,10 @@ def history(
 def convergence(
     datasets: "Dataset | Sequence[Dataset] | Mapping[str, Dataset]", **options: Unpack[StepOptions]
 ) -> Plot:
-    """Errors of solutions of one problem against their unknowns, with the exponents of their power laws.
+    """Plot errors of solutions of one problem against their unknowns, with the exponents of their power laws.
 
-    Of problems with an exact solution these are errors in the energy norm and in L²; of others the distances of energy and K
-    from those of the dataset with most unknowns. There are three datasets or more, of different numbers of unknowns; or one
-    whose steps are those of an adaptation.
+    These are errors in the energy norm and in L² if an exact solution is known, else the distances of energy and K from those
+    of the dataset with most unknowns. It takes three datasets or more of different sizes, or one with the steps of an adaptation.
     """
     if isinstance(datasets, Sequence):
         datasets = {f"dataset {k}": one for k, one in enumerate(datasets)}
@@ -171,21 +172,15 @@ def convergence(
 
 def _profiles(fields: Any, curve: dict[str, Any], quantities: Names, options: ProfileOptions) -> Plot:
     wanted = None if quantities is None else names_of(quantities)
-    how = _sample.curve_text(curve), options["num"], wanted, options["log"]
-    return Plot(_curves, ("profiles", _named(fields), *how), options["size"])
+    return Plot("profiles", _named(fields), (curve, options["num"], wanted, options["log"]), options["size"])
 
 
 def _reports(datasets: Any, kind: dict[str, Any], options: PlotOptions) -> Plot:
-    return Plot(_curves, ("told", _named(datasets), json.dumps(kind), options["log"]), options["size"])
+    return Plot("reports", _named(datasets), (kind, options["log"]), options["size"])
 
 
 def _named(things: Any) -> list[tuple[str, Any]]:
-    """Fields or datasets by name; a single one has the title of its dataset."""
+    """Return fields or datasets by name; a single one has the title of its dataset."""
     if isinstance(things, Mapping):
         return [(str(name), thing) for name, thing in things.items()]
     return [(getattr(things, "dataset", things).title or "a dataset", things)]
-
-
-def _curves(kind: Literal["profiles", "told"], named: list[tuple[str, Any]], *how: Any) -> _core.Curves:
-    made: _core.Curves = getattr(_core, kind)([(name, thing._core) for name, thing in named], *how)
-    return made

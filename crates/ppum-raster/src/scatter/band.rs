@@ -49,8 +49,8 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
         zero: R,
     ) {
         let list = tiles.patches_at(self.column, self.band);
-        if self.scene.plan.has_grains {
-            self.sum_grains(scratch, zero);
+        if self.scene.plan.is_per_patch {
+            self.sum_patches(scratch, zero);
             scratch.listed.clear();
         } else {
             self.choose_shift(list, &mut scratch.shift);
@@ -66,7 +66,7 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
         }
     }
 
-    /// A column of vectors: adds its strips, some at a time, and finishes it.
+    /// A column of vectors: adds its spans, some at a time, and finishes it.
     #[inline(always)]
     fn draw_vector<R: Real<Scalar = T>>(
         &self,
@@ -76,11 +76,11 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
         zero: R,
     ) {
         let len = ROWS * self.stride::<R>();
-        let start = if self.scene.plan.has_grains { vector * len } else { 0 };
+        let start = if self.scene.plan.is_per_patch { vector * len } else { 0 };
         if scratch.sums.len() < start + len {
             scratch.sums.resize(start + len, T::default());
         }
-        let (mut is_first, mut from) = (!self.scene.plan.has_grains, 0);
+        let (mut is_first, mut from) = (!self.scene.plan.is_per_patch, 0);
         loop {
             from = self.gather(vector, from, scratch, zero);
             let batch = PatchBatch { is_first, is_last: from == scratch.listed.len() };

@@ -136,14 +136,14 @@ fn collapse_degree<R: Real, const D: usize, const P: usize, const ADD: bool>(
 #[inline(always)]
 fn inner<R: Real, const D: usize>(c: &[R::Scalar], degree: usize, j: usize, xi: R) -> [R; 2] {
     let last = degree - j;
-    let (mut a, mut b) = (splat(xi, c[monomials(degree) - 1 - last]), xi.broadcast(0.0));
+    let (mut a, mut b) = (fill_lanes(xi, c[monomials(degree) - 1 - last]), xi.broadcast(0.0));
     let mut k = last;
     while k > 0 {
         if D >= 1 {
             b = if k == last { a } else { b.mul_add(xi, a) };
         }
         k -= 1;
-        a = a.mul_add(xi, splat(xi, c[monomials(j + k) - 1 - k]));
+        a = a.mul_add(xi, fill_lanes(xi, c[monomials(j + k) - 1 - k]));
     }
     [a, b]
 }
@@ -204,6 +204,6 @@ pub(super) fn put_sum<R: Real, const ADD: bool>(value: R, to: &mut [R::Scalar]) 
 
 /// A number in every lane.
 #[inline(always)]
-pub(super) fn splat<R: Real>(like: R, value: R::Scalar) -> R {
+pub(super) fn fill_lanes<R: Real>(like: R, value: R::Scalar) -> R {
     like.broadcast(value.to_f64())
 }

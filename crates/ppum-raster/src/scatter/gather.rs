@@ -1,4 +1,4 @@
-//! The patches at a column of vectors, collapsed to strips.
+//! The patches at a column of vectors, collapsed to spans.
 
 use std::ops::Range;
 
@@ -9,19 +9,19 @@ use ppum::real::{LaneNumber, Real};
 use super::collapse::{Across, ROWS, WeightFactor, collapse, put_sum, table_len};
 use super::layout::{basis_len, size, weight_len};
 use super::plan::{Affine, COLUMNS, VisiblePatch};
-use super::strips::{BlockTerm, ColumnSpan, ColumnSpans, DOWN};
+use super::spans::{BlockTerm, ColumnSpan, ColumnSpans, DOWN};
 use super::tile::{ActiveGroup, Tile, TilePatch, TileScratch};
 use crate::summation::Savings;
 
-/// Groups of functions that are kept at a time for the strips of a tile, more if one strip has
+/// Groups of functions that are kept at a time for the spans of a tile, more if one span has
 /// them: 6 MB.
 const MOST_ACTIVE: usize = 256;
 
-/// True if there is no room for another strip.
+/// True if there is no room for another span.
 #[inline]
 fn is_full<T>(scratch: &TileScratch<T>, numbers: usize) -> bool {
-    let is_full = scratch.strips.used > numbers || scratch.active.len() > MOST_ACTIVE;
-    is_full && !scratch.strips.all.is_empty()
+    let is_full = scratch.spans.used > numbers || scratch.active.len() > MOST_ACTIVE;
+    is_full && !scratch.spans.all.is_empty()
 }
 
 /// The place of a group among the active ones, with others or as a new one, needed on some rows.
@@ -73,7 +73,7 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
         }
     }
 
-    /// Collapses patches at a column of vectors to strips, from one of the list on as many as there
+    /// Collapses patches at a column of vectors to spans, from one of the list on as many as there
     /// is room for; returns the first that is left.
     #[inline(always)]
     pub(super) fn gather<R: Real<Scalar = T>>(
@@ -85,7 +85,7 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
     ) -> usize {
         let plan = &self.scene.plan;
         let Savings { merge_patches, table_numbers, .. } = self.scene.savings;
-        scratch.strips.clear();
+        scratch.spans.clear();
         scratch.active.clear();
         let pixel = self.corner()[0] + vector * R::LANES;
         let x = zero.load(&self.scene.xs[pixel..]);
@@ -95,37 +95,37 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
             let listed = scratch.listed[next];
             if listed.columns & columns != 0 {
                 let patch = (&plan.patches[listed.patch as usize], listed.start);
-                match scratch.strips.find(patch.0, merge_patches) {
+                match scratch.spans.find(patch.0, merge_patches) {
                     Ok(place) => self.collapse::<R, true>(patch, place, (x, pixel), scratch),
                     Err(_) if is_full(scratch, table_numbers) => break,
                     Err(slot) => {
-                        let place = self.add_strip(listed.patch, slot, scratch, zero);
+                        let place = self.add_span(listed.patch, slot, scratch, zero);
                         self.collapse::<R, false>(patch, place, (x, pixel), scratch);
                     }
                 }
             }
             next += 1;
         }
-        let ColumnSpans { all, tables, .. } = &mut scratch.strips;
-        for strip in all {
-            strip.is_full = !R::any(zero.ge(zero.load(&tables[strip.table..])));
+        let ColumnSpans { all, tables, .. } = &mut scratch.spans;
+        for span in all {
+            span.is_full = !R::any(zero.ge(zero.load(&tables[span.table..])));
         }
         next
     }
 
-    /// A strip of one patch, whose tables are still to be filled.
+    /// A span of one patch, whose tables are still to be filled.
     #[inline(always)]
-    fn add_strip<R: Real<Scalar = T>>(
+    fn add_span<R: Real<Scalar = T>>(
         &self,
         index: u32,
         slot: usize,
         scratch: &mut TileScratch<T>,
         zero: R,
     ) -> usize {
-        let TileScratch { strips, places, active, shift, .. } = scratch;
+        let TileScratch { spans, places, active, shift, .. } = scratch;
         let patch = &self.scene.plan.patches[index as usize];
         let [_, rows] = self.within(patch);
-        let (first, mut len) = (strips.terms.len(), 0);
+        let (first, mut len) = (spans.terms.len(), 0);
         for block in &self.scene.plan.blocks[patch.blocks()] {
             let degree = block.degree.into();
             let function = match block.function {
@@ -135,22 +135,22 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
                     Some(place * basis_len::<R, D>() + entry as usize * size::<R, D>())
                 }
             };
-            strips.terms.push(BlockTerm { degree, len: table_len::<R, D>(degree), function });
+            spans.terms.push(BlockTerm { degree, len: table_len::<R, D>(degree), function });
             len += table_len::<R, D>(degree);
         }
-        let strip = ColumnSpan {
+        let span = ColumnSpan {
             support: patch.support[1],
             frame: patch.frame[1],
             kind: patch.kind,
             rows: rows.clone(),
-            table: strips.used,
+            table: spans.used,
             len,
-            terms: first..strips.terms.len(),
+            terms: first..spans.terms.len(),
             is_full: false,
             is_divided: false,
         };
-        let place = strips.push(strip, weight_len::<R, D>() + len * shift.len(), slot);
-        let down = &mut strips.down[DOWN * place..][..DOWN];
+        let place = spans.push(span, weight_len::<R, D>() + len * shift.len(), slot);
+        let down = &mut spans.down[DOWN * place..][..DOWN];
         let mut lane = rows.start / R::LANES * R::LANES;
         while lane < rows.end {
             let first = self.corner()[1] + lane;
@@ -165,7 +165,7 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
     }
 
     /// Writes what a patch, whose coefficients begin at a place, collapses to at a vector of
-    /// columns to the tables of its strip, or adds it.
+    /// columns to the tables of its span, or adds it.
     #[inline(always)]
     fn collapse<R: Real<Scalar = T>, const ADD: bool>(
         &self,
@@ -175,11 +175,11 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
         scratch: &mut TileScratch<T>,
     ) {
         let TileScratch {
-            strips: ColumnSpans { all, terms, tables, .. }, coefficients, shift, ..
+            spans: ColumnSpans { all, terms, tables, .. }, coefficients, shift, ..
         } = scratch;
-        let strip = &all[place];
-        let terms = &terms[strip.terms.clone()];
-        let tables = &mut tables[strip.table..];
+        let span = &all[place];
+        let terms = &terms[span.terms.clone()];
+        let tables = &mut tables[span.table..];
         let factor = self.factor(x, patch.support[0], pixel);
         put_sum::<R, ADD>(factor.value, tables);
         if D >= 1 {
@@ -220,18 +220,18 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
         WeightFactor { value, slope: slope * xi.broadcast(support.scale) }
     }
 
-    /// Divides the tables of a strip by the weight's factor.
+    /// Divides the tables of a span by the weight's factor.
     #[inline(always)]
-    pub(super) fn divide_strip<R: Real<Scalar = T>>(
+    pub(super) fn divide_span<R: Real<Scalar = T>>(
         &self,
-        strip: &mut ColumnSpan,
+        span: &mut ColumnSpan,
         (from, to): (&[T], &mut [T]),
         components: usize,
         zero: R,
     ) {
-        strip.is_divided = true;
-        let len = weight_len::<R, D>() + strip.len * components;
-        let (from, to) = (&from[strip.table..][..len], &mut to[strip.table..][..len]);
+        span.is_divided = true;
+        let len = weight_len::<R, D>() + span.len * components;
+        let (from, to) = (&from[span.table..][..len], &mut to[span.table..][..len]);
         let inverse = zero.broadcast(1.0) / zero.load(from);
         let slope = if D >= 1 { zero.load(&from[R::LANES..]) } else { zero };
         let mut at = weight_len::<R, D>();

@@ -18,18 +18,18 @@ const TILE: usize = 128;
 
 /// Evaluates some bands of rows at a time, seen from the view's centre, and gives `take` their
 /// values in order.
-pub(super) fn render_strips(
+pub(super) fn render_batches(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
-    strips: &RowBatches,
+    batches: &RowBatches,
     watcher: &dyn Watcher,
     take: &mut dyn FnMut(Vec<f64>),
 ) -> Result<(), RasterError> {
     let columns = view.pixels[0] as usize;
-    let parts = Parts::start(watcher, strips.bands())?;
+    let parts = Parts::start(watcher, batches.bands())?;
     let seen = field.at(view.center);
-    for rows in strips.each() {
+    for rows in batches.each() {
         let mut values = vec![f64::NAN; columns * rows.len()];
         let bands = values.par_chunks_mut(columns * ROWS).enumerate();
         bands.try_for_each_init(

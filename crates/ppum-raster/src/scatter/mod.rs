@@ -10,7 +10,7 @@
 //! quantity made. No patch list is searched at a pixel, and no pixel lies in a special case: any
 //! cover, any degree, any number of functions. At a vector of columns a patch's weight and
 //! polynomials collapse to polynomials in y (module `collapse`), those of patches beside each other
-//! to one (`strips`). Row by row (`sweep`) these are summed and divided in registers (`sums`), and
+//! to one (`spans`). Row by row (`sweep`) these are summed and divided in registers (`sums`), and
 //! the quantity is made while all is in the nearest cache (`finish`). Functions are evaluated once
 //! for a column, and only where a patch needs them. Where patches are too small for that to pay
 //! they are summed one by one instead (`patch_sums`).
@@ -34,7 +34,7 @@ mod mesh;
 mod patch_sums;
 mod plan;
 mod schedule;
-mod strips;
+mod spans;
 mod sums;
 mod sweep;
 mod tile;
@@ -57,7 +57,7 @@ use crate::summation::Summation;
 use crate::view::View;
 use band::Band;
 use collapse::ROWS;
-use plan::strips;
+use plan::band_batches;
 use tile::TileScratch;
 use view_data::PreparedView;
 
@@ -84,7 +84,7 @@ pub fn render<T: RasterValue>(
     quantity: &Quantity,
     watcher: &dyn Watcher,
 ) -> Result<Raster<T>, RasterError> {
-    T::render(field, view, quantity, watcher)
+    render_with(field, view, quantity, Summation::Automatic, watcher)
 }
 
 /// The values of [`render`] by a given summation, for tests and measurements. They differ from
@@ -100,8 +100,8 @@ pub fn render_with<T: RasterValue>(
     watcher: &dyn Watcher,
 ) -> Result<Raster<T>, RasterError> {
     let mut values = Vec::new();
-    let strips = RowBatches::whole(view, view.pixels[1]);
-    T::render_strips(field, view, quantity, summation, strips, watcher, &mut |v| values = v)?;
+    let batches = RowBatches::whole(view, view.pixels[1]);
+    T::render_batches(field, view, quantity, summation, batches, watcher, &mut |v| values = v)?;
     Ok(Raster::new(view.pixels, values))
 }
 
@@ -123,18 +123,18 @@ pub fn render_rows<T: RasterValue>(
     let is_whole = rows.start.is_multiple_of(BAND) && rows.end <= view.pixels[1];
     assert!(is_whole, "rows {rows:?} do not begin at a band, or are not in the view");
     let (mut values, height) = (Vec::new(), rows.len() as u32);
-    let (strips, summation) = (RowBatches::new(rows, height), Summation::Automatic);
-    T::render_strips(field, view, quantity, summation, strips, watcher, &mut |v| values = v)?;
+    let (batches, summation) = (RowBatches::new(rows, height), Summation::Automatic);
+    T::render_batches(field, view, quantity, summation, batches, watcher, &mut |v| values = v)?;
     Ok(values)
 }
 
-/// The values of [`render`], to the last bit, a strip at a time, for views of more pixels than are
-/// to be held at once: `take` is given the values of the strips from the top, each of `rows` rows,
+/// The values of [`render`], to the last bit, a batch at a time, for views of more pixels than are
+/// to be held at once: `take` is given the values of the batches from the top, each of `rows` rows,
 /// rounded up to whole bands of 32, except for the last one.
 ///
 /// # Errors
 /// Those of [`render`].
-pub fn render_strips<T: RasterValue>(
+pub fn render_batches<T: RasterValue>(
     field: &Field<'_>,
     view: &View,
     quantity: &Quantity,
@@ -142,8 +142,8 @@ pub fn render_strips<T: RasterValue>(
     watcher: &dyn Watcher,
     take: &mut dyn FnMut(Vec<T>),
 ) -> Result<(), RasterError> {
-    let strips = RowBatches::whole(view, rows);
-    T::render_strips(field, view, quantity, Summation::Automatic, strips, watcher, take)
+    let batches = RowBatches::whole(view, rows);
+    T::render_batches(field, view, quantity, Summation::Automatic, batches, watcher, take)
 }
 
 macro_rules! sample {
@@ -151,47 +151,36 @@ macro_rules! sample {
         impl RasterValue for $t {
             const SAME: f64 = $same;
 
-            fn render(
-                field: &Field<'_>,
-                view: &View,
-                quantity: &Quantity,
-                watcher: &dyn Watcher,
-            ) -> Result<Raster<Self>, RasterError> {
-                render_with(field, view, quantity, Summation::Automatic, watcher)
-            }
-
             fn sample_slice(values: &[Self]) -> SampleSlice<'_> {
                 SampleSlice::$kind(values)
             }
 
-            fn render_strips(
+            fn render_batches(
                 field: &Field<'_>,
                 view: &View,
                 quantity: &Quantity,
                 summation: Summation,
-                strips: RowBatches,
+                batches: RowBatches,
                 watcher: &dyn Watcher,
                 take: &mut dyn FnMut(Vec<Self>),
             ) -> Result<(), RasterError> {
                 quantity.check(field)?;
+                let narrowed =
+                    &mut |wide: Vec<f64>| take(wide.into_iter().map(<$t>::from_f64).collect());
                 if field.step.partition.mesh().is_some() {
-                    let take = &mut |wide: Vec<f64>| {
-                        take(wide.into_iter().map(<$t>::from_f64).collect());
-                    };
-                    return mesh::render_strips(field, view, quantity, &strips, watcher, take);
+                    return mesh::render_batches(
+                        field, view, quantity, &batches, watcher, narrowed,
+                    );
                 }
                 if !resolves::<$t>(view.pixel_size()) {
-                    let mut narrowed =
-                        |wide: Vec<f64>| take(wide.into_iter().map(<$t>::from_f64).collect());
-                    let take = &mut narrowed;
-                    return f64::render_strips(
-                        field, view, quantity, summation, strips, watcher, take,
+                    return f64::render_batches(
+                        field, view, quantity, summation, batches, watcher, narrowed,
                     );
                 }
                 let scene = PreparedView::<$t>::new(field, view, quantity, summation);
                 match quantity.source() {
-                    Source::Gradient => scene.draw::<1>(&strips, watcher, take)?,
-                    _ => scene.draw::<0>(&strips, watcher, take)?,
+                    Source::Gradient => scene.draw::<1>(&batches, watcher, take)?,
+                    _ => scene.draw::<0>(&batches, watcher, take)?,
                 }
                 Ok(())
             }
@@ -210,7 +199,7 @@ fn resolves<T: LaneNumber>(length: f64) -> bool {
 }
 
 impl<T: RasterValue> PreparedView<'_, T> {
-    /// Draws with `D` derivatives, a strip at a time, whose rows `take` is given in order; bands of
+    /// Draws with `D` derivatives, a batch at a time, whose rows `take` is given in order; bands of
     /// rows in parallel.
     fn draw<const D: usize>(
         &self,
@@ -224,10 +213,10 @@ impl<T: RasterValue> PreparedView<'_, T> {
         for rows in rows.each() {
             let mut values = zeros(columns * rows.len());
             let mut rest = values.as_mut_slice();
-            for bands in strips(rows.start / ROWS..rows.end.div_ceil(ROWS), &entries) {
+            for bands in band_batches(rows.start / ROWS..rows.end.div_ceil(ROWS), &entries) {
                 let pixels = rest.len().min(bands.len() * columns * ROWS);
-                let (strip, later) = rest.split_at_mut(pixels);
-                self.draw_strip::<D>(bands, strip, &parts)?;
+                let (batch, later) = rest.split_at_mut(pixels);
+                self.draw_batch::<D>(bands, batch, &parts)?;
                 rest = later;
             }
             take(values);
@@ -235,14 +224,14 @@ impl<T: RasterValue> PreparedView<'_, T> {
         Ok(())
     }
 
-    fn draw_strip<const D: usize>(
+    fn draw_batch<const D: usize>(
         &self,
         bands: Range<usize>,
-        strip: &mut [T],
+        batch: &mut [T],
         parts: &Parts<'_>,
     ) -> Result<(), Cancelled> {
         let tiles = &self.plan.tiles(&bands);
-        let chunks = strip.par_chunks_mut(self.view.pixels[0] as usize * ROWS).enumerate();
+        let chunks = batch.par_chunks_mut(self.view.pixels[0] as usize * ROWS).enumerate();
         chunks.try_for_each_init(TileScratch::default, |scratch, (k, out)| {
             let (scene, band) = (self, bands.start + k);
             T::dispatch(Band::<'_, '_, T, D> { scene, tiles, band, scratch, out: &mut *out });

@@ -1,6 +1,6 @@
 //! Separate sums for patches of a few pixels each.
 //!
-//! A strip is not worth its tables there. Each tile asks the search tree for its patches, so
+//! A row span is not worth its tables there. Each tile asks the search tree for its patches, so
 //! nothing is made for all of them at once, and evaluates each row by row,
 //!
 //! ```text
@@ -9,8 +9,8 @@
 //!
 //! pixel by pixel where it has few columns, else on vectors that may reach beyond them: the weight
 //! is zero there. W and W v are added to sums in memory, in the order of the patches, so a pixel's
-//! sums do not depend on the number of lanes. They are then what a batch of strips leaves; the last
-//! batch, of no strips, finishes them.
+//! sums do not depend on the number of lanes. They are then what a batch of spans leaves; the last
+//! batch, of no spans, finishes them.
 
 use ppum::crack::Side;
 use ppum::dataset::monomials;
@@ -22,7 +22,7 @@ use ppum::vec2::{Vec2, vec2};
 
 use super::collapse::{ROWS, numbers};
 use super::plan::{Affine, COLUMNS, PatchBlock, VisiblePatch, add_blocks};
-use super::tile::{Grains, Tile, TileScratch};
+use super::tile::{PatchSums, Tile, TileScratch};
 use crate::pixels::Pixels;
 
 /// Columns of a patch up to which its pixels are taken one by one.
@@ -49,30 +49,30 @@ struct RowSpan {
 impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
     /// Sums over all patches of the tile.
     #[inline(always)]
-    pub(super) fn sum_grains<R: Real<Scalar = T>>(&self, scratch: &mut TileScratch<T>, zero: R) {
-        self.find_grains(scratch);
+    pub(super) fn sum_patches<R: Real<Scalar = T>>(&self, scratch: &mut TileScratch<T>, zero: R) {
+        self.find_patches(scratch);
         let pixels = Pixels::new(&self.scene.view);
         let mut k = 0;
-        while k < scratch.grains.found.len() {
-            let patch = self.scene.plan.patch(scratch.grains.found[k], &pixels);
-            self.add_grain(&patch, scratch, zero);
+        while k < scratch.patch_sums.found.len() {
+            let patch = self.scene.plan.patch(scratch.patch_sums.found[k], &pixels);
+            self.add_patch(&patch, scratch, zero);
             k += 1;
         }
         self.spread_sums::<R>(scratch, zero);
     }
 
     /// Finds the patches of the tile, chooses the constants to subtract, and begins the sums.
-    fn find_grains(&self, scratch: &mut TileScratch<T>) {
-        let TileScratch { grains, shift, .. } = scratch;
+    fn find_patches(&self, scratch: &mut TileScratch<T>) {
+        let TileScratch { patch_sums, shift, .. } = scratch;
         let (scene, corner) = (self.scene, self.corner());
         let end = |k: usize, size: usize| (corner[k] + size).min(scene.view.pixels[k] as usize);
         let window = Pixels::new(&scene.view)
             .window_of([corner[0]..end(0, COLUMNS), corner[1]..end(1, ROWS)]);
-        grains.found.clear();
-        scene.field.tree.query_box(&window, &mut grains.found);
-        scene.plan.middle(&grains.found, shift);
-        grains.sums.clear();
-        grains.sums.resize(ROWS * WIDTH * self.numbers(), T::default());
+        patch_sums.found.clear();
+        scene.field.tree.query_box(&window, &mut patch_sums.found);
+        scene.plan.middle(&patch_sums.found, shift);
+        patch_sums.sums.clear();
+        patch_sums.sums.resize(ROWS * WIDTH * self.numbers(), T::default());
     }
 
     /// Numbers at a point.
@@ -82,7 +82,7 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
 
     /// Adds a patch.
     #[inline(always)]
-    fn add_grain<R: Real<Scalar = T>>(
+    fn add_patch<R: Real<Scalar = T>>(
         &self,
         patch: &VisiblePatch,
         scratch: &mut TileScratch<T>,
@@ -105,10 +105,10 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
                     cell: row * self.numbers() * WIDTH + column,
                 };
                 if columns.len() <= NARROW {
-                    self.add_pixels(patch, span, &mut scratch.grains, T::default());
+                    self.add_pixels(patch, span, &mut scratch.patch_sums, T::default());
                     column += 1;
                 } else {
-                    self.add_pixels(patch, span, &mut scratch.grains, zero);
+                    self.add_pixels(patch, span, &mut scratch.patch_sums, zero);
                     column += R::LANES;
                 }
             }
@@ -118,18 +118,23 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
     /// Reads the blocks of a patch.
     #[inline(always)]
     fn take_blocks(&self, patch: &VisiblePatch, scratch: &mut TileScratch<T>) {
-        let TileScratch { grains, shift, .. } = scratch;
+        let TileScratch { patch_sums, shift, .. } = scratch;
         let plan = &self.scene.plan;
-        grains.blocks.clear();
-        add_blocks(self.scene.field, patch.index as usize, self.scene.quantity, &mut grains.blocks);
-        grains.smooth.clear();
-        let Some(first) = grains.blocks.first() else { return };
+        patch_sums.blocks.clear();
+        add_blocks(
+            self.scene.field,
+            patch.index as usize,
+            self.scene.quantity,
+            &mut patch_sums.blocks,
+        );
+        patch_sums.smooth.clear();
+        let Some(first) = patch_sums.blocks.first() else { return };
         let count = monomials(first.degree.into());
         for (component, shift) in shift.iter().enumerate() {
-            let at = grains.smooth.len();
+            let at = patch_sums.smooth.len();
             let all = &plan.block_coefficients(first, component)[..count];
-            grains.smooth.extend(all.iter().map(|&c| T::from_f64(c)));
-            grains.smooth[at] = T::from_f64(all[0] - shift);
+            patch_sums.smooth.extend(all.iter().map(|&c| T::from_f64(c)));
+            patch_sums.smooth[at] = T::from_f64(all[0] - shift);
         }
     }
 
@@ -139,21 +144,21 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
         &self,
         patch: &VisiblePatch,
         span: RowSpan,
-        grains: &mut Grains<T>,
+        patch_sums: &mut PatchSums<T>,
         zero: R,
     ) {
         let components = self.scene.plan.coefficients.len();
         let size = numbers::<D>() * WIDTH;
-        let weight = self.grain_weight(patch, span, zero);
-        add_jet::<R, D>(weight, &mut grains.sums[span.cell..], zero);
+        let weight = self.patch_weight(patch, span, zero);
+        add_jet::<R, D>(weight, &mut patch_sums.sums[span.cell..], zero);
         let mut component = 0;
         while component < components {
             let count = TOGETHER.min(components - component);
-            let v = self.grain_field(patch, span, [component, count], grains, zero);
+            let v = self.patch_field(patch, span, [component, count], patch_sums, zero);
             let mut c = 0;
             while c < count {
                 let cell = span.cell + (1 + component + c) * size;
-                add_jet::<R, D>(weight.times::<D>(v[c]), &mut grains.sums[cell..], zero);
+                add_jet::<R, D>(weight.times::<D>(v[c]), &mut patch_sums.sums[cell..], zero);
                 c += 1;
             }
             component += TOGETHER;
@@ -162,7 +167,7 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
 
     /// W at a vector of pixels.
     #[inline(always)]
-    fn grain_weight<R: Real<Scalar = T>>(
+    fn patch_weight<R: Real<Scalar = T>>(
         &self,
         patch: &VisiblePatch,
         span: RowSpan,
@@ -185,22 +190,22 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
 
     /// v of some components at a vector of pixels.
     #[inline(always)]
-    fn grain_field<R: Real<Scalar = T>>(
+    fn patch_field<R: Real<Scalar = T>>(
         &self,
         patch: &VisiblePatch,
         span: RowSpan,
         [first, count]: [usize; 2],
-        grains: &Grains<T>,
+        patch_sums: &PatchSums<T>,
         zero: R,
     ) -> [Jet<R>; TOGETHER] {
         let xi = self.coordinates(&patch.frame, span, zero);
         let mut v = [Jet::constant(zero); TOGETHER];
-        let Some((smooth, others)) = grains.blocks.split_first() else { return v };
+        let Some((smooth, others)) = patch_sums.blocks.split_first() else { return v };
         let degree = smooth.degree.into();
         let mut c = 0;
         while c < count {
-            let all = &grains.smooth[(first + c) * monomials(degree)..];
-            v[c] = grain_polynomial::<R, D>(all, degree, xi, patch);
+            let all = &patch_sums.smooth[(first + c) * monomials(degree)..];
+            v[c] = patch_polynomial::<R, D>(all, degree, xi, patch);
             c += 1;
         }
         if !others.is_empty() {
@@ -227,7 +232,7 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
             let mut c = 0;
             while c < v.len() {
                 let all = plan.block_coefficients(block, first + c);
-                let mut p = grain_polynomial::<R, D>(all, degree, xi, patch);
+                let mut p = patch_polynomial::<R, D>(all, degree, xi, patch);
                 if let Slot::Jet { group: of, entry } = block.function {
                     if group != Some(of) {
                         self.functions_at(of, span, &mut jets);
@@ -270,15 +275,15 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
         [ramp(zero).mul_add(step, zero.broadcast(xi)), zero.broadcast(eta)]
     }
 
-    /// Puts the sums where strips leave theirs.
+    /// Puts the sums where spans leave theirs.
     #[inline(always)]
     fn spread_sums<R: Real<Scalar = T>>(&self, scratch: &mut TileScratch<T>, zero: R) {
-        let TileScratch { grains, sums, .. } = scratch;
+        let TileScratch { patch_sums, sums, .. } = scratch;
         let (vectors, numbers) = (COLUMNS / R::LANES, self.numbers());
         if sums.len() < vectors * ROWS * self.stride::<R>() {
             sums.resize(vectors * ROWS * self.stride::<R>(), T::default());
         }
-        for (line, from) in grains.sums.chunks_exact(WIDTH).enumerate() {
+        for (line, from) in patch_sums.sums.chunks_exact(WIDTH).enumerate() {
             let mut vector = 0;
             while vector < vectors {
                 let to = (vector * ROWS * numbers + line) * R::LANES;
@@ -297,7 +302,7 @@ fn ramp<R: Real>(like: R) -> R {
 
 /// A polynomial with derivatives in the world.
 #[inline(always)]
-fn grain_polynomial<R: Real, const D: usize>(
+fn patch_polynomial<R: Real, const D: usize>(
     coefficients: &[impl LaneNumber],
     degree: usize,
     xi: [R; 2],

@@ -94,7 +94,7 @@ pub(super) struct ViewPlan<'f> {
     /// True if the patches at a point are counted: their weights are 1.
     pub(super) is_overlap: bool,
     /// True if the patches are summed one by one (`patch_sums`): then none is listed here.
-    pub(super) has_grains: bool,
+    pub(super) is_per_patch: bool,
     pub(super) patches: Vec<VisiblePatch>,
     pub(super) blocks: Vec<PatchBlock>,
     /// Coefficients of each component.
@@ -129,8 +129,8 @@ impl<'f> ViewPlan<'f> {
         let pixels = Pixels::new(view);
         let mut visible = Vec::new();
         field.tree.query_box(&pixels.window(), &mut visible);
-        let has_grains = has_grains(field, view.center, &pixels, &visible, most_pixels);
-        if has_grains {
+        let is_per_patch = is_per_patch(field, view.center, &pixels, &visible, most_pixels);
+        if is_per_patch {
             visible.clear();
         }
         let count = visible.iter().map(|&i| 1 + field.data.blocks(i as usize).len()).sum();
@@ -140,7 +140,7 @@ impl<'f> ViewPlan<'f> {
             quantity,
             pixel: view.pixel_size(),
             is_overlap: *quantity == Quantity::Overlap,
-            has_grains,
+            is_per_patch,
             patches: Vec::new(),
             blocks: Vec::with_capacity(count),
             coefficients: coefficients(field.data, quantity),
@@ -253,9 +253,9 @@ impl ListNumbers {
 }
 
 /// True if patches are summed one by one: if on average those of a sample have fewer pixels than so
-/// many. Weights by formula are found for many pixels of strips at a time, and would be dear one by
+/// many. Weights by formula are found for many pixels of spans at a time, and would be dear one by
 /// one.
-fn has_grains(
+fn is_per_patch(
     field: &Field,
     anchor: Vec2,
     pixels: &Pixels<'_>,
@@ -331,26 +331,26 @@ fn holes(holes: &[Hole], anchor: Vec2, pixels: &Pixels) -> Vec<HolePixels> {
     seen.filter(|hole| !hole.columns.is_empty() && !hole.rows.is_empty()).collect()
 }
 
-/// Most patches in the lists of a strip's tiles, unless one band has more: 128 MiB. A million
+/// Most patches in the lists of a batch's tiles, unless one band has more: 128 MiB. A million
 /// patches that an image resolves have two million entries.
 const MOST_ENTRIES: usize = 1 << 25;
 
-/// Some bands in strips whose lists of patches, of so many entries a band, are short enough to be
+/// Some bands in batches whose lists of patches, of so many entries a band, are short enough to be
 /// kept; all of them where they can be.
-pub(super) fn strips(bands: Range<usize>, entries: &[usize]) -> Vec<Range<usize>> {
-    let (mut strips, mut start, mut sum) = (Vec::new(), bands.start, 0);
+pub(super) fn band_batches(bands: Range<usize>, entries: &[usize]) -> Vec<Range<usize>> {
+    let (mut batches, mut start, mut sum) = (Vec::new(), bands.start, 0);
     for band in bands.clone() {
         if band > start && sum + entries[band] > MOST_ENTRIES {
-            strips.push(start..band);
+            batches.push(start..band);
             (start, sum) = (band, 0);
         }
         sum += entries[band];
     }
-    strips.push(start..bands.end);
-    strips
+    batches.push(start..bands.end);
+    batches
 }
 
-/// The patches of each tile of a strip in compressed rows.
+/// The patches of each tile of a batch in compressed rows.
 #[derive(Debug)]
 pub(super) struct Tiles {
     /// Number of tiles in a band.

@@ -40,7 +40,7 @@ impl<'f> Schedule<'f> {
     /// True if the view is summed per patch, false if in row spans.
     #[must_use]
     pub fn is_per_patch(&self) -> bool {
-        self.scene.plan.has_grains
+        self.scene.plan.is_per_patch
     }
 
     /// Patches that are listed in advance: those in the view, or none if it is summed per patch,
@@ -68,7 +68,7 @@ impl<'f> Schedule<'f> {
         for column in 0..COLUMNS {
             let count = tile.gather(column, 0, &mut scratch, 0.0f64);
             load.first_batch = load.first_batch.min(count);
-            load.row_spans += scratch.strips.all.len();
+            load.row_spans += scratch.spans.all.len();
         }
         load
     }

@@ -1,4 +1,4 @@
-//! The sums of a span of rows over its strips, in registers.
+//! The sums of a span of rows over its spans, in registers.
 //!
 //! ```text
 //! S = Σ W     U = Σ W v     u = U / S     ∇u = (∇U − u ∇S) / S
@@ -8,15 +8,17 @@ use std::ops::Range;
 
 use ppum::real::{LaneNumber, Real};
 
-use super::collapse::{ANY, ROWS, Slopes, WeightFactor, constant_or, evaluate, splat, table_len};
+use super::collapse::{
+    ANY, ROWS, Slopes, WeightFactor, constant_or, evaluate, fill_lanes, table_len,
+};
 use super::layout::{basis_stride, load_slopes, size, store_slopes, weight_len};
-use super::strips::{BlockTerm, ColumnSpan, DOWN};
+use super::spans::{BlockTerm, ColumnSpan, DOWN};
 use super::tile::PatchBatch;
 
 /// Where the sums of some rows come from and go to.
 pub(super) struct RowSums<'a, T> {
     pub(super) rows: Range<usize>,
-    pub(super) strips: &'a [ColumnSpan],
+    pub(super) spans: &'a [ColumnSpan],
     pub(super) here: &'a [usize],
     pub(super) terms: &'a [BlockTerm],
     pub(super) tables: &'a [T],
@@ -43,9 +45,9 @@ impl From {
     }
 }
 
-/// Some components of a strip.
+/// Some components of a span.
 struct SpanComponents<'a, T, const C: usize> {
-    strip: &'a ColumnSpan,
+    span: &'a ColumnSpan,
     /// The degree of the smooth block, and its tables.
     degree: usize,
     smooth: [&'a [T]; C],
@@ -59,12 +61,12 @@ impl<'a, T: LaneNumber> RowSums<'a, T> {
     #[inline]
     pub(super) fn common_degree(&self) -> usize {
         let degree =
-            |at: &usize| self.terms.get(self.strips[*at].terms.start).map_or(0, |term| term.degree);
+            |at: &usize| self.terms.get(self.spans[*at].terms.start).map_or(0, |term| term.degree);
         let Some(first) = self.here.first().map(degree) else { return ANY };
         if self.here.iter().all(|at| degree(at) == first) { first } else { ANY }
     }
 
-    /// Sums over the strips, whose smooth blocks have the degree `P`, `C` components at a time;
+    /// Sums over the spans, whose smooth blocks have the degree `P`, `C` components at a time;
     /// nothing is to be summed where one of them is `ALONE`.
     #[inline(always)]
     pub(super) fn sum<
@@ -80,15 +82,15 @@ impl<'a, T: LaneNumber> RowSums<'a, T> {
     ) {
         let components = if C == 2 { 2 } else { components };
         if ALONE {
-            self.take_strip::<R, D, P, C>(components, zero);
+            self.take_span::<R, D, P, C>(components, zero);
         } else {
-            self.add_strips::<R, D, P, C>(components, zero);
+            self.add_spans::<R, D, P, C>(components, zero);
         }
     }
 
-    /// The rows of a strip that is alone.
+    /// The rows of a span that is alone.
     #[inline(always)]
-    fn take_strip<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
+    fn take_span<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
         mut self,
         components: usize,
         zero: R,
@@ -108,9 +110,9 @@ impl<'a, T: LaneNumber> RowSums<'a, T> {
         }
     }
 
-    /// Sums over the strips row by row.
+    /// Sums over the spans row by row.
     #[inline(always)]
-    fn add_strips<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
+    fn add_spans<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
         mut self,
         components: usize,
         zero: R,
@@ -130,7 +132,7 @@ impl<'a, T: LaneNumber> RowSums<'a, T> {
         }
     }
 
-    /// Adds all strips; returns the sum of the weights.
+    /// Adds all spans; returns the sum of the weights.
     #[inline(always)]
     fn many<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
         &mut self,
@@ -154,7 +156,7 @@ impl<'a, T: LaneNumber> RowSums<'a, T> {
         weight
     }
 
-    /// Adds a strip.
+    /// Adds a span.
     #[inline(always)]
     fn add<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
         &self,
@@ -165,7 +167,7 @@ impl<'a, T: LaneNumber> RowSums<'a, T> {
     ) {
         let zero = weight.v;
         let (b, eta) = self.down(at, from.row, zero);
-        let table = &self.tables[self.strips[at].table..][..weight_len::<R, D>()];
+        let table = &self.tables[self.spans[at].table..][..weight_len::<R, D>()];
         let a = zero.load(table);
         weight.v = b.value.mul_add(a, weight.v);
         if D >= 1 {
@@ -215,28 +217,28 @@ impl<'a, T: LaneNumber> RowSums<'a, T> {
         }
     }
 
-    /// The components of a strip from one on.
+    /// The components of a span from one on.
     #[inline(always)]
     fn local<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
         &self,
         at: usize,
         component: usize,
     ) -> SpanComponents<'a, T, C> {
-        let all: &'a [ColumnSpan] = self.strips;
-        let strip = &all[at];
-        let terms: &'a [BlockTerm] = &self.terms[strip.terms.clone()];
+        let all: &'a [ColumnSpan] = self.spans;
+        let span = &all[at];
+        let terms: &'a [BlockTerm] = &self.terms[span.terms.clone()];
         let degree = constant_or(P, terms[0].degree);
-        let start = strip.table + weight_len::<R, D>() + component * strip.len;
-        let smooth = self.tables_of::<R, D, C>(strip, start, degree);
+        let start = span.table + weight_len::<R, D>() + component * span.len;
+        let smooth = self.tables_of::<R, D, C>(span, start, degree);
         let start = start + table_len::<R, D>(degree);
-        SpanComponents { strip, degree, smooth, others: &terms[1..], start }
+        SpanComponents { span, degree, smooth, others: &terms[1..], start }
     }
 
-    /// The tables of a strip's block of a degree from a place on, of the components from there on.
+    /// The tables of a span's block of a degree from a place on, of the components from there on.
     #[inline(always)]
     fn tables_of<R: Real<Scalar = T>, const D: usize, const C: usize>(
         &self,
-        strip: &ColumnSpan,
+        span: &ColumnSpan,
         start: usize,
         degree: usize,
     ) -> [&'a [T]; C] {
@@ -245,22 +247,24 @@ impl<'a, T: LaneNumber> RowSums<'a, T> {
         let mut tables = [first; C];
         let mut c = 0;
         while c < C {
-            tables[c] = &first[c * strip.len..][..table_len::<R, D>(degree)];
+            tables[c] = &first[c * span.len..][..table_len::<R, D>(degree)];
             c += 1;
         }
         tables
     }
 
-    /// b(y) and η(y) of a strip at a row.
+    /// b(y) and η(y) of a span at a row.
     #[inline(always)]
     fn down<R: Real<Scalar = T>>(&self, at: usize, row: usize, zero: R) -> (WeightFactor<R>, R) {
         let down = &self.down[DOWN * at..][..DOWN];
-        let b =
-            WeightFactor { value: splat(zero, down[row]), slope: splat(zero, down[ROWS + row]) };
-        (b, splat(zero, down[2 * ROWS + row]))
+        let b = WeightFactor {
+            value: fill_lanes(zero, down[row]),
+            slope: fill_lanes(zero, down[ROWS + row]),
+        };
+        (b, fill_lanes(zero, down[2 * ROWS + row]))
     }
 
-    /// Evaluates the tables of a strip at a row.
+    /// Evaluates the tables of a span at a row.
     #[inline(always)]
     fn local_field<R: Real<Scalar = T>, const D: usize, const P: usize, const C: usize>(
         &self,
@@ -268,13 +272,13 @@ impl<'a, T: LaneNumber> RowSums<'a, T> {
         row: usize,
         eta: R,
     ) -> [Slopes<R>; C] {
-        let scale = eta.broadcast(local.strip.frame.scale);
+        let scale = eta.broadcast(local.span.frame.scale);
         let degree = constant_or(P, local.degree);
         let mut v = evaluate::<R, D, P, C>(local.smooth, degree, eta, scale);
         let mut start = local.start;
         for term in local.others {
             let f = self.function::<R, D>(term, row, eta);
-            let tables = self.tables_of::<R, D, C>(local.strip, start, term.degree);
+            let tables = self.tables_of::<R, D, C>(local.span, start, term.degree);
             if term.degree == 0 {
                 let p = evaluate::<R, D, 0, C>(tables, 0, eta, scale);
                 add_constants::<R, D, C>(&mut v, &p, f);

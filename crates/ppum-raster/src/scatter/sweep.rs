@@ -1,6 +1,6 @@
-//! The strips at a column of vectors, and the spans of rows that they cover.
+//! The spans at a column of vectors, and the spans of rows that they cover.
 //!
-//! A column's rows fall into spans with a constant list of strips. Where one strip is alone, it is
+//! A column's rows fall into spans with a constant list of spans. Where one span is alone, it is
 //! the field: φ = 1, and neither a weight is needed nor a quotient. Elsewhere they are summed; both
 //! in `sums`.
 
@@ -9,12 +9,12 @@ use std::ops::Range;
 use ppum::real::{LaneNumber, Real};
 
 use super::collapse::{ANY, ROWS};
-use super::strips::{ColumnSpan, DOWN};
+use super::spans::{ColumnSpan, DOWN};
 use super::sums::RowSums;
 use super::tile::{PatchBatch, Tile, TileScratch};
 
 impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
-    /// Adds the strips at a column of vectors to the sums that begin at `start`; behind the last
+    /// Adds the spans at a column of vectors to the sums that begin at `start`; behind the last
     /// batch these are quotients.
     #[inline(always)]
     pub(super) fn sweep<R: Real<Scalar = T>>(
@@ -26,7 +26,7 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
     ) {
         let mut row = 0;
         while row < ROWS {
-            let end = choose(&scratch.strips.all, row, &mut scratch.here);
+            let end = choose(&scratch.spans.all, row, &mut scratch.here);
             if self.is_alone(row..end, batch, scratch) {
                 self.divide_alone(scratch, zero);
                 self.sum::<R, true>(row..end, start, batch, scratch, zero);
@@ -37,26 +37,26 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
         }
     }
 
-    /// True if rows are covered by one strip, and whole vectors of them.
+    /// True if rows are covered by one span, and whole vectors of them.
     #[inline(always)]
     fn is_alone(&self, rows: Range<usize>, batch: PatchBatch, scratch: &TileScratch<T>) -> bool {
         let [at] = *scratch.here else { return false };
-        let strips = &scratch.strips;
+        let spans = &scratch.spans;
         // a weight is positive between any two places where it is
-        let is_covered = |row: usize| strips.down[DOWN * at + row] > T::default();
+        let is_covered = |row: usize| spans.down[DOWN * at + row] > T::default();
         let has_components = !self.scene.plan.coefficients.is_empty();
-        let covers = strips.all[at].is_full && is_covered(rows.start) && is_covered(rows.end - 1);
+        let covers = spans.all[at].is_full && is_covered(rows.start) && is_covered(rows.end - 1);
         let is_only = batch.is_first && batch.is_last;
         covers && is_only && has_components && self.scene.savings.cancel_weights
     }
 
     #[inline(always)]
     fn divide_alone<R: Real<Scalar = T>>(&self, scratch: &mut TileScratch<T>, zero: R) {
-        let TileScratch { strips, here, shift, .. } = scratch;
-        let strip = &mut strips.all[here[0]];
-        if !strip.is_divided {
-            let tables = (&*strips.tables, &mut *strips.alone);
-            self.divide_strip(strip, tables, shift.len(), zero);
+        let TileScratch { spans, here, shift, .. } = scratch;
+        let span = &mut spans.all[here[0]];
+        if !span.is_divided {
+            let tables = (&*spans.tables, &mut *spans.alone);
+            self.divide_span(span, tables, shift.len(), zero);
         }
     }
 
@@ -72,14 +72,14 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
         zero: R,
     ) {
         let components = self.scene.plan.coefficients.len();
-        let TileScratch { strips, here, basis, sums, .. } = scratch;
+        let TileScratch { spans, here, basis, sums, .. } = scratch;
         let span = RowSums {
             rows,
-            strips: &strips.all,
+            spans: &spans.all,
             here,
-            terms: &strips.terms,
-            tables: if ALONE { &strips.alone } else { &strips.tables },
-            down: &strips.down,
+            terms: &spans.terms,
+            tables: if ALONE { &spans.alone } else { &spans.tables },
+            down: &spans.down,
             basis,
             sums: &mut sums[start..],
             batch,
@@ -99,12 +99,12 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
     }
 }
 
-/// Lists the strips that are at a row; returns up to which row there are no others.
-fn choose(strips: &[ColumnSpan], row: usize, here: &mut Vec<usize>) -> usize {
+/// Lists the spans that are at a row; returns up to which row there are no others.
+fn choose(spans: &[ColumnSpan], row: usize, here: &mut Vec<usize>) -> usize {
     here.clear();
     let mut end = ROWS;
-    for (at, strip) in strips.iter().enumerate() {
-        let Range { start, end: stop } = strip.rows;
+    for (at, span) in spans.iter().enumerate() {
+        let Range { start, end: stop } = span.rows;
         if start > row {
             end = end.min(start);
         } else if stop > row {

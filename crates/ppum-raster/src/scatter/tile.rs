@@ -5,10 +5,10 @@ use std::ops::Range;
 use ppum::formula::BlockScratch as FormulaScratch;
 use ppum::real::{LaneNumber, Real};
 
-use super::collapse::{ROWS, splat};
+use super::collapse::{ROWS, fill_lanes};
 use super::layout::size;
 use super::plan::{COLUMNS, PatchBlock, VisiblePatch};
-use super::strips::ColumnSpans;
+use super::spans::ColumnSpans;
 use super::view_data::PreparedView;
 
 /// Buffers of one thread.
@@ -27,9 +27,9 @@ pub(super) struct TileScratch<T> {
     /// The position of each group among the active ones, if it is one of them.
     pub(super) places: Vec<u32>,
     /// The patches at hand.
-    pub(super) strips: ColumnSpans<T>,
-    pub(super) grains: Grains<T>,
-    /// Those of the strips that cover some rows.
+    pub(super) spans: ColumnSpans<T>,
+    pub(super) patch_sums: PatchSums<T>,
+    /// Those of the spans that cover some rows.
     pub(super) here: Vec<usize>,
     /// Subtracted from each component.
     pub(super) shift: Vec<f64>,
@@ -40,7 +40,7 @@ pub(super) struct TileScratch<T> {
 
 /// The sums of a tile, and the patch at hand. Memory that a thread uses again.
 #[derive(Debug, Default)]
-pub(super) struct Grains<T> {
+pub(super) struct PatchSums<T> {
     pub(super) found: Vec<u32>,
     /// The blocks of the patch; the first is of function 1.
     pub(super) blocks: Vec<PatchBlock>,
@@ -113,7 +113,7 @@ impl<'a, 'f, T: LaneNumber, const D: usize> Tile<'a, 'f, T, D> {
     pub(super) fn offset<R: Real<Scalar = T>>(&self, vector: usize, row: usize, zero: R) -> [R; 2] {
         let [column, first_row] = self.corner();
         let x = zero.load(&self.scene.xs[column + vector * R::LANES..]);
-        [x, splat(zero, self.scene.ys[first_row + row])]
+        [x, fill_lanes(zero, self.scene.ys[first_row + row])]
     }
 }
 

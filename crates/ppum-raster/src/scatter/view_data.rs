@@ -45,7 +45,7 @@ impl<'f, T: LaneNumber> PreparedView<'f, T> {
             Summation::Automatic if groups.all(|group| functions.is_native(group)) => {
                 (MOST_PIXELS, Savings::ALL)
             }
-            // formulas are run for many pixels of strips at a time, and would be dear one by one
+            // formulas are run for many pixels of spans at a time, and would be dear one by one
             Summation::Automatic => (0, Savings::ALL),
             Summation::RowSpans(savings) => (0, savings),
             Summation::PerPatch => (usize::MAX, Savings::ALL),

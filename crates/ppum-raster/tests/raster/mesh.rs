@@ -9,7 +9,7 @@ use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Vec2, vec2};
 use ppum_raster::reference::reference;
-use ppum_raster::scatter::{BAND, render, render_rows, render_strips};
+use ppum_raster::scatter::{BAND, render, render_batches, render_rows};
 use ppum_raster::view::View;
 use ppum_testkit::extended::DoubleDouble;
 use ppum_testkit::meshes::{
@@ -102,7 +102,7 @@ fn threads_and_strips_change_nothing() {
         assert_eq!(one, bits(&drawn(8).values));
         let mut strips = Vec::new();
         let take = &mut |part: Vec<f64>| strips.extend(part);
-        render_strips(&compiled, &view, &quantity, 5, unwatched(), take).expect("drawn");
+        render_batches(&compiled, &view, &quantity, 5, unwatched(), take).expect("drawn");
         assert_eq!(one, bits(&strips));
         let all = view.pixels[1];
         let border = BAND * (all / (2 * BAND));

@@ -7,7 +7,7 @@ use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum_raster::raster::RasterValue;
 use ppum_raster::reference::reference;
-use ppum_raster::scatter::{BAND, Schedule, render_rows, render_strips, render_with};
+use ppum_raster::scatter::{BAND, Schedule, render_batches, render_rows, render_with};
 use ppum_raster::summation::{Savings, Summation};
 use ppum_raster::view::View;
 use ppum_testkit::random::Random;
@@ -178,7 +178,7 @@ fn many_patches_are_summed_one_by_one() {
         let whole = values::<f64>(&field, &view, &quantity, automatic);
         let mut strips = Vec::new();
         let mut take = |some: Vec<f64>| strips.extend(some);
-        render_strips(&field, &view, &quantity, 20, unwatched(), &mut take).expect("not stopped");
+        render_batches(&field, &view, &quantity, 20, unwatched(), &mut take).expect("not stopped");
         let (border, end) = (BAND * (view.pixels[1] / BAND), view.pixels[1]);
         let rows = |rows| {
             render_rows::<f64>(&field, &view, &quantity, rows, unwatched()).expect("not stopped")

@@ -12,18 +12,15 @@ pub(super) fn read(text: &str) -> Result<Stops, ColorFileError> {
         let place = format!("line {}, column {}", error.line(), error.column());
         ColorFileError::new(place, format!("this is not JSON: {error}"))
     })?;
-    let (map, place) = match &value {
-        Value::Object(map) => (map, ""),
-        Value::Array(items) => match &items[..] {
-            [Value::Object(map)] => (map, "[0]"),
-            [Value::Object(_), ..] => {
-                return Err(fault(format!(
-                    "there are {} maps; keep the one you want",
-                    items.len()
-                )));
-            }
-            _ => return Err(fault(FORMS)),
-        },
+    let (items, place) = match &value {
+        Value::Array(items) => (&items[..], "[0]"),
+        one => (std::slice::from_ref(one), ""),
+    };
+    let map = match items {
+        [Value::Object(map)] => map,
+        [Value::Object(_), ..] => {
+            return Err(fault(format!("there are {} maps; keep the one you want", items.len())));
+        }
         _ => return Err(fault(FORMS)),
     };
     match map.get("RGBPoints") {
@@ -47,8 +44,7 @@ fn fault(text: impl Into<String>) -> ColorFileError {
 /// outside the domain.
 fn preset(map: &Map<String, Value>, points: &Value, place: &str) -> Result<Stops, ColorFileError> {
     let place = format!("{place}.RGBPoints");
-    let flat: Option<Vec<f64>> =
-        points.as_array().and_then(|items| items.iter().map(Value::as_f64).collect());
+    let flat = numbers(points);
     let flat = flat.ok_or_else(|| ColorFileError::new(&place, "is no list of numbers"))?;
     let (quads, rest) = flat.as_chunks::<4>();
     if !rest.is_empty() {
@@ -69,6 +65,10 @@ fn preset(map: &Map<String, Value>, points: &Value, place: &str) -> Result<Stops
     Ok(Stops { stops, space: space(map)?, below, above })
 }
 
+fn numbers(value: &Value) -> Option<Vec<f64>> {
+    value.as_array()?.iter().map(Value::as_f64).collect()
+}
+
 /// A colour of ParaView.
 fn unit(color: [f64; 3]) -> Option<[f64; 3]> {
     color.iter().all(|c| (0.0..=1.0).contains(c)).then_some(color)
@@ -81,14 +81,10 @@ fn beyond(map: &Map<String, Value>, which: &str) -> Result<Option<Rgba>, ColorFi
         return Ok(None);
     }
     let key = format!("{which}RangeColor");
-    let values: Option<Vec<f64>> =
-        map.get(&key).and_then(Value::as_array).and_then(|v| v.iter().map(Value::as_f64).collect());
-    let color = values.and_then(|values| unit(values.try_into().ok()?));
-    let [r, g, b] = color
-        .ok_or_else(|| {
-            ColorFileError::new(key, "is to be used, but is not three numbers within 0 to 1")
-        })?
-        .map(|c| (255.0 * c).round() as u8);
+    let color = map.get(&key).and_then(numbers).and_then(|values| unit(values.try_into().ok()?));
+    let mistake = "is to be used, but is not three numbers within 0 to 1";
+    let color = color.ok_or_else(|| ColorFileError::new(key, mistake))?;
+    let [r, g, b] = color.map(|c| (255.0 * c).round() as u8);
     Ok(Some([r, g, b, 255]))
 }
 

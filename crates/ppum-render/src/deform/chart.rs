@@ -53,7 +53,7 @@ impl<'m, 'f> ElementChart<'m, 'f> {
     pub(super) fn pieces(&self, corners: &[Vec2]) -> Vec<ConvexPiece> {
         match self.is_cut() {
             true => self.cuts.pieces(&self.element, corners),
-            false => vec![uncut(corners)],
+            false => vec![ConvexPiece::uncut(corners, INSET)],
         }
     }
 
@@ -61,11 +61,6 @@ impl<'m, 'f> ElementChart<'m, 'f> {
     pub(super) fn may_bend(&self, corners: &[Vec2]) -> bool {
         self.cuts.may_bend(&self.element, corners)
     }
-}
-
-/// A part of the reference shape that nothing cuts.
-pub(super) fn uncut(corners: &[Vec2]) -> ConvexPiece {
-    ConvexPiece { corners: corners.to_vec(), faces: vec![false; corners.len()], inset: INSET }
 }
 
 impl DeformationChart for ElementChart<'_, '_> {

@@ -4,11 +4,11 @@ use ppum::domain::{Hole, LocalDomain};
 use ppum::function::FunctionKind;
 use ppum::mesh::Mesh;
 use ppum::progress::Watcher;
-use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::vec2::{Rect, Vec2};
 use ppum_raster::parts::Parts;
 use rayon::prelude::*;
 
-use super::chart::{ElementChart, uncut};
+use super::chart::ElementChart;
 use super::leaf::DeformedLeaf;
 use super::map::{DeformationChart, DeformationMap};
 use super::{DeformError, DeformedView};
@@ -79,12 +79,12 @@ fn halved<C: Cutter>(
                 parts.finish_one().map(|()| seen)
             },
         );
-        let blocks: Vec<Vec<PieceResult<C::Part>>> = blocks.collect::<Result<_, _>>()?;
+        let blocks: Vec<Vec<_>> = blocks.collect::<Result<_, _>>()?;
         left.clear();
         for seen in blocks.into_iter().flatten() {
             match seen {
-                PieceResult::Leaves(leaves) => found.extend(leaves),
-                PieceResult::Quarters(quarters) => left.extend(quarters),
+                Ok(leaves) => found.extend(leaves),
+                Err(quarters) => left.extend(quarters),
             }
         }
         if found.len() + left.len() > most {
@@ -102,30 +102,20 @@ struct CutPart {
     is_coarse: bool,
 }
 
-/// The result of cutting a part.
-enum PieceResult<P> {
-    /// All its pieces that may be seen, if any.
-    Leaves(Vec<DeformedLeaf>),
-    /// It has to be halved.
-    Quarters([P; 4]),
-}
-
+/// The pieces of a part that may be seen, or its quarters if it has to be halved.
 fn look<C: Cutter>(
     cutter: &C,
     view: &DeformedView<'_>,
     map: &mut DeformationMap<'_>,
     part: &C::Part,
-) -> PieceResult<C::Part> {
+) -> Result<Vec<DeformedLeaf>, [C::Part; 4]> {
     let CutPart { mut leaves, is_coarse } = cutter.cut(map, part);
     leaves.retain(|leaf| leaf.may_be_seen(view));
     // a part that rounding no longer halves is as small as can be
     let quarters = C::quarters(part);
     let is_smallest = quarters.contains(part);
     let is_done = || !is_coarse && leaves.iter().all(|leaf| leaf.is_done(view));
-    if is_smallest || is_done() {
-        return PieceResult::Leaves(leaves);
-    }
-    PieceResult::Quarters(quarters)
+    if is_smallest || is_done() { Ok(leaves) } else { Err(quarters) }
 }
 
 /// The cutter of squares of offsets from the anchor.
@@ -144,10 +134,8 @@ impl<'a, 'f> SquareCutter<'a, 'f> {
 
     /// A square that nothing cuts, unless it lies in a hole.
     fn whole(&self, square: &Rect) -> Option<ConvexPiece> {
-        let (min, max) = (square.min, square.max);
-        let corners = vec![min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
         let is_inside = self.domain.contains(square.center());
-        is_inside.then(|| ConvexPiece { corners, faces: vec![false; 4], inset: INSET })
+        is_inside.then(|| ConvexPiece::uncut(square.corners(), INSET))
     }
 }
 
@@ -266,7 +254,7 @@ impl Cutter for ElementCutter<'_, '_> {
         };
         let may_bend = chart.may_bend(corners);
         let is_coarse = may_bend
-            && DeformedLeaf::new(self.view, &mut chart, &uncut(corners))
+            && DeformedLeaf::new(self.view, &mut chart, &ConvexPiece::uncut(&corners[..], INSET))
                 .is_some_and(|whole| whole.may_be_seen(self.view) && whole.is_coarse(self.view));
         let pieces = chart.pieces(corners);
         let leaf = |piece: &ConvexPiece| {

@@ -2,15 +2,17 @@
 
 use ppum::crack::Side;
 use ppum::progress::unwatched;
+use ppum::segment::sides;
 use ppum::vec2::{Rect, Vec2};
 use rayon::prelude::*;
 
 use super::DeformedView;
-use super::chart::{ElementChart, uncut};
+use super::chart::ElementChart;
 use super::cutter::leaves_of_cuts;
 use super::leaf::DeformedLeaf;
 use super::map::{DeformationChart, DeformationMap};
 use super::path::Paths;
+use crate::pieces::{ConvexPiece, INSET};
 
 /// Way beyond an edge at which the neighbour is looked for, in parts of the element: more than
 /// what elements are thought to be larger by rounding.
@@ -47,8 +49,7 @@ impl DeformedView<'_> {
         let of_patch = |patch: u32| {
             let mut chart = ElementChart::new(&map, patch)?;
             let corners = chart.corners();
-            let edges = corners.iter().zip(corners.iter().cycle().skip(1));
-            let points = edges.flat_map(|(a, b)| LOOKS.map(|t| *a + (*b - *a) * t));
+            let points = sides(&corners).flat_map(|[a, b]| LOOKS.map(|t| a + (b - a) * t));
             let places = points.filter_map(|p| chart.place(self, p)).map(|p| self.view.center + p);
             places.map(|p| Rect::new(p, p)).reduce(|a, b| a.union(&b))
         };
@@ -75,7 +76,8 @@ impl DeformedView<'_> {
             let [own, other] = maps;
             let Some(mut chart) = ElementChart::new(own, patch) else { return Paths::new() };
             let corners = chart.corners();
-            let leaf = DeformedLeaf::new(self, &mut chart, &uncut(&corners));
+            let leaf =
+                DeformedLeaf::new(self, &mut chart, &ConvexPiece::uncut(&corners[..], INSET));
             if leaf.is_some_and(|leaf| !leaf.may_be_seen(self)) {
                 return Paths::new();
             }

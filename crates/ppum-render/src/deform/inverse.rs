@@ -6,6 +6,7 @@ use ppum::vec2::{Rect, Vec2};
 use super::leaf::DeformedLeaf;
 use super::map::{DeformationChart, Preimage};
 use super::{DeformedView, TOLERANCE};
+use crate::pieces::contains;
 
 /// Most steps of Newton's method, and most halvings of one.
 const STEPS: usize = 40;
@@ -84,7 +85,7 @@ impl LeafInverse<'_, '_> {
             let miss = place - here.image.at;
             let step = here.image.pulled_back(miss);
             if miss.length() <= self.within(TOLERANCE)
-                && holds(&self.leaf.corners, here.offset + step)
+                && contains(&self.leaf.corners, here.offset + step)
             {
                 // the step is known already, and far smaller than a pixel
                 return Some(Preimage { offset: here.offset + step, ..here });
@@ -157,14 +158,9 @@ impl LeafInverse<'_, '_> {
     }
 }
 
-/// True if a point lies in a convex polygon, counter-clockwise.
-fn holds(corners: &[Vec2], p: Vec2) -> bool {
-    sides(corners).all(|[a, b]| (b - a).cross(p - a) >= 0.0)
-}
-
 /// The point of a convex polygon that is nearest to a point.
 fn nearest(corners: &[Vec2], p: Vec2) -> Vec2 {
-    if holds(corners, p) {
+    if contains(corners, p) {
         return p;
     }
     let nearer = |a: &Vec2, b: &Vec2| (*a - p).length().total_cmp(&(*b - p).length());

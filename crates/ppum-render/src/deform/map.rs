@@ -87,16 +87,6 @@ impl<'f> DeformationMap<'f> {
         place.is_finite().then_some(place)
     }
 
-    /// The image of a point.
-    pub(super) fn image(&mut self, view: &DeformedView<'_>, offset: Vec2) -> Option<DeformedPoint> {
-        if !self.evaluate::<1>(offset, Side::Above) {
-            return None;
-        }
-        let jets = [self.jets[0], self.jets[1]];
-        let at = moved(view, offset, jets.map(|jet| jet.v));
-        Some(DeformedPoint { at, gradient: gradient(view, jets) })
-    }
-
     /// The field as it is evaluated.
     pub(super) fn local(&self) -> &LocalField<'f> {
         &self.local
@@ -120,7 +110,12 @@ impl<'f> DeformationMap<'f> {
 
 impl DeformationChart for DeformationMap<'_> {
     fn image(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<DeformedPoint> {
-        Self::image(self, view, p)
+        if !self.evaluate::<1>(p, Side::Above) {
+            return None;
+        }
+        let jets = [self.jets[0], self.jets[1]];
+        let at = moved(view, p, jets.map(|jet| jet.v));
+        Some(DeformedPoint { at, gradient: gradient(view, jets) })
     }
 
     fn place(&mut self, view: &DeformedView<'_>, p: Vec2) -> Option<Vec2> {

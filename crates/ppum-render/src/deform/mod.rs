@@ -9,7 +9,7 @@
 //! the body that lie there, to [`TOLERANCE`] of a pixel: none outside the body and in opened
 //! cracks and holes, one in the body, several where faces that have closed lie over each other or
 //! the body folds. Each is known with the side of the crack that it belongs to.
-//! [`DeformedPoints::raster`] evaluates any quantity there; [`DeformedView::path`] and its like
+//! [`DeformedPoints::raster`] evaluates any quantity there; [`DeformedView::paths`] and its like
 //! carry lines over.
 //!
 //! Pieces of the body on one side of each crack (module [`pieces`](crate::pieces)) are halved

@@ -29,15 +29,9 @@ const INWARD: f64 = 1e-9;
 pub type Paths = Vec<Vec<Vec2>>;
 
 impl DeformedView<'_> {
-    /// The image of a polyline of offsets from the anchor, to a tenth of a pixel; what is far
-    /// outside the image is coarser. It is interrupted outside the body and where it crosses a
-    /// crack that has opened.
-    #[must_use]
-    pub fn path(&self, points: &[Vec2]) -> Paths {
-        self.paths(std::slice::from_ref(&points))
-    }
-
-    /// The images of several polylines, as [`path`](Self::path) has them, one after the other.
+    /// The images of polylines of offsets from the anchor, to a tenth of a pixel, one after the
+    /// other; what is far outside the image is coarser. They are interrupted outside the body and
+    /// where they cross a crack that has opened.
     #[must_use]
     pub fn paths(&self, polylines: &[impl AsRef<[Vec2]>]) -> Paths {
         let domain = self.field().domain.at(self.anchor);
@@ -55,22 +49,9 @@ impl DeformedView<'_> {
         all
     }
 
-    /// The images of a crack's faces, above and below.
-    ///
-    /// # Panics
-    /// If there is no such crack.
+    /// The images of the faces of all cracks, above and below.
     #[must_use]
-    pub fn faces(&self, crack: usize) -> [Paths; 2] {
-        let [faces] = self.faces_of(&[crack]).try_into().unwrap_or_default();
-        faces
-    }
-
-    /// The images of the faces of several cracks, above and below.
-    ///
-    /// # Panics
-    /// If there is no such crack.
-    #[must_use]
-    pub fn faces_of(&self, cracks: &[usize]) -> Vec<[Paths; 2]> {
+    pub fn faces(&self) -> Vec<[Paths; 2]> {
         let (mut map, domain) =
             (DeformationMap::new(self.field(), self.anchor), self.field().domain.at(self.anchor));
         let mut face = |crack: &Crack, side: Side| {
@@ -88,22 +69,15 @@ impl DeformedView<'_> {
             }
             paths.all
         };
-        let cracks = cracks.iter().map(|&crack| &self.field().step.cracks[crack]);
+        let cracks = self.field().step.cracks.iter();
         cracks.map(|crack| [Side::Above, Side::Below].map(|side| face(crack, side))).collect()
     }
 
     /// The image of the body's border: of the box and of the rims of holes, where they bound the
-    /// body; of a mesh of the edges of elements without a neighbour, or that have come apart from
-    /// it by half a pixel.
+    /// body, without the sides on lines x = a and y = b, at which it is mirrored; of a mesh of all
+    /// edges of elements without a neighbour, or that have come apart from it by half a pixel.
     #[must_use]
-    pub fn outline(&self) -> Paths {
-        self.outline_beside([None; 2])
-    }
-
-    /// The image of the body's border without the sides on lines x = a and y = b, at which it is
-    /// mirrored. For a mesh, these are drawn.
-    #[must_use]
-    pub fn outline_beside(&self, mirrors: [Option<f64>; 2]) -> Paths {
+    pub fn outline(&self, mirrors: [Option<f64>; 2]) -> Paths {
         if self.field().step.partition.mesh().is_some() {
             return self.element_borders();
         }

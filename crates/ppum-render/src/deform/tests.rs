@@ -14,6 +14,7 @@ use ppum_testkit::exact::{CrackInPlane, ExactField};
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Coefficients, Recipe};
 
+use super::map::DeformationChart as _;
 use super::*;
 
 const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
@@ -575,7 +576,7 @@ fn faces_are_drawn_as_the_ellipse() {
     let field = Field::new(&dataset, 0).unwrap();
     let view = View::new(opened.center, 2.0, [400, 400]).unwrap();
     let seen = Deformation::new(&field, 2.5).unwrap().seen(&view);
-    for (paths, sign) in seen.faces(0).iter().zip([1.0, -1.0]) {
+    for (paths, sign) in seen.faces()[0].iter().zip([1.0, -1.0]) {
         let [path] = &paths[..] else { panic!("{} paths", paths.len()) };
         assert!((path.len() > 16) && (path.len() < 500), "{}", path.len());
         for pair in path.windows(2) {
@@ -611,19 +612,19 @@ fn paths_end_where_the_plate_has_come_apart() {
     let view = View::new(Vec2::ZERO, 5.0, [500, 500]).unwrap();
     let seen = Deformation::new(&field, 2.0).unwrap().seen(&view);
     let from = |x: f64, y: f64| vec2(x, y) - seen.anchor;
-    let across = seen.path(&[from(0.1, -1.9), from(0.1, 0.9)]);
+    let across = seen.paths(&[[from(0.1, -1.9), from(0.1, 0.9)]]);
     assert_eq!(across.len(), 2);
     let gap = (across[1][0] - across[0][across[0].len() - 1]).length();
     let opening = 2.0 * 2.0 * OpenCrackField::slope() * (0.8f64.powi(2) - 0.01).sqrt();
     assert!((gap / opening - 1.0).abs() < 0.01, "{gap} {opening}");
-    assert_eq!(seen.path(&[from(0.9, -1.9), from(0.9, 0.9)]).len(), 1);
+    assert_eq!(seen.paths(&[[from(0.9, -1.9), from(0.9, 0.9)]]).len(), 1);
     // through the hole
-    assert_eq!(seen.path(&[from(0.0, 1.0), from(0.0, 1.9)]).len(), 2);
-    let outline = seen.outline();
+    assert_eq!(seen.paths(&[[from(0.0, 1.0), from(0.0, 1.9)]]).len(), 2);
+    let outline = seen.outline([None; 2]);
     let length = |path: &Vec<Vec2>| path.windows(2).map(|p| (p[1] - p[0]).length()).sum::<f64>();
     // the box without a corner, the round hole, a quarter of the other one
     assert!((3..=5).contains(&outline.len()), "{}", outline.len());
-    let plain = Deformation::new(&field, 0.0).unwrap().seen(&view).outline();
+    let plain = Deformation::new(&field, 0.0).unwrap().seen(&view).outline([None; 2]);
     let total: f64 = plain.iter().map(length).sum();
     let exact = 16.0 - 1.0 + std::f64::consts::TAU * 0.3 + std::f64::consts::FRAC_PI_2 * 0.5;
     // chords of a tenth of a pixel

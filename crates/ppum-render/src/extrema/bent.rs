@@ -1,21 +1,18 @@
 //! Curved interfaces: chords of their course, between which points are pulled onto them.
 
 use ppum::field::Field;
-use ppum::formula::Formula;
 use ppum::vec2::{Rect, Vec2, vec2};
 use rayon::prelude::*;
 use std::sync::Arc;
 
+use crate::pieces::{FormulaLevel, LevelCurve as _, material_kinks};
+
 /// Nodes of the grids on which the courses are looked for, at most.
 const NODES: usize = 1 << 18;
 
-/// Bisections of a step, to rounding.
-const BISECTIONS: usize = 52;
-
 /// A part of the zeros of a formula, seen from one side.
 pub(super) struct Bent {
-    level: Arc<Formula>,
-    anchor: Vec2,
+    curve: Arc<FormulaLevel>,
     chord: [Vec2; 2],
     /// To the side from which it is seen, a unit vector.
     toward: Vec2,
@@ -27,7 +24,7 @@ impl Bent {
     pub(super) fn at(&self, t: f64, beside: f64) -> Vec2 {
         let [a, b] = self.chord;
         let (middle, reach) = (a + (b - a) * t, (b - a).left() * 0.25);
-        let on_curve = root(&self.level, self.anchor, middle - reach, middle + reach);
+        let on_curve = self.curve.root(middle - reach, middle + reach);
         on_curve.unwrap_or(middle) + self.toward * beside
     }
 
@@ -43,16 +40,14 @@ pub(super) fn bent_interfaces(
     rect: &Rect,
     pixel: f64,
 ) -> Vec<Bent> {
-    let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
-    let kinks = formulas.flat_map(|(_, expression)| expression.formula().kinks());
-    let kinks: Vec<_> = kinks.filter(|kink| kink.line().is_none()).collect();
+    let kinks: Vec<_> = material_kinks(field).filter(|kink| kink.line().is_none()).collect();
     let steps = ((NODES / kinks.len().max(1)) as f64).sqrt().max(1.0) as usize;
     let mut found = Vec::new();
     for kink in kinks {
-        let level = Arc::new(kink.value);
-        for chord in chords(&level, anchor, rect, pixel, steps) {
+        let curve = Arc::new(FormulaLevel { formula: kink.value, anchor });
+        for chord in chords(&curve, rect, pixel, steps) {
             let normal = (chord[1] - chord[0]).unit().left();
-            let seen = |toward| Bent { level: Arc::clone(&level), anchor, chord, toward };
+            let seen = |toward| Bent { curve: Arc::clone(&curve), chord, toward };
             found.extend([normal, -normal].map(seen));
         }
     }
@@ -61,7 +56,7 @@ pub(super) fn bent_interfaces(
 
 /// Chords of the course of a curve through the squares of a grid of so many steps at most in each
 /// direction, where it crosses two sides.
-fn chords(level: &Formula, anchor: Vec2, rect: &Rect, pixel: f64, steps: usize) -> Vec<[Vec2; 2]> {
+fn chords(curve: &FormulaLevel, rect: &Rect, pixel: f64, steps: usize) -> Vec<[Vec2; 2]> {
     let size = rect.size();
     let count = |length: f64| ((length / pixel).ceil() as usize).clamp(1, steps);
     let [columns, rows] = [count(size.x), count(size.y)];
@@ -69,8 +64,7 @@ fn chords(level: &Formula, anchor: Vec2, rect: &Rect, pixel: f64, steps: usize) 
         let (x, y) = (i as f64 / columns as f64, j as f64 / rows as f64);
         rect.min + vec2(size.x * x, size.y * y)
     };
-    let row =
-        |j: usize| (0..=columns).map(|i| is_above(level, anchor, node(i, j))).collect::<Vec<_>>();
+    let row = |j: usize| (0..=columns).map(|i| curve.is_positive(node(i, j))).collect::<Vec<_>>();
     let (signs, mut all): (Vec<_>, _) = ((0..=rows).into_par_iter().map(row).collect(), Vec::new());
     for (j, pair) in (1..).zip(signs.windows(2)) {
         let [below, above] = [&pair[0], &pair[1]];
@@ -80,29 +74,11 @@ fn chords(level: &Formula, anchor: Vec2, rect: &Rect, pixel: f64, steps: usize) 
             if signs.iter().all(|&sign| sign == signs[0]) {
                 continue;
             }
-            let root = |k: usize| root(level, anchor, corners[k], corners[(k + 1) % 4]);
+            let root = |k: usize| curve.root(corners[k], corners[(k + 1) % 4]);
             if let [a, b] = (0..4).filter_map(root).collect::<Vec<_>>()[..] {
                 all.push([a, b]);
             }
         }
     }
     all
-}
-
-fn is_above(level: &Formula, anchor: Vec2, offset: Vec2) -> bool {
-    let p = anchor + offset;
-    level.evaluate(&[p.x, p.y]) > 0.0
-}
-
-/// The change of sign between two points, by bisection; `None` if there is none.
-fn root(level: &Formula, anchor: Vec2, mut a: Vec2, mut b: Vec2) -> Option<Vec2> {
-    let above = is_above(level, anchor, a);
-    if is_above(level, anchor, b) == above {
-        return None;
-    }
-    for _ in 0..BISECTIONS {
-        let middle = (a + b) * 0.5;
-        if is_above(level, anchor, middle) == above { a = middle } else { b = middle }
-    }
-    Some((a + b) * 0.5)
 }

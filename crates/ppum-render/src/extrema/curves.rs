@@ -1,14 +1,15 @@
 //! Boundaries on which an extremum may lie, and extreme values along them.
 
-use ppum::crack::{LocalCrack, SegmentId, Side};
-use ppum::domain::{Hole, LocalRim};
+use ppum::crack::{SegmentId, Side};
+use ppum::domain::Hole;
 use ppum::field::{Field, LocalField};
 use ppum::line::Line;
-use ppum::vec2::{Rect, Vec2, vec2};
-use std::f64::consts::{PI, TAU};
+use ppum::vec2::{Rect, Vec2};
+use std::f64::consts::PI;
 
 use super::bent::Bent;
 use super::site::ExtremumSite;
+use crate::pieces::{AnchoredCircle, PolygonCut, crack_lines, material_kinks, side_lines, turns};
 
 /// Fewest and most samples that a curve should have.
 const SAMPLES: [usize; 2] = [32, 1 << 14];
@@ -43,10 +44,7 @@ enum CurveShape {
 /// from the centre, is, relative to the anchor, e (r − a − 2 r sin² ψ/2) + e⊥ r sin ψ, without
 /// cancellation where ψ is small.
 struct RimArc {
-    direction: Vec2,
-    radius: f64,
-    /// r − a
-    inward: f64,
+    circle: AnchoredCircle,
     angles: [f64; 2],
 }
 
@@ -86,7 +84,7 @@ impl BoundaryCurve {
     pub(super) fn samples(&self, pixel: f64) -> usize {
         let length = match &self.shape {
             CurveShape::Straight([a, b]) => (*b - *a).length(),
-            CurveShape::Arc(arc) => arc.radius * (arc.angles[1] - arc.angles[0]),
+            CurveShape::Arc(arc) => arc.circle.radius * (arc.angles[1] - arc.angles[0]),
             CurveShape::Bent(bent) => bent.length(),
         };
         ((length / pixel).ceil() as usize).clamp(SAMPLES[0], SAMPLES[1])
@@ -97,9 +95,12 @@ impl RimArc {
     fn at(&self, t: f64, beside: f64) -> Vec2 {
         let angle = self.angles[0] + (self.angles[1] - self.angles[0]) * t;
         let (sin, cos) = angle.sin_cos();
-        let fall = 2.0 * self.radius * (0.5 * angle).sin().powi(2);
-        let along = self.direction * (self.inward - fall + beside * cos);
-        along + self.direction.left() * ((self.radius + beside) * sin)
+        let AnchoredCircle { away, direction, excess, radius } = self.circle;
+        // r − a
+        let inward = -excess / (away + radius);
+        let fall = 2.0 * radius * (0.5 * angle).sin().powi(2);
+        let along = direction * (inward - fall + beside * cos);
+        along + direction.left() * ((radius + beside) * sin)
     }
 }
 
@@ -107,19 +108,15 @@ impl RimArc {
 pub(super) fn boundary_curves(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> Vec<BoundaryCurve> {
     let mut curves = borders(rect);
     for (index, crack) in (0..).zip(&field.step.cracks) {
-        let local = LocalCrack::new(crack, anchor);
-        for (segment, (s, ends)) in (0..).zip(local.segments().iter().zip(crack.points.windows(2)))
-        {
-            let range = [ends[0], ends[1]].map(|end| s.tangent.dot(end - anchor));
-            let line = Line { from: s.tangent.left() * -s.distance, along: s.tangent };
+        for (segment, (_, cut)) in (0..).zip(crack_lines(crack, anchor)) {
             let id = SegmentId { crack: index, segment };
-            let normal = s.tangent.left();
+            let normal = cut.tangent.left();
             let faces = |ends| {
                 [(Side::Above, normal), (Side::Below, -normal)].map(|(side, toward)| {
                     BoundaryCurve::straight(ends, toward, ExtremumSite::Face(id, side))
                 })
             };
-            curves.extend(line.clipped(rect, range).into_iter().flat_map(faces));
+            curves.extend(cut.part_in(rect).into_iter().flat_map(faces));
         }
     }
     for (index, hole) in field.domain.holes.iter().enumerate() {
@@ -135,67 +132,38 @@ fn borders(rect: &Rect) -> Vec<BoundaryCurve> {
 }
 
 fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Vec<BoundaryCurve>) {
-    let local = hole.at(anchor);
     let on = if hole.is_outside() { ExtremumSite::Border } else { ExtremumSite::Rim(index) };
-    match (hole, local.rim()) {
-        (Hole::Circle { radius, .. }, LocalRim::Circle { d, excess }) => {
-            let (shape, toward) =
-                (arc(*radius, *d, *excess, rect).map(CurveShape::Arc), Vec2::ZERO);
-            curves.extend(shape.map(|shape| BoundaryCurve { shape, toward, on }));
-        }
-        (_, LocalRim::Polygon(sides, _)) => {
-            let orientation = hole.orientation();
-            for side in sides {
-                let length = side.direction.length();
-                let tangent = side.direction / length;
-                let from = tangent.left() * (-side.cross / length);
-                let line = Line { from, along: tangent };
-                let range = [tangent.dot(side.a), tangent.dot(side.b)];
-                let outward = tangent.left() * -orientation;
-                let rim = |ends| BoundaryCurve::straight(ends, outward, on);
-                curves.extend(line.clipped(rect, range).map(rim));
-            }
-        }
-        _ => {}
-    }
+    let arc = AnchoredCircle::new(hole, anchor).and_then(|circle| arc(circle, rect));
+    let arc = arc.map(|arc| (CurveShape::Arc(arc), Vec2::ZERO));
+    let orientation = hole.orientation();
+    let side = |(_, cut): (_, PolygonCut)| {
+        let outward = cut.tangent.left() * -orientation;
+        cut.part_in(rect).map(|ends| (CurveShape::Straight(ends), outward))
+    };
+    let shapes = side_lines(hole, anchor).into_iter().filter_map(side).chain(arc);
+    curves.extend(shapes.map(|(shape, toward)| BoundaryCurve { shape, toward, on }));
 }
 
 /// The part of a rim near a rectangle; all of it if the rectangle surrounds the centre or is no
 /// smaller than the hole.
-fn arc(radius: f64, d: Vec2, excess: f64, rect: &Rect) -> Option<RimArc> {
-    let away = d.length();
-    let direction = if away > 0.0 { d / away } else { vec2(1.0, 0.0) };
-    let (inward, center) = (-excess / (away + radius), -d);
+fn arc(circle: AnchoredCircle, rect: &Rect) -> Option<RimArc> {
+    let (center, radius) = (circle.center(), circle.radius);
     let nearest = center.max(rect.min).min(rect.max);
     if (nearest - center).length() > radius * (1.0 + 1e-9) {
         return None;
     }
     let size = rect.size();
     if rect.contains(center) || size.x.max(size.y) > radius {
-        return Some(RimArc { direction, radius, inward, angles: [-PI, PI] });
+        return Some(RimArc { circle, angles: [-PI, PI] });
     }
-    let (min, max) = (rect.min, rect.max);
-    let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
-    let angles = corners.map(|p| direction.cross(p).atan2(away + direction.dot(p)));
-    let turns = angles.map(|angle| {
-        let turn = angle - angles[0];
-        if turn > PI {
-            turn - TAU
-        } else if turn < -PI {
-            turn + TAU
-        } else {
-            turn
-        }
-    });
-    let range = turns.iter().fold([0.0f64; 2], |[a, b], &t| [a.min(t), b.max(t)]);
-    Some(RimArc { direction, radius, inward, angles: range.map(|turn| angles[0] + turn) })
+    let angles = rect.corners().map(|p| circle.angle(p));
+    let angles = turns(&angles).map(|turn| angles[0] + turn);
+    Some(RimArc { circle, angles })
 }
 
 /// Both sides of the straight lines on which the material's formulas are not smooth.
 fn add_interfaces(field: &Field<'_>, anchor: Vec2, rect: &Rect, curves: &mut Vec<BoundaryCurve>) {
-    let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
-    let kinks = formulas.flat_map(|(_, expression)| expression.formula().kinks());
-    for form in kinks.filter_map(|kink| kink.line()) {
+    for form in material_kinks(field).filter_map(|kink| kink.line()) {
         let line = Line::of_equation(form, anchor);
         let (normal, everywhere) = (line.along.left(), [f64::NEG_INFINITY, f64::INFINITY]);
         let ends = line.clipped(rect, everywhere);

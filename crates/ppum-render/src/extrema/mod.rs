@@ -51,6 +51,7 @@ use ppum::vec2::{Rect, Vec2};
 use ppum_raster::RasterError;
 use ppum_raster::parts::Parts;
 use ppum_raster::raster::{Raster, RasterValue};
+use ppum_raster::scatter::render;
 use ppum_raster::view::View;
 use rayon::prelude::*;
 
@@ -211,7 +212,7 @@ pub fn extrema(
 ) -> Result<Option<Extrema>, RasterError> {
     quantity.check(field)?;
     let Some(grid) = region.grid(pixels(field)) else { return Ok(None) };
-    let raster = f64::render(field, &grid, quantity, watcher)?;
+    let raster = render::<f64>(field, &grid, quantity, watcher)?;
     if let Some(constant) = constant(field, region, quantity, &raster) {
         return Ok(Some(constant));
     }
@@ -275,11 +276,11 @@ fn boundaries(field: &Field<'_>, region: &BodyRegion, pixel: f64) -> Vec<Boundar
 
 /// The number of samples of each curve.
 fn samples(field: &Field<'_>, curves: &[BoundaryCurve], pixel: f64) -> Vec<usize> {
-    let wanted = curves.iter().map(|curve| curve.samples(pixel));
-    let all: usize = wanted.clone().sum();
+    let counts = curves.iter().map(|curve| curve.samples(pixel));
+    let all: usize = counts.clone().sum();
     let affordable = (OPERATIONS / operations(field)).clamp(FEWEST, SAMPLES);
     let part = (affordable as f64 / all as f64).min(1.0);
-    wanted.map(|n| ((n as f64 * part) as usize).max(curves::LEAST)).collect()
+    counts.map(|n| ((n as f64 * part) as usize).max(curves::LEAST)).collect()
 }
 
 /// The number of pixels from which a search begins: it depends on the field alone.

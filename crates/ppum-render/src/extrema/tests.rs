@@ -452,7 +452,7 @@ fn poles_are_infinite() {
     let width = 1e-3 * grid.pixel_size();
     let text = format!("1/(1 + (hypot(x - ({:?}), y - ({:?}))/({width:?}))^2)", narrow.x, narrow.y);
     let quantity = Quantity::parse(&text, &field).expect("a quantity");
-    let raster = f64::render(&field, &grid, &quantity, unwatched()).expect("a raster");
+    let raster = render::<f64>(&field, &grid, &quantity, unwatched()).expect("a raster");
     assert!(raster.statistics().max < 1e-2, "far above all places of the grid");
     let found = extrema(&field, &region, &quantity, unwatched()).expect("a search");
     let max = found.expect("values").max.value;

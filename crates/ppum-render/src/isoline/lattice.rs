@@ -110,31 +110,31 @@ impl SampleLattice {
 
     /// The squares that have a side in common with one.
     pub(super) fn around(&self, [j, i]: Cell) -> impl Iterator<Item = Cell> {
+        let ways = [[-1, 0], [0, -1], [1, 0], [0, 1]];
+        ways.into_iter().filter_map(move |way| self.moved([j, i], way))
+    }
+
+    /// The square some rows and columns away, if there is one.
+    fn moved(&self, [j, i]: Cell, [rows_up, columns_on]: [i32; 2]) -> Option<Cell> {
         let [columns, rows] = self.size();
-        let below = [j.checked_sub(1).map(|j| [j, i]), i.checked_sub(1).map(|i| [j, i])];
-        let above = [(j + 1 < rows).then_some([j + 1, i]), (i + 1 < columns).then_some([j, i + 1])];
-        below.into_iter().chain(above).flatten()
+        let [j, i] = [j.checked_add_signed(rows_up)?, i.checked_add_signed(columns_on)?];
+        (j < rows && i < columns).then_some([j, i])
     }
 
     /// The square on the other side of a side of a square; `None` inside the square and on the
     /// image's border.
     pub(super) fn neighbour(&self, [j, i]: Cell, [a, b]: [Vec2; 2]) -> Option<Cell> {
-        let ([columns, rows], rect) = (self.size(), self.rect([j, i]));
+        let rect = self.rect([j, i]);
         let on = |of: fn(Vec2) -> f64, at: f64| of(a) == at && of(b) == at;
         let (x, y) = (|p: Vec2| p.x, |p: Vec2| p.y);
-        let place = if on(x, rect.min.x) {
-            [Some(j), i.checked_sub(1)]
-        } else if on(x, rect.max.x) {
-            [Some(j), Some(i + 1)]
-        } else if on(y, rect.min.y) {
-            [j.checked_sub(1), Some(i)]
-        } else if on(y, rect.max.y) {
-            [Some(j + 1), Some(i)]
-        } else {
-            return None;
+        let way = match () {
+            () if on(x, rect.min.x) => [0, -1],
+            () if on(x, rect.max.x) => [0, 1],
+            () if on(y, rect.min.y) => [-1, 0],
+            () if on(y, rect.max.y) => [1, 0],
+            () => return None,
         };
-        let [j, i] = [place[0]?, place[1]?];
-        (j < rows && i < columns).then_some([j, i])
+        self.moved([j, i], way)
     }
 
     /// True if a side lies on the image's border.

@@ -4,11 +4,12 @@ use ppum::crack::Side;
 use ppum::field::LocalField;
 use ppum::jet::Jet;
 use ppum::quantity::{QuantityGradient, Source, ValueWithGradient};
-use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::segment::sides;
+use ppum::vec2::Vec2;
 
 use super::lattice::{Cell, SampleLattice};
 use super::root::root;
-use crate::pieces::{ConvexPiece, INSET, Pieces};
+use crate::pieces::{ConvexPiece, INSET, Pieces, contains};
 
 /// Distance of chords from the curve up to which no point is put between, pixels.
 pub const CHORD: f64 = 0.02;
@@ -101,7 +102,8 @@ impl<'a, 'f> Marcher<'a, 'f> {
     ) -> Vec<LineSegment> {
         let rect = self.lattice.rect(cell);
         let is_whole = !cuts.may_cut(&rect);
-        let pieces = if is_whole { vec![whole(&rect)] } else { cuts.of(&rect) };
+        let pieces =
+            if is_whole { vec![ConvexPiece::uncut(rect.corners(), 0.0)] } else { cuts.of(&rect) };
         let beside = self.beside(cell, cuts);
         let mut segments = Vec::new();
         for piece in pieces.into_iter().map(|piece| with_corners(piece, &beside)) {
@@ -254,7 +256,8 @@ impl<'a, 'f> Marcher<'a, 'f> {
             let length = gradient.length();
             let step = (gradient / length) * ((level - value) / length);
             at = at + step;
-            let is_near = (at - from).length() <= reach && (tile.is_whole || tile.holds(at));
+            let is_near = (at - from).length() <= reach
+                && (tile.is_whole || contains(&tile.piece.corners, at));
             if !is_near {
                 return None;
             }
@@ -308,30 +311,16 @@ impl MarchingTile {
             jumps: false,
         }
     }
-
-    /// True if a point lies in the convex piece.
-    fn holds(&self, p: Vec2) -> bool {
-        let corners = &self.piece.corners;
-        let next = corners.iter().cycle().skip(1);
-        corners.iter().zip(next).all(|(a, b)| (*b - *a).cross(p - *a) >= 0.0)
-    }
 }
 
 /// A square that nothing cuts.
-fn whole(rect: &Rect) -> ConvexPiece {
-    let (min, max) = (rect.min, rect.max);
-    let corners = vec![min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
-    ConvexPiece { corners, faces: vec![false; 4], inset: 0.0 }
-}
-
 /// The piece with those of some points as corners that lie on its sides along the lattice.
 fn with_corners(piece: ConvexPiece, points: &[Vec2]) -> ConvexPiece {
     if points.is_empty() {
         return piece;
     }
     let (mut corners, mut faces) = (Vec::new(), Vec::new());
-    let next = piece.corners.iter().cycle().skip(1);
-    for ((&a, &b), &face) in piece.corners.iter().zip(next).zip(&piece.faces) {
+    for ([a, b], &face) in sides(&piece.corners).zip(&piece.faces) {
         let mut between: Vec<f64> = points.iter().filter_map(|&p| part(a, b, p)).collect();
         between.sort_by(f64::total_cmp);
         between.dedup_by(|b, a| *b - *a <= SAME_CORNER);

@@ -11,6 +11,7 @@ use ppum::segment;
 use ppum::vec2::{Rect, vec2};
 use ppum::weight::WeightFunction;
 use ppum_raster::reference::reference;
+use ppum_raster::scatter::render;
 use ppum_testkit::synthetic::{Coefficients, Recipe, opening};
 
 /// Distance from the exact curve that every point has to keep, pixels.
@@ -21,7 +22,7 @@ fn lines(field: &Field<'_>, view: &View, text: &str, levels: &[f64]) -> Vec<Isol
     let quantity = Quantity::parse(text, field).expect("a quantity");
     let raster = reference(field, view, &quantity, unwatched()).expect("a raster");
     let found = isolines(field, view, &quantity, levels, &raster, unwatched()).expect("lines");
-    let narrow = f32::render(field, view, &quantity, unwatched()).expect("a raster");
+    let narrow = render::<f32>(field, view, &quantity, unwatched()).expect("a raster");
     let same = isolines(field, view, &quantity, levels, &narrow, unwatched()).expect("lines");
     assert_eq!(found, same, "the raster's precision");
     found
@@ -442,7 +443,7 @@ fn too_many_lines_are_refused() {
     let field = Field::new(&dataset, 0).expect("a field");
     let view = View::hug(dataset.domain.bounds, [12, 9]).expect("a view");
     let quantity = Quantity::parse("x + 0.3*y", &field).expect("a quantity");
-    let raster = f64::render(&field, &view, &quantity, unwatched()).expect("a raster");
+    let raster = render::<f64>(&field, &view, &quantity, unwatched()).expect("a raster");
     let levels: Vec<f64> = (0..100_000).map(|k| f64::from(k) * 1.8e-5).collect();
     let found = isolines(&field, &view, &quantity, &levels, &raster, unwatched());
     assert!(

@@ -6,7 +6,7 @@ use ppum::formula::Formula;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// Bisections of a change of sign, to rounding.
-const BISECTIONS: usize = 50;
+const BISECTIONS: usize = 52;
 
 /// Samples in each direction of a rectangle that tell whether a curve may be near.
 const SAMPLES: usize = 4;
@@ -18,47 +18,29 @@ const DEPTH: usize = 4;
 /// polygon touches a corner.
 const TOUCHING: f64 = 1e-9;
 
-/// A function whose zeros are a curve.
-pub(super) trait CurveFunction {
-    fn value(&self, p: Vec2) -> f64;
-
-    /// True if the field may jump or end on a chord with a middle.
-    fn is_face(&self, _middle: Vec2) -> bool {
-        true
-    }
-}
-
 /// A formula of x and y, of offsets from an anchor.
 #[derive(Debug)]
-pub(super) struct FormulaLevel {
-    pub(super) formula: Formula,
-    pub(super) anchor: Vec2,
+pub(crate) struct FormulaLevel {
+    pub(crate) formula: Formula,
+    pub(crate) anchor: Vec2,
 }
 
-impl CurveFunction for FormulaLevel {
+impl LevelCurve for FormulaLevel {
     fn value(&self, offset: Vec2) -> f64 {
         let p = self.anchor + offset;
         self.formula.evaluate(&[p.x, p.y])
     }
 }
 
-/// The zeros of a function. They are missed where the function does not change its sign between the
-/// corners, the middles of the sides and the centroid of a polygon.
-#[derive(Debug)]
-pub(super) struct LevelCurve<L> {
-    pub(super) level: L,
-}
-
-impl LevelCurve<FormulaLevel> {
+impl FormulaLevel {
     /// False if samples say that the curve stays away from a rectangle: their least value is more
     /// than neighbours differ.
     pub(super) fn may_meet(&self, rect: &Rect) -> bool {
         let step = rect.size() / (SAMPLES - 1) as f64;
         let value = |k: usize| {
             let (i, j) = (k % SAMPLES, k / SAMPLES);
-            let FormulaLevel { formula, anchor } = &self.level;
-            let p = *anchor + rect.min + vec2(step.x * i as f64, step.y * j as f64);
-            formula.evaluate(&[p.x, p.y])
+            let p = self.anchor + rect.min + vec2(step.x * i as f64, step.y * j as f64);
+            self.formula.evaluate(&[p.x, p.y])
         };
         let values: Vec<f64> = (0..SAMPLES * SAMPLES).map(value).collect();
         let least = values.iter().fold(f64::INFINITY, |a, v| a.min(v.abs()));
@@ -69,13 +51,23 @@ impl LevelCurve<FormulaLevel> {
     }
 }
 
-impl<L: CurveFunction> LevelCurve<L> {
+/// The zeros of a function. They are missed where the function does not change its sign between the
+/// corners, the middles of the sides and the centroid of a polygon.
+pub(crate) trait LevelCurve {
+    /// The function.
+    fn value(&self, p: Vec2) -> f64;
+
+    /// True if the field may jump or end on a chord with a middle.
+    fn is_face(&self, _middle: Vec2) -> bool {
+        true
+    }
+
     fn is_positive(&self, p: Vec2) -> bool {
-        self.level.value(p) > 0.0
+        self.value(p) > 0.0
     }
 
     /// The parts of a polygon on both sides.
-    pub(super) fn split(&self, polygon: AnchoredPolygon, least: f64) -> Vec<AnchoredPolygon> {
+    fn split(&self, polygon: AnchoredPolygon, least: f64) -> Vec<AnchoredPolygon> {
         let mut parts = Vec::new();
         self.divide(polygon, least, DEPTH, &mut parts);
         parts
@@ -102,7 +94,7 @@ impl<L: CurveFunction> LevelCurve<L> {
             }
             let sagitta = self.sagitta(a, b);
             if sagitta <= SAGITTA * size(&polygon) || depth == 0 {
-                let is_face = self.level.is_face((a + b) * 0.5);
+                let is_face = self.is_face((a + b) * 0.5);
                 let cut = PolygonCut::chord([a, b], sagitta.max(f64::MIN_POSITIVE), is_face);
                 parts.extend(polygon.split(&cut, least).into_iter().flatten());
                 return;

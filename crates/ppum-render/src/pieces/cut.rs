@@ -1,6 +1,7 @@
 //! Convex polygons cut by lines.
 
 use ppum::line::Line;
+use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// Rounding of offsets and of distances from lines, in parts of their size.
@@ -21,9 +22,9 @@ pub const SAGITTA: f64 = 0.01;
 
 /// A line that cuts polygons, and the part of it that the field jumps on.
 #[derive(Clone, Debug)]
-pub(super) struct PolygonCut {
+pub(crate) struct PolygonCut {
     /// Unit vector along the line.
-    tangent: Vec2,
+    pub(crate) tangent: Vec2,
     /// Distance of the anchor from the line, positive on its left.
     distance: f64,
     /// The part of the line that is a face, along it from the anchor.
@@ -36,7 +37,7 @@ pub(super) struct PolygonCut {
 
 /// A convex polygon; points are offsets from the anchor.
 #[derive(Clone, Debug)]
-pub(super) struct AnchoredPolygon {
+pub(crate) struct AnchoredPolygon {
     /// Counter-clockwise.
     pub(super) corners: Vec<Vec2>,
     /// For the side from each corner to the next the line it was cut along.
@@ -99,10 +100,18 @@ impl PolygonCut {
     pub(super) fn meets(&self, rect: &Rect) -> bool {
         let size = [rect.min.x, rect.min.y, rect.max.x, rect.max.y];
         let reach = 2.0 * ROUNDING * size.into_iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-        let line = Line { from: self.tangent.left() * -self.distance, along: self.tangent };
         let beyond = vec2(reach, reach);
         let near = Rect::new(rect.min - beyond, rect.max + beyond);
-        line.within(&near, [self.range[0] - reach, self.range[1] + reach]).is_some()
+        self.line().within(&near, [self.range[0] - reach, self.range[1] + reach]).is_some()
+    }
+
+    /// The part in a closed box.
+    pub(crate) fn part_in(&self, rect: &Rect) -> Option<Segment> {
+        self.line().clipped(rect, self.range)
+    }
+
+    fn line(&self) -> Line {
+        Line { from: self.tangent.left() * -self.distance, along: self.tangent }
     }
 
     /// Part of the way to a centre that leads away from a curve.
@@ -113,10 +122,9 @@ impl PolygonCut {
 }
 
 impl AnchoredPolygon {
-    pub(super) fn rectangle(rect: &Rect) -> Self {
-        let (min, max) = (rect.min, rect.max);
-        let corners = vec![min, vec2(max.x, min.y), max, vec2(min.x, max.y)];
-        Self { corners, sides: vec![None; 4] }
+    /// A polygon that nothing cuts.
+    pub(super) fn uncut(corners: &[Vec2]) -> Self {
+        Self { corners: corners.to_vec(), sides: vec![None; corners.len()] }
     }
 
     /// The middle of a side.

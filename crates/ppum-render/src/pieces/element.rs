@@ -11,7 +11,7 @@ use ppum::mesh::{ElementField, Mesh};
 use ppum::polynomial::PolynomialSpace;
 use ppum::vec2::Vec2;
 
-use super::curve::{CurveFunction, LevelCurve};
+use super::curve::LevelCurve;
 use super::cut::{AnchoredPolygon, centroid};
 use super::piece::{ConvexPiece, INSET, SHORTEST};
 
@@ -101,7 +101,7 @@ impl ElementCuts {
         let (mut slope, mut is_straight) = (0.0, true);
         for block in data.blocks(patch) {
             let (space, degree) = (data.space(block), data.block_degree[block]);
-            slope += steepness(space, degree, data.block_coefficients(block, 0));
+            slope += steepness(space, degree.into(), data.block_coefficients(block, 0));
             is_straight &= degree == 0 || degree == 1 && space == PolynomialSpace::Total;
         }
         self.0.push(ElementCut { zero: Zero::Level(index), kept, face, slope, is_straight });
@@ -119,7 +119,7 @@ impl ElementCuts {
         for crack in field.step.cracks.iter().filter(meets) {
             let (space, degree) = (mesh.map_space[patch], mesh.map_degree[patch]);
             let maps = mesh.map_of(patch).map(|c| [&[0.0], c].concat());
-            let slope = maps.iter().map(|c| steepness(space, degree, c)).sum();
+            let slope = maps.iter().map(|c| steepness(space, degree.into(), c)).sum();
             let is_straight = degree == 1 && space == PolynomialSpace::Total;
             let local = LocalCrack::new(crack, anchor);
             let segments = crack.points.windows(2).zip(local.segments());
@@ -136,11 +136,10 @@ impl ElementCuts {
     /// of the step.
     #[must_use]
     pub fn pieces(&self, element: &ElementField<'_, '_>, corners: &[Vec2]) -> Vec<ConvexPiece> {
-        let whole = AnchoredPolygon { corners: corners.to_vec(), sides: vec![None; corners.len()] };
         let (center, size) = (centroid(corners), radius(corners));
-        let mut all = vec![whole];
+        let mut all = vec![AnchoredPolygon::uncut(corners)];
         for cut in self.0.iter().filter(|cut| cut.may_meet(element, center, size)) {
-            let curve = LevelCurve { level: ElementLevel { element, cut } };
+            let curve = ElementLevel { element, cut };
             all = all.into_iter().flat_map(|polygon| curve.split(polygon, 0.0)).collect();
         }
         all.into_iter().filter_map(|polygon| self.finished(element, polygon, size)).collect()
@@ -213,7 +212,7 @@ struct ElementLevel<'a, 'm, 'f> {
     cut: &'a ElementCut,
 }
 
-impl CurveFunction for ElementLevel<'_, '_, '_> {
+impl LevelCurve for ElementLevel<'_, '_, '_> {
     fn value(&self, p: Vec2) -> f64 {
         self.cut.value(self.element, p)
     }
@@ -229,8 +228,9 @@ impl CurveFunction for ElementLevel<'_, '_, '_> {
 
 /// Σ (j + k) |c_jk|: |p(ξ) − p(a)| is at most this times the larger component of |ξ − a| in the
 /// square [−1, 1]².
-fn steepness(space: PolynomialSpace, degree: u8, coefficients: &[f64]) -> f64 {
-    let terms = space.exponents(degree.into()).zip(coefficients);
+#[must_use]
+pub fn steepness(space: PolynomialSpace, degree: usize, coefficients: &[f64]) -> f64 {
+    let terms = space.exponents(degree).zip(coefficients);
     terms.map(|((j, k), c)| f64::from(j + k) * c.abs()).sum()
 }
 

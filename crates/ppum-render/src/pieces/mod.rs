@@ -23,20 +23,23 @@ mod piece;
 mod round;
 
 use ppum::box_tree::BoxTree;
-use ppum::crack::{Crack, LocalCrack};
+use ppum::crack::{Crack, LocalCrack, LocalSegment};
 use ppum::domain::{Hole, LocalDomain, LocalRim, LocalSide};
 use ppum::equation::Equation;
 use ppum::field::Field;
 use ppum::formula::Kink;
+use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use curve::{FormulaLevel, LevelCurve};
+pub(crate) use curve::{FormulaLevel, LevelCurve};
+pub(crate) use cut::PolygonCut;
 pub use cut::SAGITTA;
-use cut::{AnchoredPolygon, PolygonCut, centroid};
-pub use element::ElementCuts;
+use cut::{AnchoredPolygon, centroid};
+pub use element::{ElementCuts, steepness};
 use piece::SHORTEST;
+pub(crate) use piece::contains;
 pub use piece::{ConvexPiece, INSET};
-use round::AnchoredCircle;
+pub(crate) use round::{AnchoredCircle, turns};
 
 /// Squares with more lines in them than this are divided into four, again and again, up to
 /// [`DEPTH`] times: the lines of a corner with many sides do not all cut all pieces then.
@@ -62,7 +65,7 @@ pub struct Pieces<'f> {
     round_tree: BoxTree,
     /// Straight interfaces, and the others.
     interfaces: Vec<PolygonCut>,
-    curves: Vec<LevelCurve<FormulaLevel>>,
+    curves: Vec<FormulaLevel>,
 }
 
 impl<'f> Pieces<'f> {
@@ -71,10 +74,7 @@ impl<'f> Pieces<'f> {
     #[must_use]
     pub fn new(field: &Field<'f>, anchor: Vec2) -> Self {
         let mut pieces = Self::of_values(field, anchor);
-        let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
-        for kink in formulas.flat_map(|(_, expression)| expression.formula().kinks()) {
-            pieces.add_interface(kink);
-        }
+        material_kinks(field).for_each(|kink| pieces.add_interface(kink));
         pieces
     }
 
@@ -83,13 +83,10 @@ impl<'f> Pieces<'f> {
     #[must_use]
     pub fn of_values(field: &Field<'f>, anchor: Vec2) -> Self {
         let (domain, holes) = (field.domain, &field.domain.holes);
-        let (mut lines, mut boxes) = (Vec::new(), Vec::new());
-        for crack in &field.step.cracks {
-            add_crack(crack, anchor, &mut lines, &mut boxes);
-        }
-        for hole in holes {
-            add_sides(hole, anchor, &mut lines, &mut boxes);
-        }
+        let of_cracks = field.step.cracks.iter().flat_map(|crack| crack_lines(crack, anchor));
+        let of_holes = holes.iter().flat_map(|hole| side_lines(hole, anchor));
+        let (ends, lines): (Vec<Segment>, Vec<_>) = of_cracks.chain(of_holes).unzip();
+        let boxes: Vec<_> = ends.iter().map(|[a, b]| Rect::new(a.min(*b), a.max(*b))).collect();
         let is_round = |hole: &&Hole| matches!(hole, Hole::Circle { .. });
         let round_boxes: Vec<Rect> = holes.iter().filter(is_round).map(Hole::bounds).collect();
         Self {
@@ -109,10 +106,7 @@ impl<'f> Pieces<'f> {
     fn add_interface(&mut self, kink: Kink) {
         match kink.line() {
             Some(line) => self.interfaces.extend(PolygonCut::interface(line, self.anchor)),
-            None => {
-                let level = FormulaLevel { formula: kink.value, anchor: self.anchor };
-                self.curves.push(LevelCurve { level });
-            }
+            None => self.curves.push(FormulaLevel { formula: kink.value, anchor: self.anchor }),
         }
     }
 
@@ -150,7 +144,7 @@ impl<'f> Pieces<'f> {
         let size = square.size();
         let size = size.x.min(size.y);
         let least = SLIVER * size;
-        let mut all = vec![AnchoredPolygon::rectangle(square)];
+        let mut all = vec![AnchoredPolygon::uncut(&square.corners())];
         for border in PolygonCut::borders(&self.bounds) {
             let inside = |polygon: AnchoredPolygon| {
                 let [_, inside] = polygon.split(&border, least);
@@ -230,8 +224,15 @@ impl<'f> Pieces<'f> {
 /// Relative difference of the moduli on two sides above which a material jumps.
 const JUMP: f64 = 1e-4;
 
+/// The kinks of the material's constants.
+pub(crate) fn material_kinks(field: &Field<'_>) -> impl Iterator<Item = Kink> {
+    let formulas = field.equation.constants().filter(|(_, e)| e.constant().is_none());
+    formulas.flat_map(|(_, expression)| expression.formula().kinks())
+}
+
 /// The four squares of half its side.
-pub(crate) fn quarters(square: &Rect) -> [Rect; 4] {
+#[must_use]
+pub fn quarters(square: &Rect) -> [Rect; 4] {
     let (min, middle, max) = (square.min, square.center(), square.max);
     [
         Rect::new(min, middle),
@@ -241,31 +242,27 @@ pub(crate) fn quarters(square: &Rect) -> [Rect; 4] {
     ]
 }
 
-fn add_crack(crack: &Crack, anchor: Vec2, lines: &mut Vec<PolygonCut>, boxes: &mut Vec<Rect>) {
+/// The segments of a crack, and their lines seen from an anchor.
+pub(crate) fn crack_lines(crack: &Crack, anchor: Vec2) -> Vec<(Segment, PolygonCut)> {
     let local = LocalCrack::new(crack, anchor);
-    for (ends, segment) in crack.points.windows(2).zip(local.segments()) {
+    let line = |(ends, segment): (&[Vec2], &LocalSegment)| {
         // those of the local crack are infinite at the crack's ends
         let range = [ends[0], ends[1]].map(|end| segment.tangent.dot(end - anchor));
-        lines.push(PolygonCut::along(segment.tangent, segment.distance, range));
-        boxes.push(Rect::new(ends[0].min(ends[1]), ends[0].max(ends[1])));
-    }
+        ([ends[0], ends[1]], PolygonCut::along(segment.tangent, segment.distance, range))
+    };
+    crack.points.windows(2).zip(local.segments()).map(line).collect()
 }
 
-fn add_sides(hole: &Hole, anchor: Vec2, lines: &mut Vec<PolygonCut>, boxes: &mut Vec<Rect>) {
+/// The sides of a polygonal hole, and their lines seen from an anchor; none of a round one.
+pub(crate) fn side_lines(hole: &Hole, anchor: Vec2) -> Vec<(Segment, PolygonCut)> {
     let local = hole.at(anchor);
-    let LocalRim::Polygon(sides, _) = local.rim() else { return };
-    for (ends, &LocalSide { a, b, direction, cross }) in hole.sides().zip(sides) {
-        let length = direction.length();
-        if length > 0.0 {
-            let tangent = direction / length;
-            lines.push(PolygonCut::along(
-                tangent,
-                cross / length,
-                [tangent.dot(a), tangent.dot(b)],
-            ));
-            boxes.push(Rect::new(ends[0].min(ends[1]), ends[0].max(ends[1])));
-        }
-    }
+    let LocalRim::Polygon(sides, _) = local.rim() else { return Vec::new() };
+    let line = |(ends, side): (Segment, &LocalSide)| {
+        let (length, tangent) = (side.direction.length(), side.direction.unit());
+        let range = [tangent.dot(side.a), tangent.dot(side.b)];
+        (length > 0.0).then(|| (ends, PolygonCut::along(tangent, side.cross / length, range)))
+    };
+    hole.sides().zip(sides).filter_map(line).collect()
 }
 
 #[cfg(test)]

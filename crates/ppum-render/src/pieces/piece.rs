@@ -1,5 +1,6 @@
 //! A piece: a convex polygon on which a field is smooth.
 
+use ppum::segment::sides;
 use ppum::vec2::Vec2;
 
 use super::cut::centroid;
@@ -27,6 +28,12 @@ pub struct ConvexPiece {
 }
 
 impl ConvexPiece {
+    /// A polygon that nothing cuts, by its corners, counter-clockwise.
+    pub(crate) fn uncut(corners: impl Into<Vec<Vec2>>, inset: f64) -> Self {
+        let corners = corners.into();
+        Self { faces: vec![false; corners.len()], corners, inset }
+    }
+
     /// The mean of the corners: inside, and well away from all sides.
     #[must_use]
     pub fn center(&self) -> Vec2 {
@@ -38,4 +45,9 @@ impl ConvexPiece {
     pub fn seen_from_inside(&self, point: Vec2) -> Vec2 {
         point + (self.center() - point) * self.inset
     }
+}
+
+/// True if a point lies in a convex polygon, by its corners, counter-clockwise.
+pub(crate) fn contains(corners: &[Vec2], p: Vec2) -> bool {
+    sides(corners).all(|[a, b]| (b - a).cross(p - a) >= 0.0)
 }

@@ -2,8 +2,8 @@
 
 use std::f64::consts::{PI, TAU};
 
-use super::SAGITTA;
 use super::cut::{AnchoredPolygon, PolygonCut};
+use super::{SAGITTA, contains};
 use ppum::domain::{Hole, LocalRim};
 use ppum::vec2::{Rect, Vec2, vec2};
 
@@ -12,18 +12,18 @@ const LEAST: f64 = 12.0;
 
 /// A round hole seen from the anchor.
 #[derive(Debug)]
-pub(super) struct AnchoredCircle {
+pub(crate) struct AnchoredCircle {
     /// Anchor minus centre: its length and its direction.
-    away: f64,
-    direction: Vec2,
+    pub(crate) away: f64,
+    pub(crate) direction: Vec2,
     /// |anchor − centre|² − r², formed without cancellation.
-    excess: f64,
-    radius: f64,
+    pub(crate) excess: f64,
+    pub(crate) radius: f64,
 }
 
 impl AnchoredCircle {
     /// `None` for polygons.
-    pub(super) fn new(hole: &Hole, anchor: Vec2) -> Option<Self> {
+    pub(crate) fn new(hole: &Hole, anchor: Vec2) -> Option<Self> {
         let local = hole.at(anchor);
         let (Hole::Circle { radius, .. }, LocalRim::Circle { d, excess }) = (hole, local.rim())
         else {
@@ -34,6 +34,10 @@ impl AnchoredCircle {
         Some(Self { away, direction, excess: *excess, radius: *radius })
     }
 
+    pub(crate) fn center(&self) -> Vec2 {
+        self.direction * -self.away
+    }
+
     /// |p − centre|² − r²
     fn power(&self, p: Vec2) -> f64 {
         self.excess + (self.direction * (2.0 * self.away) + p).dot(p)
@@ -41,10 +45,8 @@ impl AnchoredCircle {
 
     /// True if a rectangle is partly inside.
     pub(super) fn meets(&self, rect: &Rect) -> bool {
-        let center = self.direction * -self.away;
-        let nearest = center.max(rect.min).min(rect.max);
-        self.power(nearest) < 0.0
-            && !AnchoredPolygon::rectangle(rect).corners.iter().all(|&p| self.power(p) < 0.0)
+        let nearest = self.center().max(rect.min).min(rect.max);
+        self.power(nearest) < 0.0 && !rect.corners().iter().all(|&p| self.power(p) < 0.0)
     }
 
     /// The parts of a polygon outside tangents of the rim, in a square of a size.
@@ -77,34 +79,16 @@ impl AnchoredCircle {
         let count = (TAU / step).ceil().max(LEAST);
         let step = TAU / count;
         let angles: Vec<f64> = corners.iter().map(|&corner| self.angle(corner)).collect();
-        let turned = |angle: &f64| {
-            let turn = angle - angles[0];
-            if turn > PI {
-                turn - TAU
-            } else if turn < -PI {
-                turn + TAU
-            } else {
-                turn
-            }
-        };
-        let turns: Vec<f64> = angles.iter().map(turned).collect();
-        let (lo, hi) = turns.iter().fold((0.0f64, 0.0f64), |(a, b), &t| (a.min(t), b.max(t)));
-        if self.surrounded_by(corners) {
+        let [lo, hi] = turns(&angles);
+        if contains(corners, self.center()) {
             return (0, count as i64 - 1, step);
         }
         let at = |turn: f64| (angles[0] + turn) / step;
         (at(lo).floor() as i64, at(hi).ceil() as i64, step)
     }
 
-    /// True if the centre lies inside a convex polygon.
-    fn surrounded_by(&self, corners: &[Vec2]) -> bool {
-        let center = self.direction * -self.away;
-        let next = corners.iter().cycle().skip(1);
-        corners.iter().zip(next).all(|(a, b)| (*b - *a).cross(center - *a) >= 0.0)
-    }
-
     /// The angle of a point, seen from the centre, from the direction to the anchor.
-    fn angle(&self, p: Vec2) -> f64 {
+    pub(crate) fn angle(&self, p: Vec2) -> f64 {
         self.direction.cross(p).atan2(self.away + self.direction.dot(p))
     }
 
@@ -120,4 +104,15 @@ impl AnchoredCircle {
         let (middle, half) = (self.away * sin, self.radius * (0.5 * step).tan());
         PolygonCut::along(tangent, -outward, [middle - half, middle + half])
     }
+}
+
+/// The range of the turns, each by half a circle at most, that lead from the first of some angles
+/// to the others.
+pub(crate) fn turns(angles: &[f64]) -> [f64; 2] {
+    let turn = |angle: &f64| match angle - angles[0] {
+        turn if turn > PI => turn - TAU,
+        turn if turn < -PI => turn + TAU,
+        turn => turn,
+    };
+    angles.iter().map(turn).fold([0.0f64; 2], |[a, b], turn| [a.min(turn), b.max(turn)])
 }

@@ -219,20 +219,6 @@ impl RangeChoice {
         !matches!(self, Self::Fixed(..))
     }
 
-    /// The scale on this range, one that is found from the raster alone; `symmetric` asks for a
-    /// range around zero where it contains zero.
-    ///
-    /// # Errors
-    /// A fixed range that is empty or, on a logarithmic scale, not positive.
-    pub fn normalization<T: RasterValue>(
-        &self,
-        scale: Scale,
-        symmetric: bool,
-        raster: &Raster<T>,
-    ) -> Result<Normalization, RangeError> {
-        self.span(scale, symmetric, raster, None).normalization(scale)
-    }
-
     /// The range of a raster's values; `values` are the extrema of what is seen where they are
     /// known, and `symmetric` asks for a range around zero where one that is found contains zero.
     #[must_use]

@@ -8,6 +8,7 @@ use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Vec2, vec2};
+use ppum_raster::scatter::render;
 use ppum_raster::view::View;
 use ppum_testkit::exact::{ElasticField, RoundHole};
 use ppum_testkit::random::Random;
@@ -19,7 +20,7 @@ use crate::extrema::{BodyRegion, Extremum, ExtremumSite, SingularKind, extrema};
 const MATERIAL: Material = Material { young: 1.0, poisson: 0.3, state: StressState::PlaneStrain };
 
 fn bounds(scale: Scale, raster: &Raster<f64>) -> (f64, f64) {
-    let norm = RangeChoice::Auto.normalization(scale, false, raster).unwrap();
+    let norm = RangeChoice::Auto.span(scale, false, raster, None).normalization(scale).unwrap();
     (norm.min(), norm.max())
 }
 
@@ -114,10 +115,16 @@ fn log_ranges_leave_out_what_is_not_positive() {
 #[test]
 fn diverging_ranges_are_symmetric_around_zero() {
     let signed = list(&[-1.0, 0.0, 3.0]);
-    let norm = RangeChoice::Auto.normalization(Scale::Linear, true, &signed).unwrap();
+    let norm = RangeChoice::Auto
+        .span(Scale::Linear, true, &signed, None)
+        .normalization(Scale::Linear)
+        .unwrap();
     assert_eq!((norm.min(), norm.max()), (-3.0, 3.0));
     let positive = list(&[2.0, 3.0]);
-    let norm = RangeChoice::Auto.normalization(Scale::Linear, true, &positive).unwrap();
+    let norm = RangeChoice::Auto
+        .span(Scale::Linear, true, &positive, None)
+        .normalization(Scale::Linear)
+        .unwrap();
     assert_eq!((norm.min(), norm.max()), (2.0, 3.0));
 }
 
@@ -145,7 +152,9 @@ fn fixed_ranges_are_checked() {
     for range in [RangeChoice::Full, RangeChoice::Auto, RangeChoice::Percentiles(0.5, 97.0)] {
         assert_eq!(range.to_string().parse(), Ok(range));
     }
-    let log = RangeChoice::Fixed(0.0, 1.0).normalization(Scale::Log, false, &list(&[1.0]));
+    let log = RangeChoice::Fixed(0.0, 1.0)
+        .span(Scale::Log, false, &list(&[1.0]), None)
+        .normalization(Scale::Log);
     assert_eq!(log, Err(RangeError::LogOfNonPositive(0.0)));
     assert_eq!(
         RangeChoice::Fixed(-0.5, 1e-9).to_string().parse(),
@@ -163,7 +172,7 @@ fn spanned(
 ) -> ColorRange {
     let field = Field::new(dataset, 0).unwrap();
     let quantity = Quantity::parse(text, &field).unwrap();
-    let raster = f64::render(&field, view, &quantity, unwatched()).unwrap();
+    let raster = render::<f64>(&field, view, &quantity, unwatched()).unwrap();
     let region = BodyRegion::seen(&field, view).unwrap();
     let values = extrema(&field, &region, &quantity, unwatched()).unwrap();
     range.span(scale, false, &raster, values)
@@ -346,7 +355,7 @@ fn ranges_of_next_to_nothing() {
             })
     {
         for values in &rasters {
-            let norm = range.normalization(scale, true, &list(values));
+            let norm = range.span(scale, true, &list(values), None).normalization(scale);
             assert!(norm.is_ok(), "{range} {scale} {values:?} {norm:?}");
         }
     }

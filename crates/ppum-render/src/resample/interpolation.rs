@@ -30,21 +30,13 @@ impl Interpolation {
     /// Its word.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Nearest => "nearest",
-            Self::Bilinear => "bilinear",
-            Self::Bicubic => "bicubic",
-        }
+        ["nearest", "bilinear", "bicubic"][self as usize]
     }
 
     /// The power of the spacing that the error of a smooth field falls with.
     #[must_use]
     pub fn order(self) -> u32 {
-        match self {
-            Self::Nearest => 1,
-            Self::Bilinear => 2,
-            Self::Bicubic => 3,
-        }
+        1 + self as u32
     }
 }
 

@@ -13,6 +13,7 @@ use std::collections::BTreeSet;
 use ppum::crack::{SegmentId, Side, tips};
 use ppum::field::Field;
 use ppum::function::{Frame, FunctionKind};
+use ppum::line::Line;
 use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, Source};
 use ppum::vec2::{Rect, Vec2};
@@ -217,9 +218,11 @@ fn jumps(subject: &ResamplingSetup<'_>, least: f64) -> bool {
     if quantity.source() == Source::Partition {
         return false;
     }
+    let shown = Rect::new(-view.half(), view.half());
     (0..).zip(&field.step.cracks).any(|(crack, c)| {
         (0..).zip(c.points.windows(2)).any(|(segment, ends)| {
-            let Some([from, to]) = shown_part(view, [ends[0], ends[1]]) else { return false };
+            let line = Line::through([ends[0] - view.center, ends[1] - view.center]);
+            let Some([from, to]) = line.within(&shown, [0.0, 1.0]) else { return false };
             (0..STATIONS).any(|k| {
                 let t = from + (to - from) * (f64::from(k) + 0.5) / f64::from(STATIONS);
                 let point = ends[0] + (ends[1] - ends[0]) * t;
@@ -230,21 +233,4 @@ fn jumps(subject: &ResamplingSetup<'_>, least: f64) -> bool {
             })
         })
     })
-}
-
-/// The parameters in \[0, 1\] between which a segment lies in the view (Liang and Barsky 1984).
-fn shown_part(view: &View, [a, b]: [Vec2; 2]) -> Option<[f64; 2]> {
-    let (from, d, half) = (a - view.center, b - a, view.half());
-    let (mut lo, mut hi) = (0.0f64, 1.0f64);
-    for (p, q, h) in [(from.x, d.x, half.x), (from.y, d.y, half.y)] {
-        if q == 0.0 {
-            if p.abs() > h {
-                return None;
-            }
-        } else {
-            let [s, t] = [(-h - p) / q, (h - p) / q];
-            (lo, hi) = (lo.max(s.min(t)), hi.min(s.max(t)));
-        }
-    }
-    (lo < hi).then_some([lo, hi])
 }

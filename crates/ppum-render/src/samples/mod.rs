@@ -34,7 +34,7 @@ use ppum::quantity::Quantity;
 use ppum::vec2::Vec2;
 use ppum_raster::RasterError;
 use ppum_raster::raster::{Raster, RasterValue};
-use ppum_raster::scatter::render_strips;
+use ppum_raster::scatter::render_batches;
 use ppum_raster::view::View;
 use rayon::prelude::*;
 
@@ -162,7 +162,7 @@ pub fn means<T: RasterValue>(
     let inside = Inside::Field(Box::new(field.at(view.center)));
     let mut gathered = SampleMeans::new(inside, view, quantity, samples);
     let (rows, mut add) = (rows(&finer, samples), |values: Vec<T>| gathered.add(&values));
-    render_strips::<T>(field, &finer, quantity, rows, watcher, &mut add)?;
+    render_batches::<T>(field, &finer, quantity, rows, watcher, &mut add)?;
     Ok(gathered.finish())
 }
 

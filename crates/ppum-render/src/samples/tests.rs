@@ -116,7 +116,7 @@ fn strips_change_nothing() {
                 all.extend(values);
                 count += 1;
             };
-            render_strips(&field, &finer, &quantity, rows, unwatched(), &mut take).expect("drawn");
+            render_batches(&field, &finer, &quantity, rows, unwatched(), &mut take).expect("drawn");
             let height = rows.next_multiple_of(32);
             assert_eq!(count, finer.pixels[1].div_ceil(height));
             assert_eq!(bits(&Raster::new(finer.pixels, all)), bits(&whole), "{rows}");

@@ -74,22 +74,22 @@ pub fn adaptation(dataset: &Dataset) -> Option<Plot> {
 }
 
 /// The steps of an adaptation.
-fn all_steps(dataset: &Dataset) -> Vec<StepNorms<'_>> {
+fn all_steps(dataset: &Dataset) -> Vec<DatasetStep<'_>> {
     let steps = dataset.steps.iter().enumerate();
-    steps.map(|(index, step)| StepNorms { dataset, index, step }).collect()
+    steps.map(|(index, step)| DatasetStep { dataset, index, step }).collect()
 }
 
 /// One step of each dataset, the last one unless another is asked for.
 fn one_step_each<'d>(
     datasets: &[NamedDataset<'d>],
     step: Option<usize>,
-) -> Result<Vec<StepNorms<'d>>, PlotError> {
+) -> Result<Vec<DatasetStep<'d>>, PlotError> {
     if datasets.len() < 3 {
         return Err(PlotError::FewDatasets);
     }
     let one = |&NamedDataset { name, dataset }: &NamedDataset<'d>| {
         let index = step.unwrap_or(dataset.steps.len().saturating_sub(1));
-        let found = dataset.steps.get(index).map(|step| StepNorms { dataset, index, step });
+        let found = dataset.steps.get(index).map(|step| DatasetStep { dataset, index, step });
         found.ok_or_else(|| PlotError::Step { name: name.to_owned(), step: index })
     };
     datasets.iter().map(one).collect()
@@ -129,14 +129,14 @@ fn unknowns(step: &Step) -> f64 {
 }
 
 /// A step of a dataset.
-struct StepNorms<'d> {
+struct DatasetStep<'d> {
     dataset: &'d Dataset,
     index: usize,
     step: &'d Step,
 }
 
 /// Relative errors in the energy norm and in L² where all exact solutions are known.
-fn exact(solutions: &[StepNorms<'_>]) -> Result<Vec<PlotCurve>, PlotError> {
+fn exact(solutions: &[DatasetStep<'_>]) -> Result<Vec<PlotCurve>, PlotError> {
     let mut points = [Vec::new(), Vec::new()];
     for solution in solutions {
         let Some(errors) = errors(solution)? else { return Ok(Vec::new()) };
@@ -151,7 +151,7 @@ fn exact(solutions: &[StepNorms<'_>]) -> Result<Vec<PlotCurve>, PlotError> {
 /// Errors relative to the exact solution, in the energy norm and in L²; none if it, or the
 /// equation, is not known.
 fn errors(
-    StepNorms { dataset, index, step }: &StepNorms<'_>,
+    DatasetStep { dataset, index, step }: &DatasetStep<'_>,
 ) -> Result<Option<[f64; 2]>, PlotError> {
     let field = Field::new(dataset, *index).map_err(PlotError::of)?;
     if !field.has_exact() || dataset.equation == Equation::None {

@@ -9,6 +9,8 @@ use super::{NamedDataset, PlotError, label};
 /// The measure of the solver's work that is plotted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[derive(serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SolverWork {
     /// Seconds of the phases, of a series their sums
     #[default]

@@ -11,6 +11,8 @@ use super::{NamedDataset, PlotError, label, title};
 /// The horizontal axis of a plot of steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum))]
+#[derive(serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum SeriesAxis {
     /// Their numbers
     #[default]

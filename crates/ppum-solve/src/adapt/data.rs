@@ -1,8 +1,8 @@
 //! Error of the given data that a solution does not show: sources, tractions and values.
 
-use super::border::BorderConditions;
+use super::boundary::BoundaryConditions;
 use super::span::unseen;
-use crate::assembly::border_rules;
+use crate::assembly::boundary_rules;
 use crate::law::Law;
 use crate::quadrature::{CellRule, EdgeRule, Quadrature};
 use crate::space::TrialSpace;
@@ -38,7 +38,7 @@ pub(super) fn unseen_data(
         space,
         law,
         quadrature: space.quadrature(0),
-        border: BorderConditions::all(problem),
+        boundary: BoundaryConditions::all(problem),
         known: known_fields(problem).into_iter().map(|field| field.at).collect(),
         has_source: problem.source.iter().any(|f| f.formula().constant().is_none()),
     };
@@ -55,7 +55,7 @@ struct DataResidual<'a> {
     space: &'a TrialSpace<'a>,
     law: &'a Law<'a>,
     quadrature: Quadrature<'a>,
-    border: Vec<BorderConditions>,
+    boundary: Vec<BoundaryConditions>,
     /// Singular points of known fields.
     known: Vec<Vec2>,
     /// True if the source varies: a constant is a polynomial.
@@ -66,12 +66,11 @@ impl DataResidual<'_> {
     fn in_cell(&self, cell: usize) -> f64 {
         let (rect, order) = (&self.space.partition().cell[cell], self.space.order(cell));
         let mut unseen = 0.0;
-        for part in self.border.iter().filter(|part| part.may_meet(rect)) {
-            let covering_patches = &self.space.covering_patches[cell];
-            let rules =
-                border_rules(self.problem, part.on, &self.quadrature, rect, covering_patches);
+        for part in self.boundary.iter().filter(|part| part.may_meet(rect)) {
+            let cell = self.space.cell(cell);
+            let rules = boundary_rules(self.problem, part.on, &self.quadrature, cell);
             unseen +=
-                rules.iter().map(|rule| self.on_border(part, rule, (rect, order))).sum::<f64>();
+                rules.iter().map(|rule| self.on_boundary(part, rule, (rect, order))).sum::<f64>();
         }
         unseen + self.of_source(cell) + self.of_initial_stress(cell)
     }
@@ -87,10 +86,7 @@ impl DataResidual<'_> {
         {
             return 0.0;
         }
-        self.unseen_in_cell(cell, &|x| {
-            let [[xx, xy], [_, yy]] = self.law.initial_stress(x);
-            [xx, yy, std::f64::consts::SQRT_2 * xy]
-        })
+        self.unseen_in_cell(cell, &|x| self.law.initial_stress(x).mandel())
     }
 
     /// (d/(π p))² ∫ |f − Π f|² / C with the cell's diagonal d and the best polynomial Π f of a
@@ -117,9 +113,9 @@ impl DataResidual<'_> {
 
     /// The squares of what the field misses of the tractions and values at the points of a
     /// rule.
-    fn on_border(
+    fn on_boundary(
         &self,
-        part: &BorderConditions,
+        part: &BoundaryConditions,
         rule: &EdgeRule,
         (rect, order): (&Rect, usize),
     ) -> f64 {
@@ -140,7 +136,7 @@ impl DataResidual<'_> {
                 continue;
             }
             let law = self.law.on(x, rule.face.map(|face| (face.segment, face.side)));
-            let flux = law.stress(&u.map(|jet| vec2(jet.x, jet.y)));
+            let flux: [f64; 2] = law.stress(&law.strain(&u)).traction(n).into();
             let (held, axes, mut given) = part.given(self.problem, (x, n), u.map(|u| u.v));
             if let Some(between) = &between {
                 let state = between[q];
@@ -156,7 +152,7 @@ impl DataResidual<'_> {
             }
             let width = (h / (2.0 * (p + 1.0))).min(to_tip).min(to_point);
             let missed = [0, 1].map(|i| u[i].v - given[i]);
-            let excess = [0, 1].map(|i| flux[i][0] * n.x + flux[i][1] * n.y - given[i]);
+            let excess = [0, 1].map(|i| flux[i] - given[i]);
             for i in 0..law.components() {
                 sum += weight
                     * if held[i] {
@@ -187,9 +183,8 @@ fn values_in_cell<const N: usize>(
     let (center, half) = (rect.center(), rect.size() * 0.5);
     let (mut places, mut values) = (Vec::new(), vec![Vec::new(); N]);
     for rule in rules {
-        for (&offset, weight) in rule.offsets.iter().zip(&rule.weights) {
-            let (x, root) = (rule.anchor + offset, weight.sqrt());
-            let way = x - center;
+        for (x, weight) in rule.points() {
+            let (way, root) = (x - center, weight.sqrt());
             places.push((vec2(way.x / half.x, way.y / half.y), root));
             values.iter_mut().zip(function(x)).for_each(|(values, f)| values.push(root * f));
         }

@@ -5,7 +5,7 @@
 //! ```text
 //! ∫_{C_j} Σ_i s_i φ_i |ε(u_i) − ε(u)|²_C      the local fields do not agree
 //! (d/(π p))² ∫_{C_j} |f − Π f|² / C           the source has what polynomials do not
-//! h/(2p + 2) ∫_Γ |t − σ(u) n|² / C            the traction on the border is not the one given
+//! h/(2p + 2) ∫_Γ |t − σ(u) n|² / C            the traction there is not the one given
 //! (p² + 1)/h ∫_Γ C |u − g|²                   nor is the value, or the gap of faces that are closed
 //! ```
 //!
@@ -16,7 +16,7 @@
 //! [`Adviser`] says of each whether to divide it or to raise its order.
 
 mod advice;
-mod border;
+mod boundary;
 mod data;
 mod decay;
 mod mark;

@@ -11,13 +11,13 @@
 //! (ε(v_i) − ε(v)) takes the place of the square.
 
 use crate::basis::{ShapeEvaluator, Shapes};
-use crate::law::Law;
+use crate::law::{Law, OPERATORS, Strain};
 use crate::quadrature::CellRule;
 use crate::space::TrialSpace;
 use crate::watched::{Halt, WorkPhase, in_batches};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatMut, MatRef, Par};
-use ppum::vec2::{Vec2, vec2};
+use ppum::vec2::Vec2;
 use ppum_problem::geometry::BoxList;
 use std::ops::Range;
 
@@ -100,7 +100,7 @@ struct PatchProducts {
     /// The row of φ among the shapes.
     phi: usize,
     value: Vec<f64>,
-    slopes: [Vec<f64>; 2],
+    slopes: [Vec<f64>; OPERATORS],
 }
 
 impl SampledFields<'_> {
@@ -108,7 +108,7 @@ impl SampledFields<'_> {
     /// there.
     fn add(&self, sum: &mut Mat<f64>) -> f64 {
         let mut products = self.products();
-        let whole = [0, 1].map(|axis| total(&products, axis));
+        let whole = std::array::from_fn(|k| total(&products, k));
         if products.len() > 1 {
             for part in &mut products {
                 let weights = self.weights(part);
@@ -121,25 +121,25 @@ impl SampledFields<'_> {
     }
 
     /// Twice the energy of the first field, given the slopes of all.
-    fn energy(&self, [dx, dy]: &[Vec<f64>; 2]) -> f64 {
+    fn energy(&self, slopes: &[Vec<f64>; OPERATORS]) -> f64 {
         let (points, components) = (self.shapes.points, self.law.components);
-        let at = |(q, (&offset, weight)): (usize, (&Vec2, &f64))| {
-            let gradient = |j: usize| match j < components {
-                true => vec2(dx[j * points + q], dy[j * points + q]),
-                false => Vec2::ZERO,
-            };
-            weight * self.law.at(self.rule.anchor + offset).energy(&[0, 1].map(gradient))
+        let at = |(q, (x, weight)): (usize, (Vec2, f64))| {
+            let mut strain = Strain::default();
+            for j in 0..components {
+                strain.add(j, 1.0, slopes.each_ref().map(|row| row[j * points + q]));
+            }
+            weight * self.law.at(x).energy(&strain)
         };
-        self.rule.offsets.iter().zip(&self.rule.weights).enumerate().map(at).sum()
+        self.rule.points().enumerate().map(at).sum()
     }
 
     /// Adds ∫ σ:∇v of all pairs of fields. Slopes have a row for each component of each field.
-    fn add_products(&self, weights: &[f64], slopes: [&[f64]; 2], sum: &mut Mat<f64>) {
+    fn add_products(&self, weights: &[f64], slopes: [&[f64]; OPERATORS], sum: &mut Mat<f64>) {
         let (law, n, fields) = (self.law, weights.len(), sum.nrows());
         let mut stresses = slopes.map(|slopes| vec![0.0; slopes.len()]);
         for (m, term) in law.terms.iter().enumerate() {
-            let coefficient = |&offset: &Vec2| law.coefficients(self.rule.anchor + offset)[m];
-            let factors = self.rule.offsets.iter().map(coefficient).zip(weights);
+            let coefficients = self.rule.points().map(|(x, _)| law.coefficients(x)[m]);
+            let factors = coefficients.zip(weights);
             let factors: Vec<f64> = factors.map(|(coefficient, w)| coefficient * w).collect();
             for first in (0..slopes[0].len()).step_by(law.components * n) {
                 let row = |i: usize| first + i * n..first + (i + 1) * n;
@@ -165,9 +165,13 @@ impl SampledFields<'_> {
             let range = first..first + coefficients[patch].ncols();
             first = range.end;
             let combined = |array: &Vec<f64>| self.combined(patch, array, range.clone());
-            let [value, dx, dy] =
-                [&self.shapes.value, &self.shapes.dx, &self.shapes.dy].map(combined);
-            PatchProducts { patch, phi: range.start, value, slopes: [dx, dy] }
+            let (value, slopes) = (combined(&self.shapes.value), &self.shapes.slopes);
+            PatchProducts {
+                patch,
+                phi: range.start,
+                value,
+                slopes: slopes.each_ref().map(combined),
+            }
         };
         self.rule.patches.iter().map(of_patch).collect()
     }
@@ -175,15 +179,15 @@ impl SampledFields<'_> {
     /// s φ times the weights of the rule; zero where the local field does not count.
     fn weights(&self, part: &PatchProducts) -> Vec<f64> {
         let weight = |(q, (weight, phi)): (usize, (&f64, &f64))| {
-            let counts = *phi >= LEAST && !self.is_lonely(part, q);
+            let counts = *phi >= LEAST && !self.has_sole_support(part, q);
             if counts { weight * self.shares[part.patch] * phi } else { 0.0 }
         };
-        let phi = self.row(&self.shapes.value, part.phi);
+        let phi = self.shapes.row(&self.shapes.value, part.phi);
         self.rule.weights.iter().zip(phi).enumerate().map(weight).collect()
     }
 
-    fn is_lonely(&self, part: &PatchProducts, q: usize) -> bool {
-        let of = |function: &usize| self.row(&self.shapes.value, part.phi + function)[q];
+    fn has_sole_support(&self, part: &PatchProducts, q: usize) -> bool {
+        let of = |function: &usize| self.shapes.row(&self.shapes.value, part.phi + function)[q];
         self.fields.sole_support[part.patch].iter().any(|function| of(function) != 0.0)
     }
 
@@ -197,17 +201,18 @@ impl SampledFields<'_> {
         out
     }
 
-    fn row<'a>(&self, array: &'a [f64], row: usize) -> &'a [f64] {
-        &array[row * self.shapes.points..][..self.shapes.points]
-    }
-
     /// The gradients of a part become ∇u_i − ∇u of all fields, ∇u_i = (∇(φ_i u_i) − u_i ∇φ_i)/φ_i,
     /// and ∇u, given whole, being Σ_i ∇(φ_i u_i); some finite number where they have no weight.
-    fn make_differences(&self, part: &mut PatchProducts, whole: &[Vec<f64>; 2], weights: &[f64]) {
-        let phi = self.row(&self.shapes.value, part.phi).iter().zip(weights);
+    fn make_differences(
+        &self,
+        part: &mut PatchProducts,
+        whole: &[Vec<f64>; OPERATORS],
+        weights: &[f64],
+    ) {
+        let phi = self.shapes.row(&self.shapes.value, part.phi).iter().zip(weights);
         let inverse: Vec<f64> =
             phi.map(|(phi, weight)| if *weight > 0.0 { 1.0 / phi } else { 0.0 }).collect();
-        let of_phi = [&self.shapes.dx, &self.shapes.dy].map(|array| self.row(array, part.phi));
+        let of_phi = self.shapes.factor_slopes(part.phi);
         let points = self.shapes.points;
         for ((slopes, of_phi), whole) in part.slopes.iter_mut().zip(of_phi).zip(whole) {
             let rows = slopes.chunks_exact_mut(points).zip(part.value.chunks_exact(points));
@@ -221,11 +226,11 @@ impl SampledFields<'_> {
     }
 }
 
-/// The sum over the patches of the slopes along an axis.
-fn total(products: &[PatchProducts], axis: usize) -> Vec<f64> {
-    let mut sum = products[0].slopes[axis].clone();
+/// The sum over the patches of D_k of their products.
+fn total(products: &[PatchProducts], k: usize) -> Vec<f64> {
+    let mut sum = products[0].slopes[k].clone();
     for part in &products[1..] {
-        sum.iter_mut().zip(&part.slopes[axis]).for_each(|(sum, part)| *sum += part);
+        sum.iter_mut().zip(&part.slopes[k]).for_each(|(sum, part)| *sum += part);
     }
     sum
 }

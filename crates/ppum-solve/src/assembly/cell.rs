@@ -7,16 +7,17 @@
 //! with the given strains ε⁰ and the known part u_s of the field.
 
 use super::Assembly;
-use super::border::{BorderPiece, BoundarySums};
+use super::boundary::{BoundarySums, CellBoundary};
 use super::cell_matrix::{CellMatrix, Stiffness};
 use super::cell_system::CellSystem;
-use super::dual::Duals;
+use super::dual::DualLoads;
 use super::functions::CellFunctions;
 use super::null_space::FreeModes;
-use super::stiffness::PointGradients;
+use super::stiffness::PointStrains;
 use crate::basis::{BasisEvaluator, Shapes};
+use crate::law::{Strain, Stress};
 use crate::quadrature::CellRule;
-use ppum::vec2::{Vec2, vec2};
+use ppum::vec2::Vec2;
 use ppum_linear::EigenError;
 
 /// Data given at a point: position → values, one per component.
@@ -35,7 +36,7 @@ pub struct Functionals<'a> {
     /// ∫ N·m of the free modes m of the pieces.
     pub free: &'a FreeModes<'a>,
     /// K(N) of both modes, summed over the tips.
-    pub duals: &'a Duals<'a>,
+    pub duals: &'a DualLoads<'a>,
 }
 
 /// Assembles the systems of cells; keeps what belongs to the last one.
@@ -45,7 +46,7 @@ pub(crate) struct CellAssembler<'s> {
     functionals: Option<Functionals<'s>>,
     evaluator: BasisEvaluator<'s>,
     shapes: Shapes,
-    gradients: PointGradients,
+    strains: PointStrains,
     /// Memory for the next matrix.
     pub(super) memory: Vec<f64>,
 }
@@ -53,9 +54,9 @@ pub(crate) struct CellAssembler<'s> {
 impl<'s> CellAssembler<'s> {
     pub(crate) fn new(assembly: Assembly<'s>, functionals: Option<Functionals<'s>>) -> Self {
         let evaluator = BasisEvaluator::new(assembly.space, assembly.basis);
-        let (shapes, gradients) = (Shapes::default(), PointGradients::default());
+        let (shapes, strains) = (Shapes::default(), PointStrains::default());
         let memory = Vec::new();
-        Self { assembly, functionals, evaluator, shapes, gradients, memory }
+        Self { assembly, functionals, evaluator, shapes, strains, memory }
     }
 
     /// The system of one cell, given its quadrature, body forces and the pieces of its boundary. A
@@ -69,12 +70,12 @@ impl<'s> CellAssembler<'s> {
         cell: usize,
         rules: &[CellRule],
         source: Option<SourceTerm<'_>>,
-        border: &[BorderPiece<'_>],
+        boundary: &[CellBoundary<'_>],
         known: Option<&Stiffness<'_>>,
     ) -> Result<(CellSystem, Option<CellMatrix>), EigenError> {
-        let is_restrained = border.iter().any(|piece| piece.held.contains(&true));
+        let is_restrained = boundary.iter().any(|piece| piece.held.contains(&true));
         // what all fields satisfy needs nothing of the matrix
-        let is_held = border.iter().any(|piece| piece.held.contains(&true) && !piece.is_exact);
+        let is_held = boundary.iter().any(|piece| piece.held.contains(&true) && !piece.is_exact);
         let mut system = self.zero(CellFunctions::new(&self.assembly, cell));
         let memory = std::mem::take(&mut self.memory);
         let zero = || system.functions.zero(&self.assembly, !is_held, memory);
@@ -95,17 +96,17 @@ impl<'s> CellAssembler<'s> {
             self.evaluator.see(rule);
             self.load(rule, source.map(|source| source.values), &mut system);
         }
-        if border.is_empty() {
+        if boundary.is_empty() {
             return Ok((system, matrix));
         }
         // where nothing is held there are loads alone, and the matrices stay empty
         let unknowns = if is_restrained { system.load.len() } else { 0 };
-        let mut on_border = BoundarySums::new(self.assembly, unknowns);
-        for piece in border {
-            on_border.add(piece, &mut self.evaluator, &mut self.shapes, &mut system);
+        let mut on_boundary = BoundarySums::new(self.assembly, unknowns);
+        for piece in boundary {
+            on_boundary.add(piece, &mut self.evaluator, &mut self.shapes, &mut system);
         }
         if !is_held {
-            system.reactions = on_border.reactions(0.0);
+            system.reactions = on_boundary.reactions(0.0);
             return Ok((system, matrix));
         }
         let block = |k: usize, l: usize| match (&matrix, known) {
@@ -114,7 +115,7 @@ impl<'s> CellAssembler<'s> {
         };
         let mut free = system.functions.free_matrix(&self.assembly, &block);
         let size = self.assembly.space.partition().cell[cell].size();
-        on_border.finish(size.x.max(size.y), &mut free, &mut system)?;
+        on_boundary.finish(size.x.max(size.y), &mut free, &mut system)?;
         let tied = system.functions.tied_matrix(&self.assembly, &free);
         Ok((system, Some(tied)))
     }
@@ -150,9 +151,8 @@ impl<'s> CellAssembler<'s> {
         let Some(source) = source else { return };
         self.evaluator.apply(&rule.patches, &mut self.shapes);
         let numbers = system.functions.numbers(&rule.patches);
-        let points = rule.offsets.iter().zip(&rule.weights);
-        let load = |(&o, &weight): (&Vec2, &f64)| source(rule.anchor + o).map(|f| weight * f);
-        let loads: Vec<[f64; 2]> = points.map(load).collect();
+        let load = |(x, weight)| source(x).map(|f| weight * f);
+        let loads: Vec<[f64; 2]> = rule.points().map(load).collect();
         self.shapes.add_loads(&loads, &numbers, self.assembly.components(), &mut system.load);
     }
 
@@ -160,19 +160,19 @@ impl<'s> CellAssembler<'s> {
     /// at the points of the rule that was looked at last.
     fn prestress(&mut self, rule: &CellRule, system: &mut CellSystem) {
         let law = self.assembly.law;
-        let known = self.known_gradients(rule);
+        let known = self.known_strains(rule);
         if !law.has_initial_stress() && known.is_empty() {
             return;
         }
         self.evaluator.apply(&rule.patches, &mut self.shapes);
-        let points = rule.offsets.iter().zip(&rule.weights).enumerate();
-        let stress = |(q, (&o, &weight)): (usize, (&Vec2, &f64))| {
-            let gradient = known.get(q).unwrap_or(&[Vec2::ZERO; 2]);
-            law.at(rule.anchor + o).stress(gradient).map(|row| row.map(|s| -weight * s))
+        let stress = |(q, (x, weight)): (usize, (Vec2, f64))| {
+            let strain = known.get(q).copied().unwrap_or_default();
+            let Stress(rows) = law.at(x).stress(&strain);
+            [Stress(rows.map(|row| row.map(|s| -weight * s)))]
         };
-        let stresses: Vec<[[f64; 2]; 2]> = points.map(stress).collect();
+        let stresses: Vec<[Stress; 1]> = rule.points().enumerate().map(stress).collect();
         let numbers = system.functions.numbers(&rule.patches);
-        self.shapes.add_stresses(&stresses, &numbers, &mut system.load);
+        self.shapes.add_stresses(&stresses, &numbers, [&mut system.load]);
     }
 
     /// The value of a functional of the plain functions for the known part of the field.
@@ -189,18 +189,17 @@ impl<'s> CellAssembler<'s> {
         sum
     }
 
-    /// ∇u_s at the points of the rule that was looked at last; none if all of u_s is zero.
-    fn known_gradients(&self, rule: &CellRule) -> Vec<[Vec2; 2]> {
+    /// The strains of u_s at the points of the rule that was looked at last; none if all of u_s is
+    /// zero.
+    fn known_strains(&self, rule: &CellRule) -> Vec<Strain> {
         let (space, plain) = (self.assembly.space, self.evaluator.plain());
         let (mut first, mut sum) = (0, Vec::new());
         for &patch in &rule.patches {
             for known in space.known(patch as usize) {
-                sum.resize(plain.points, [Vec2::ZERO; 2]);
-                let row = (first + known.evaluated) * plain.points;
-                for (q, gradient) in sum.iter_mut().enumerate() {
-                    let slope = vec2(plain.dx[row + q], plain.dy[row + q]);
-                    let parts = gradient.iter_mut().zip(known.coefficients);
-                    parts.for_each(|(sum, c)| *sum = *sum + slope * c);
+                sum.resize(plain.points, Strain::default());
+                for (q, strain) in sum.iter_mut().enumerate() {
+                    let slopes = plain.slopes_at(first + known.evaluated, q);
+                    (0..).zip(known.coefficients).for_each(|(i, c)| strain.add(i, c, slopes));
                 }
             }
             first += space.evaluated(patch as usize);
@@ -220,7 +219,7 @@ impl<'s> CellAssembler<'s> {
         let Some(matrix) = matrix else { return };
         let fields = self.assembly.fields(&rule.patches, tied);
         let (places, plain) = (functions.positions(&rule.patches), self.evaluator.plain());
-        self.gradients.integrate(self.assembly.law, (rule, plain), (&fields, &places), matrix);
+        self.strains.integrate(self.assembly.law, (rule, plain), (&fields, &places), matrix);
     }
 
     /// Adds these points to the functionals of the plain functions.

@@ -23,7 +23,7 @@
 //! ```
 //!
 //! is least. That function has a continuous slope; it is convex if ∫ σ_d² ≤ λ a(u, u) with λ < β,
-//! and λ is known cell by cell, as on held boundaries (`border`). So there is one solution, and β
+//! and λ is known cell by cell, as on held boundaries (`boundary`). So there is one solution, and β
 //! does not matter: with that of the body, all terms with β vanish. At points where P_d is inside
 //! of its interval the term is that of Nitsche for a tie, at others that of a known traction c:
 //!
@@ -41,13 +41,13 @@ use super::cell::CellAssembler;
 use super::cell_matrix::CellMatrix;
 use super::functions::CellFunctions;
 use crate::basis::{BasisEvaluator, Shapes};
+use crate::law::{OPERATORS, Strain};
 use crate::quadrature::{CrackFace, EdgeRule, Quadrature};
 use crate::report::SolverReport;
 use crate::terms::face_law;
 use crate::watched::{Halt, WorkPhase, in_batches};
 use faer::{Mat, MatRef};
 use ppum::crack::Side;
-use ppum::vec2::{Vec2, vec2};
 use ppum_linear::{BlockMatrix, EigenError, largest_eigenvalue, product, taken};
 
 /// β in units of λ: what is left of the energy is a half beside a boundary that is held with its
@@ -154,6 +154,19 @@ impl FaceContacts {
         self.cells.is_empty()
     }
 
+    /// The cells with their parts of numbers or states of all rows.
+    fn with_rows<'a, T>(
+        &'a self,
+        all: &'a [T],
+    ) -> impl Iterator<Item = (&'a ContactCell, &'a [T])> {
+        let mut rest = all;
+        self.cells.iter().map(move |cell| {
+            let (own, tail) = rest.split_at(cell.rows.len());
+            rest = tail;
+            (cell, own)
+        })
+    }
+
     /// The rows of all cells with their β.
     fn rows(&self) -> impl Iterator<Item = (&FaceRow, f64)> {
         self.cells.iter().flat_map(|cell| cell.rows.iter().map(|row| (row, cell.beta)))
@@ -202,15 +215,12 @@ impl FaceContacts {
 
     /// Adds Σ p of the rows' columns p, each times a factor.
     pub fn add_columns(&self, factors: &[f64], matrix: &BlockMatrix, load: &mut [f64]) {
-        let mut rest = factors;
-        for cell in &self.cells {
-            let (own, tail) = rest.split_at(cell.rows.len());
+        for (cell, own) in self.with_rows(factors) {
             for (k, factor) in own.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
                 let places = cell.patches.iter().flat_map(|&p| matrix.unknowns(p as usize));
                 let column = cell.projections.col_as_slice(k);
                 places.zip(column).for_each(|(place, p)| load[place] += factor * p);
             }
-            rest = tail;
         }
     }
 
@@ -235,11 +245,8 @@ impl FaceContacts {
         load: &[f64],
     ) -> (BlockMatrix, Vec<f64>) {
         let (mut matrix, mut load) = (matrix.clone(), load.to_vec());
-        let mut rest = states;
-        for cell in &self.cells {
-            let (own, tail) = rest.split_at(cell.rows.len());
+        for (cell, own) in self.with_rows(states) {
             cell.add(own, &mut matrix, &mut load);
-            rest = tail;
         }
         (matrix, load)
     }
@@ -442,14 +449,13 @@ impl FaceTrace {
         self.modulus = self.modulus.max(law.modulus(0));
         let weight = rule.weights[q];
         for (d, friction) in [(normal, None)].into_iter().chain(along) {
-            let initial = law.stress(&[Vec2::ZERO; 2]).map(|row| normal.dot(row.into()));
-            let initial = d.dot(initial.into());
+            let initial = d.dot(law.stress(&Strain::default()).traction(normal));
             self.rows.push(FaceRow { weight, initial, friction });
             let first = self.stresses.len();
             self.stresses.resize(first + n, 0.0);
             self.jumps.resize(first + n, 0.0);
-            point.visit(|place, j, jump, slope| {
-                let traction = |i: usize| law.traction(i, j, slope, normal);
+            point.visit(|place, j, jump, slopes| {
+                let traction = |i: usize| law.traction(i, j, slopes, normal);
                 self.stresses[first + place] =
                     weight.sqrt() * (d.x * traction(0) + d.y * traction(1));
                 self.jumps[first + place] = weight.sqrt() * jump * [d.x, d.y][j];
@@ -468,14 +474,14 @@ struct FacePoint<'a> {
 
 impl FacePoint<'_> {
     /// Calls `visit` with the place of each unknown (a, j) of the cell, j, the jump of N_a and its
-    /// slope on the side of the stress.
-    fn visit(&self, mut visit: impl FnMut(usize, usize, f64, Vec2)) {
+    /// slopes on the side of the stress.
+    fn visit(&self, mut visit: impl FnMut(usize, usize, f64, [f64; OPERATORS])) {
         let [above, below, stressed] = self.shapes;
         for (a, &number) in self.numbers.iter().enumerate() {
             let at = a * above.points + self.q;
-            let slope = vec2(stressed.dx[at], stressed.dy[at]);
+            let slopes = stressed.slopes_at(a, self.q);
             for j in 0..2 {
-                visit(2 * number + j, j, above.value[at] - below.value[at], slope);
+                visit(2 * number + j, j, above.value[at] - below.value[at], slopes);
             }
         }
     }
@@ -492,10 +498,9 @@ fn other_side(rule: &EdgeRule) -> EdgeRule {
 /// of two cells belongs to the cell above.
 fn faces(assembly: Assembly<'_>, quadrature: &Quadrature<'_>, cell: usize) -> Vec<EdgeRule> {
     let Assembly { problem, space, .. } = assembly;
-    let (rect, covering_patches) = (&space.partition().cell[cell], &space.covering_patches[cell]);
     let touching = (0..problem.cracks().len()).filter(|&k| face_law(problem, k as u32).is_some());
     let all = touching.flat_map(|k| CrackFace::of(&problem.cracks()[k], k, Side::Above));
-    all.flat_map(|face| quadrature.face(rect, covering_patches, face)).collect()
+    all.flat_map(|face| quadrature.face(space.cell(cell), face)).collect()
 }
 
 /// Columns over the cell's functions in each component as columns over its unknowns.

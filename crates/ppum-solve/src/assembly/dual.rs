@@ -1,37 +1,33 @@
 //! Loads whose solutions are dual to stress intensity factors: K(v) = a(v, z) for all v.
 
 use crate::basis::Shapes;
+use crate::law::Stress;
 use crate::quadrature::CellRule;
 use crate::space::TrialSpace;
-use faer::Mat;
-use ppum::vec2::Vec2;
 use ppum_problem::geometry::BoxList;
 
 /// The modes I and II.
 pub const FACTORS: usize = 2;
 
-/// G of a mode at a point, times the weight of the point: of each component the vector that its
-/// gradient is multiplied with.
-pub type ModeKernel = [Vec2; 2];
-
-/// The stress intensity factors of one tip as linear functionals K_m(v) = ∫ G_m : ∇v dA.
+/// The stress intensity factors of one tip as linear functionals K_m(v) = ∫ G_m : ∇v dA: the work
+/// of stresses G_m on strains.
 pub trait LinearFunctional: Sync {
     /// The cells in which G is not zero.
     fn cells(&self, cells: &BoxList<usize>) -> Vec<usize>;
 
-    /// G of both modes at the points of a rule.
-    fn kernels(&self, rule: &CellRule) -> Vec<[ModeKernel; FACTORS]>;
+    /// G of both modes at the points of a rule, times their weights.
+    fn kernels(&self, rule: &CellRule) -> Vec<[Stress; FACTORS]>;
 }
 
 /// The factors of all tips as functionals: K(N) of both modes is integrated with the system, summed
 /// over the tips.
-pub struct Duals<'a> {
+pub struct DualLoads<'a> {
     tips: Vec<&'a dyn LinearFunctional>,
     /// For each cell, the tips whose discs it meets.
     near: Vec<Vec<u32>>,
 }
 
-impl<'a> Duals<'a> {
+impl<'a> DualLoads<'a> {
     /// Finds the cells that each functional is integrated over.
     pub fn new(tips: Vec<&'a dyn LinearFunctional>, space: &TrialSpace<'_>) -> Self {
         let cells = &space.partition().cell;
@@ -63,17 +59,8 @@ impl<'a> Duals<'a> {
         parts: &mut [Vec<f64>],
     ) {
         for &tip in &self.near[cell] {
-            let kernels = self.tips[tip as usize].kernels(rule);
-            // a column for each component of each mode
-            let columns = |of: fn(Vec2) -> f64| {
-                Mat::from_fn(kernels.len(), 2 * FACTORS, |q, k| of(kernels[q][k / 2][k % 2]))
-            };
-            let sums = shapes.slopes_along([&columns(|g| g.x), &columns(|g| g.y)]);
-            for (k, &number) in numbers.iter().enumerate() {
-                for (mode, part) in parts.iter_mut().enumerate() {
-                    (0..2).for_each(|i| part[2 * number + i] += sums[(k, 2 * mode + i)]);
-                }
-            }
+            let [one, two] = parts else { return };
+            shapes.add_stresses(&self.tips[tip as usize].kernels(rule), numbers, [one, two]);
         }
     }
 }

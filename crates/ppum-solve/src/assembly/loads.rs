@@ -7,7 +7,9 @@
 //! other one takes its place for this load.
 
 use crate::law::Law;
-use crate::quadrature::{CellRule, CrackFace, EdgeRule, KinkLine, Quadrature, QuadratureError};
+use crate::quadrature::{
+    CellRule, CoveredCell, CrackFace, EdgeRule, KinkLine, Quadrature, QuadratureErrorEstimate,
+};
 use crate::smoothness::{Smoothness, box_of};
 use crate::space::TrialSpace;
 use crate::watched::{Halt, WorkPhase, in_batches};
@@ -48,7 +50,7 @@ pub(crate) trait RulePoints: Clone + Send + Sync {
     /// Calls `visit` with places, normals (zero inside the body) and weights.
     fn visit(&self, visit: &mut dyn FnMut(Vec2, Vec2, f64));
 
-    fn doubt(&self) -> &QuadratureError;
+    fn doubt(&self) -> &QuadratureErrorEstimate;
 
     /// The side of the crack whose face the points lie on; above if they lie on none.
     fn side(&self) -> Side {
@@ -58,22 +60,20 @@ pub(crate) trait RulePoints: Clone + Send + Sync {
 
 impl RulePoints for CellRule {
     fn visit(&self, visit: &mut dyn FnMut(Vec2, Vec2, f64)) {
-        let points = self.offsets.iter().zip(&self.weights);
-        points.for_each(|(&x, &w)| visit(self.anchor + x, Vec2::ZERO, w));
+        self.points().for_each(|(x, w)| visit(x, Vec2::ZERO, w));
     }
 
-    fn doubt(&self) -> &QuadratureError {
+    fn doubt(&self) -> &QuadratureErrorEstimate {
         &self.doubt
     }
 }
 
 impl RulePoints for EdgeRule {
     fn visit(&self, visit: &mut dyn FnMut(Vec2, Vec2, f64)) {
-        let points = self.offsets.iter().zip(&self.weights).zip(&self.normals);
-        points.for_each(|((&x, &w), &normal)| visit(self.anchor + x, normal, w));
+        self.points().for_each(|(x, normal, w)| visit(x, normal, w));
     }
 
-    fn doubt(&self) -> &QuadratureError {
+    fn doubt(&self) -> &QuadratureErrorEstimate {
         &self.doubt
     }
 
@@ -88,7 +88,7 @@ pub(crate) struct LoadRules<R> {
     /// The rules of each cell.
     own: Vec<Option<Vec<R>>>,
     /// Estimated error of ∫|f|, and where.
-    doubt: QuadratureError,
+    doubt: QuadratureErrorEstimate,
     /// ∫|f|
     magnitude: f64,
 }
@@ -96,7 +96,7 @@ pub(crate) struct LoadRules<R> {
 /// A load that the rules of the system resolve.
 impl<R> Default for LoadRules<R> {
     fn default() -> Self {
-        Self { own: Vec::new(), doubt: QuadratureError::default(), magnitude: 0.0 }
+        Self { own: Vec::new(), doubt: QuadratureErrorEstimate::default(), magnitude: 0.0 }
     }
 }
 
@@ -136,9 +136,7 @@ pub(super) fn of_source(
     let load = LoadIntegrals {
         formulas: problem.source.iter().collect(),
         values: &|x, _| problem.source_at(x),
-        rules: &|quadrature, cell| {
-            quadrature.cell(&space.partition().cell[cell], &space.covering_patches[cell])
-        },
+        rules: &|quadrature, cell| quadrature.cell(space.cell(cell)),
     };
     load.rules_on(space, stage)
 }
@@ -155,9 +153,7 @@ pub(super) fn unresolved_strains(
         let rules = LoadIntegrals {
             formulas: vec![strain],
             values: &|x, _| [strain.value(x), 0.0],
-            rules: &|quadrature, cell| {
-                quadrature.cell(&space.partition().cell[cell], &space.covering_patches[cell])
-            },
+            rules: &|quadrature, cell| quadrature.cell(space.cell(cell)),
         };
         Ok(rules.rules_on(space, stage)?.doubt())
     };
@@ -180,9 +176,7 @@ pub(super) fn of_condition(
         formulas: condition.formulas().collect(),
         values: &values,
         rules: &|quadrature, cell| {
-            let (rect, covering_patches) =
-                (&space.partition().cell[cell], &space.covering_patches[cell]);
-            border_rules(problem, condition.on, quadrature, rect, covering_patches)
+            boundary_rules(problem, condition.on, quadrature, space.cell(cell))
         },
     };
     load.rules_on(space, stage)
@@ -313,35 +307,31 @@ impl Moments {
 }
 
 /// The rules on a part of the boundary in one cell.
-pub(crate) fn border_rules(
+pub(crate) fn boundary_rules(
     problem: &Problem,
     on: BoundaryPart,
     quadrature: &Quadrature<'_>,
-    rect: &Rect,
-    covering_patches: &[u32],
+    cell: CoveredCell<'_>,
 ) -> Vec<EdgeRule> {
     match on {
         BoundaryPart::Edge { edge, from, to } => {
             let ends = [from, to].map(|s| edge.point(&problem.domain().bounds, s));
-            quadrature.edge(rect, covering_patches, ends, edge.normal())
+            quadrature.edge(cell, ends, edge.normal())
         }
-        BoundaryPart::Hole(hole) => {
-            quadrature.rim(rect, covering_patches, &problem.domain().holes[hole], |_| true)
-        }
+        BoundaryPart::Hole(hole) => quadrature.rim(cell, &problem.domain().holes[hole], |_| true),
         BoundaryPart::Sides(run) => {
             let is_wanted = |side| run.holds(run.hole, side);
-            quadrature.rim(rect, covering_patches, &problem.domain().holes[run.hole], is_wanted)
+            quadrature.rim(cell, &problem.domain().holes[run.hole], is_wanted)
         }
         BoundaryPart::Piece(piece) => {
             let runs = problem.pieces()[piece].runs.iter().map(|run| BoundaryPart::Sides(*run));
-            runs.flat_map(|run| border_rules(problem, run, quadrature, rect, covering_patches))
-                .collect()
+            runs.flat_map(|run| boundary_rules(problem, run, quadrature, cell)).collect()
         }
         BoundaryPart::Crack { crack, face } => {
             let both = [Side::Above, Side::Below];
             let sides = both.into_iter().filter(|side| face.is_none_or(|face| face == *side));
             let faces = sides.flat_map(|side| CrackFace::of(&problem.cracks()[crack], crack, side));
-            faces.flat_map(|face| quadrature.face(rect, covering_patches, face)).collect()
+            faces.flat_map(|face| quadrature.face(cell, face)).collect()
         }
     }
 }

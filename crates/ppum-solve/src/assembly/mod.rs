@@ -8,17 +8,17 @@
 //! into a `CellSystem`, [`System`] adds these up. [`NullSpaceConstraint`] makes solutions unique on
 //! pieces of the body that nothing holds.
 
-mod border;
+mod boundary;
 mod cell;
 mod cell_matrix;
 mod cell_system;
 mod contact;
 mod dual;
 mod functions;
-mod given;
 mod loads;
 mod null_space;
 mod point;
+mod prescribed;
 mod reaction;
 mod spring;
 mod stiffness;
@@ -27,10 +27,10 @@ mod template;
 
 pub use cell::Functionals;
 pub use contact::{CellErrors, FaceContacts, FaceState, RowFactors};
-pub use dual::{Duals, FACTORS, LinearFunctional, ModeKernel};
+pub use dual::{DualLoads, FACTORS, LinearFunctional};
 pub use functions::Assembly;
-pub use given::PrescribedData;
-pub(crate) use loads::border_rules;
+pub(crate) use loads::boundary_rules;
 pub use null_space::{FreeModes, NullSpaceConstraint};
 pub use point::values_at;
+pub use prescribed::PrescribedData;
 pub use system::{System, pattern, slivers};

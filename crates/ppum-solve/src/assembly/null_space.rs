@@ -7,7 +7,7 @@
 //!
 //! Where points are held, u_i(x₀) = g_i takes the place of as many of these conditions, and those
 //! that stay are for the motions that the points leave. If pieces touch, the free motions are those
-//! of several pieces together ([`Motion`]).
+//! of several pieces together ([`RigidMotion`]).
 //!
 //! The conditions couple all unknowns of a piece. So the system first gets a penalty on the
 //! unknowns of one patch, which is exact for balanced loads whatever its size: of a motion of
@@ -15,9 +15,10 @@
 //! rigid motions themselves, in whatever functions, and they are subtracted.
 
 use super::point::PointValues;
-use super::spring::{Holder, PieceMoments, Spring};
+use super::spring::{PatchFunctional, PieceMoments, Spring, dot};
 use crate::basis::Shapes;
-use crate::equilibrium::{Balance, Motion, PerMode, PieceConditions, Plate, RigidModes};
+use crate::equilibrium::{Balance, BodyEquilibrium, PieceConditions, RigidMotion};
+use crate::law::{PerMode, RigidModes};
 use crate::quadrature::CellRule;
 use faer::Mat;
 use faer::linalg::solvers::{DenseSolveCore, Solve};
@@ -35,13 +36,13 @@ struct Mode {
 
 /// The free modes of all pieces.
 pub struct FreeModes<'p> {
-    plate: &'p Plate,
+    plate: &'p BodyEquilibrium,
     modes: Vec<Mode>,
 }
 
 impl<'p> FreeModes<'p> {
     /// The free modes of a body.
-    pub fn new(plate: &'p Plate) -> Self {
+    pub fn new(plate: &'p BodyEquilibrium) -> Self {
         let pieces = plate.balances.iter().zip(&plate.free).enumerate();
         let of_piece = |(piece, (balance, free)): (usize, (&Balance, &'p Vec<PerMode>))| {
             let modes = balance.modes;
@@ -51,7 +52,7 @@ impl<'p> FreeModes<'p> {
     }
 
     /// No free modes, on the same pieces: their functionals are not wanted.
-    pub(crate) fn none(plate: &'p Plate) -> Self {
+    pub(crate) fn none(plate: &'p BodyEquilibrium) -> Self {
         Self { plate, modes: Vec::new() }
     }
 
@@ -74,8 +75,7 @@ impl<'p> FreeModes<'p> {
             return;
         }
         let pieces = &self.plate.pieces;
-        let place = |&offset: &Vec2| (rule.anchor + offset, pieces.of(rule.anchor + offset));
-        let places: Vec<(Vec2, usize)> = rule.offsets.iter().map(place).collect();
+        let places: Vec<(Vec2, usize)> = rule.points().map(|(x, _)| (x, pieces.of(x))).collect();
         for (part, mode) in parts.iter_mut().zip(&self.modes) {
             let load = |(&(x, piece), weight): (&(Vec2, usize), &f64)| {
                 let weight = if piece == mode.piece { *weight } else { 0.0 };
@@ -99,15 +99,15 @@ const SOFT: f64 = 1e-6;
 
 /// The free motions of all pieces and the functionals that fix them.
 pub struct NullSpaceConstraint {
-    motions: Vec<Motion>,
+    motions: Vec<RigidMotion>,
     /// For each motion, ∫ N·m over its pieces, in the order of the system.
     moments: Vec<Vec<f64>>,
     /// For each motion, ∫ u_s·m over its pieces, of the known part of the field.
     known: Vec<f64>,
     /// The modes of each motion that get the penalty.
-    holders: Vec<Holder>,
+    holders: Vec<PatchFunctional>,
     /// The penalties on all modes of pieces that touch others.
-    of_touching: Vec<Holder>,
+    of_touching: Vec<PatchFunctional>,
     /// Conditions that take the place of moments that vanish; none where no point is held.
     conditions: Vec<ConstraintCondition>,
 }
@@ -246,7 +246,7 @@ impl NullSpaceConstraint {
 
     /// The functionals of the penalty as right-hand sides: their solutions are rigid-body modes.
     pub fn loads(&self, matrix: &BlockMatrix) -> Vec<Vec<f64>> {
-        let load = |holder: &Holder| {
+        let load = |holder: &PatchFunctional| {
             let mut load = vec![0.0; matrix.n_unknowns()];
             load[matrix.unknowns(holder.patch)].copy_from_slice(&holder.functional);
             load
@@ -287,8 +287,4 @@ fn combined(vectors: &[Vec<f64>], factors: &Mat<f64>) -> Vec<Vec<f64>> {
     };
     let rows = vectors.first().map_or(0, Vec::len);
     (0..factors.ncols()).map(|k| (0..rows).map(|row| entry(k, row)).collect()).collect()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -3,7 +3,7 @@
 use super::Assembly;
 use super::functions::CellFunctions;
 use crate::basis::{ShapeEvaluator, Shapes};
-use crate::quadrature::{CrackFace, EdgeRule, QuadratureError};
+use crate::quadrature::{CrackFace, EdgeRule, QuadratureErrorEstimate};
 use crate::space::TrialSpace;
 use ppum::vec2::Vec2;
 use ppum_linear::BlockMatrix;
@@ -24,7 +24,7 @@ pub(super) fn point_rule(
         normals: vec![Vec2::ZERO],
         patches: space.covering_patches[cell].iter().filter(holds).copied().collect(),
         face,
-        doubt: QuadratureError::default(),
+        doubt: QuadratureErrorEstimate::default(),
     };
     (cell, rule)
 }

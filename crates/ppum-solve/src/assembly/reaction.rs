@@ -9,15 +9,16 @@
 //! the cells.
 
 use super::functions::CellFunctions;
+use super::spring::dot;
 use crate::basis::StableBasis;
-use crate::equilibrium::{MODES, PerMode, RigidModes};
+use crate::law::{MODES, PerMode, RigidModes};
 use ppum::dataset::Reaction;
 use ppum_linear::BlockMatrix;
 use ppum_problem::{BoundaryCondition, Problem, restraint_words};
 
 /// The modes that reactions do work on: the moment is about the centre of the box.
 pub(crate) fn modes(problem: &Problem) -> RigidModes {
-    RigidModes::new(problem.domain().bounds.center(), 1.0, problem.components())
+    RigidModes::new(problem.domain().bounds.center(), 1.0, &problem.equation)
 }
 
 /// Integrals over the boundary of a cell where one condition gives values, for every rigid-body
@@ -33,7 +34,7 @@ pub(crate) struct Restraint {
     /// ∫ m_i g_i
     given: PerMode,
     /// ∫ m_i (C ε⁰ n)_i
-    lacking: PerMode,
+    prestress: PerMode,
 }
 
 impl Restraint {
@@ -44,35 +45,37 @@ impl Restraint {
             traction: zero(),
             value: zero(),
             given: [0.0; MODES],
-            lacking: [0.0; MODES],
+            prestress: [0.0; MODES],
         }
     }
 
-    /// Adds the values that mode `k` takes at points, times the roots of their weights: rows of
-    /// tractions and values are functions at these points, times the roots.
+    /// Adds points with the values that each mode takes there, times the roots of their weights:
+    /// rows of tractions and values are functions at these points, times the roots.
     pub(crate) fn add(
         &mut self,
-        k: usize,
-        mode: &[f64],
-        (tractions, traction_rows): FunctionRows<'_>,
-        (values, value_rows): FunctionRows<'_>,
+        modes: &[Vec<f64>],
+        tractions: FunctionRows<'_>,
+        values: FunctionRows<'_>,
     ) {
-        for (q, m) in mode.iter().enumerate() {
-            for (a, &row) in traction_rows.iter().enumerate() {
-                self.traction[k][row] += m * tractions[(a, q)];
-            }
-            for (a, &row) in value_rows.iter().enumerate() {
-                self.value[k][row] += m * values[(a, q)];
+        for (sums, (functions, rows)) in
+            [(&mut self.traction, tractions), (&mut self.value, values)]
+        {
+            for (sum, mode) in sums.iter_mut().zip(modes) {
+                for (q, m) in mode.iter().enumerate() {
+                    let rows = rows.iter().enumerate();
+                    rows.for_each(|(a, &row)| sum[row] += m * functions[(a, q)]);
+                }
             }
         }
     }
 
-    /// Adds the data that are given at points where mode `k` has these values, and the tractions
+    /// Adds the data that are given at points where the modes have these values, and the tractions
     /// that given strains take away, all times the roots.
-    pub(crate) fn give(&mut self, k: usize, mode: &[f64], given: &[f64], lacking: &[f64]) {
-        let sum = |values: &[f64]| mode.iter().zip(values).map(|(m, v)| m * v).sum::<f64>();
-        self.given[k] += sum(given);
-        self.lacking[k] += sum(lacking);
+    pub(crate) fn give(&mut self, modes: &[Vec<f64>], given: &[f64], prestress: &[f64]) {
+        for (k, mode) in modes.iter().enumerate() {
+            self.given[k] += dot(mode, given);
+            self.prestress[k] += dot(mode, prestress);
+        }
     }
 
     /// The reaction as a function of the cell's unknowns, now that β is known.
@@ -81,7 +84,7 @@ impl Restraint {
         for (work, value) in work.iter_mut().zip(&value) {
             work.iter_mut().zip(value).for_each(|(work, value)| *work -= beta * value);
         }
-        let given = std::array::from_fn(|k| beta * self.given[k] - self.lacking[k]);
+        let given = std::array::from_fn(|k| beta * self.given[k] - self.prestress[k]);
         CellReaction { condition: self.condition, work, given }
     }
 }
@@ -130,11 +133,14 @@ impl Reactions {
             }
         }
         let holding = problem.boundary.iter().zip(sums).filter(|(c, _)| c.held().contains(&true));
-        let reaction = |(condition, sum): (&BoundaryCondition, PerMode)| Reaction {
-            on: restraint_words(condition.on, problem.domain(), problem.pieces()),
-            held: condition.coordinates_of(condition.held())[..components].to_vec(),
-            force: sum[..components].to_vec(),
-            moment: sum[2],
+        let reaction = |(condition, sum): (&BoundaryCondition, PerMode)| {
+            let (force, moment) = modes(problem).resultant(sum);
+            Reaction {
+                on: restraint_words(condition.on, problem.domain(), problem.pieces()),
+                held: condition.coordinates_of(condition.held())[..components].to_vec(),
+                force: <[f64; 2]>::from(force)[..components].to_vec(),
+                moment: moment.unwrap_or(0.0),
+            }
         };
         holding.map(reaction).collect()
     }

@@ -4,7 +4,7 @@ use faer::Mat;
 use ppum_linear::BlockMatrix;
 
 /// A functional of the unknowns of one patch.
-pub(super) struct Holder {
+pub(super) struct PatchFunctional {
     pub(super) patch: usize,
     pub(super) functional: Vec<f64>,
 }
@@ -31,18 +31,18 @@ impl PieceMoments<'_> {
     }
 
     /// A combination of the moments on a patch.
-    pub(super) fn holder(&self, patch: usize, factors: &[f64]) -> Holder {
+    pub(super) fn holder(&self, patch: usize, factors: &[f64]) -> PatchFunctional {
         let entry = |unknown: usize| {
             self.moments.iter().zip(factors).map(|(row, factor)| factor * row[unknown]).sum()
         };
-        Holder { patch, functional: self.matrix.unknowns(patch).map(entry).collect() }
+        PatchFunctional { patch, functional: self.matrix.unknowns(patch).map(entry).collect() }
     }
 }
 
 impl Spring {
     /// Returns for each patch γ Σ_k r_k r_kᵀ, with a part of its largest stiffness over |r|² for γ.
-    pub(super) fn new(holders: &[Holder], part: f64, matrix: &BlockMatrix) -> Self {
-        let of_patch = |rows: &[Holder]| {
+    pub(super) fn new(holders: &[PatchFunctional], part: f64, matrix: &BlockMatrix) -> Self {
+        let of_patch = |rows: &[PatchFunctional]| {
             let patch = rows[0].patch;
             let rows: Vec<_> = rows.iter().map(|holder| &holder.functional).collect();
             let length = rows.iter().copied().flatten().fold(0.0f64, |m, v| m.max(v * v));
@@ -66,6 +66,7 @@ impl Spring {
     }
 }
 
-fn dot(a: &[f64], b: &[f64]) -> f64 {
+/// The scalar product, as far as both reach.
+pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

@@ -1,15 +1,15 @@
 //! The whole system in the stable basis, summed over the cells.
 
 use super::Assembly;
-use super::border::BorderPiece;
+use super::boundary::CellBoundary;
 use super::cell::{CellAssembler, Functionals};
 use super::cell_matrix::Stiffness;
 use super::cell_system::CellSystem;
-use super::given::PrescribedData;
+use super::prescribed::PrescribedData;
 use super::reaction::Reactions;
 use super::template::Templates;
 use crate::basis::Penalty;
-use crate::quadrature::{CellRule, EdgeRule, QuadratureError};
+use crate::quadrature::{CellRule, QuadratureErrorEstimate};
 use crate::report::UnresolvedIntegrand;
 use crate::space::TrialSpace;
 use crate::watched::{Halt, WorkPhase, in_batches};
@@ -47,7 +47,7 @@ struct CellFacts {
     /// Number of quadrature points, those of loads that have their own among them.
     points: usize,
     /// Errors that its rules leave.
-    doubt: QuadratureError,
+    doubt: QuadratureErrorEstimate,
     /// Seconds that one core took to find its points and integrate.
     seconds: f64,
 }
@@ -73,15 +73,15 @@ pub fn slivers(assembly: Assembly<'_>, stage: &WorkPhase<'_>) -> Result<Vec<Pena
         |assembler, cell| {
             // cells that are alike are whole
             let is_whole = space.alike().cell(cell).is_some();
-            let on_border = given.border(space, &quadrature, cell);
-            if is_whole || on_border.is_empty() {
+            let on_boundary = given.boundary(space, &quadrature, cell);
+            if is_whole || on_boundary.is_empty() {
                 return Ok(None);
             }
             let rect = space.partition().cell[cell];
             let rules = space.rules(&quadrature, cell);
-            let part = assembler.assemble(cell, &rules, None, &on_border, None);
+            let part = assembler.assemble(cell, &rules, None, &on_boundary, None);
             let weight = part.map_err(|_| Halt::at(rect))?.0.penalty;
-            let rules = on_border.into_iter().flat_map(|piece| piece.rules).collect();
+            let rules = on_boundary.into_iter().flat_map(|piece| piece.rules).collect();
             Ok((weight * width(&rect) > SLIVER).then_some(Penalty { rules, weight }))
         },
         |_, penalty| found.extend(penalty),
@@ -97,20 +97,16 @@ fn n_cell_points(rules: &[CellRule]) -> usize {
     rules.iter().map(|rule| rule.weights.len()).sum()
 }
 
-fn n_border_points(pieces: &[BorderPiece<'_>]) -> usize {
-    let own = |piece: &BorderPiece<'_>| piece.own.map_or(0, n_edge_points);
-    pieces.iter().map(|piece| n_edge_points(&piece.rules) + own(piece)).sum()
-}
-
-fn n_edge_points(rules: &[EdgeRule]) -> usize {
-    rules.iter().map(|rule| rule.weights.len()).sum()
+fn n_boundary_points(pieces: &[CellBoundary<'_>]) -> usize {
+    let own = pieces.iter().filter_map(|piece| piece.own).flatten();
+    pieces.iter().flat_map(|piece| &piece.rules).chain(own).map(|rule| rule.weights.len()).sum()
 }
 
 /// Errors that the rules of a cell and of its boundary leave.
-fn doubt_of(rules: &[CellRule], pieces: &[BorderPiece<'_>]) -> QuadratureError {
-    let border = pieces.iter().flat_map(|piece| &piece.rules).map(|rule| &rule.doubt);
-    let mut sum = QuadratureError::default();
-    rules.iter().map(|rule| &rule.doubt).chain(border).for_each(|doubt| sum.add(doubt));
+fn doubt_of(rules: &[CellRule], pieces: &[CellBoundary<'_>]) -> QuadratureErrorEstimate {
+    let boundary = pieces.iter().flat_map(|piece| &piece.rules).map(|rule| &rule.doubt);
+    let mut sum = QuadratureErrorEstimate::default();
+    rules.iter().map(|rule| &rule.doubt).chain(boundary).for_each(|doubt| sum.add(doubt));
     sum
 }
 
@@ -139,7 +135,7 @@ impl System {
             || CellAssembler::new(assembly, Some(functionals)),
             |assembler, cell| {
                 let start = Instant::now();
-                let pieces = given.border(space, &quadrature, cell);
+                let pieces = given.boundary(space, &quadrature, cell);
                 let source = given.source(cell);
                 let template = templates.of(cell);
                 let shares_rules = source.is_some_and(|source| source.rules.is_none())
@@ -150,7 +146,7 @@ impl System {
                 };
                 let own = source.and_then(|source| source.rules).map_or(0, n_cell_points);
                 let inside = templates.points(cell).unwrap_or_else(|| n_cell_points(&rules));
-                let points = inside + n_border_points(&pieces) + own;
+                let points = inside + n_boundary_points(&pieces) + own;
                 assembler.memory = spare().pop().unwrap_or_default();
                 let (part, matrix) = assembler
                     .assemble(cell, &rules, source, &pieces, template.as_ref())
@@ -177,7 +173,7 @@ impl System {
 
     /// Collects the unresolved integrands of the data and of all cells.
     fn sum_up(&mut self, given: &PrescribedData<'_>) {
-        let mut doubt = QuadratureError::default();
+        let mut doubt = QuadratureErrorEstimate::default();
         self.cells.iter().for_each(|cell| doubt.add(&cell.doubt));
         self.unresolved = given.unresolved();
         if doubt.functions > 0.0 {

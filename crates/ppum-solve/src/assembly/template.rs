@@ -4,7 +4,7 @@
 use super::Assembly;
 use super::cell::CellAssembler;
 use super::cell_matrix::{CellMatrix, Stiffness};
-use crate::space::Member;
+use crate::space::CongruentCell;
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::sync::OnceLock;
@@ -25,7 +25,7 @@ pub(super) struct Templates<'a> {
 /// The stiffness of some cells.
 struct Template<'a> {
     /// One of the cells.
-    member: &'a Member,
+    member: &'a CongruentCell,
     cells: usize,
     matrix: OnceLock<CellMatrix>,
 }
@@ -68,16 +68,16 @@ impl<'a> Templates<'a> {
     /// Points of the rules on a cell that has a template.
     pub(super) fn points(&self, cell: usize) -> Option<usize> {
         let template = &self.all[(*self.of_cell.get(cell)?)? as usize];
-        let rules = self.assembly.space.alike().kinds()[template.member.kind as usize].rules();
+        let rules = &self.assembly.space.alike().kinds[template.member.kind as usize].rules;
         Some(rules.iter().map(|rule| rule.weights.len()).sum())
     }
 
     fn made(&self, template: &Template<'_>) -> CellMatrix {
         let Assembly { space, basis, .. } = self.assembly;
-        let kind = &space.alike().kinds()[template.member.kind as usize];
+        let kind = &space.alike().kinds[template.member.kind as usize];
         let (space, basis) = (kind.space(space), basis.of_patches(&template.member.patches));
         let assembly = Assembly { space: &space, basis: &basis, ..self.assembly };
-        CellAssembler::new(assembly, None).stiffness(0, kind.rules())
+        CellAssembler::new(assembly, None).stiffness(0, &kind.rules)
     }
 }
 
@@ -136,12 +136,9 @@ mod tests {
                 let (mut found, mut worst) = (0, 0.0_f64);
                 for cell in 0..assembly.n_cells() {
                     let Some(template) = templates.of(cell) else { continue };
-                    let (rect, covering_patches) = (
-                        &assembly.space.partition().cell[cell],
-                        &assembly.space.covering_patches[cell],
-                    );
-                    let own = assembler.stiffness(cell, &quadrature.cell(rect, covering_patches));
-                    let n = covering_patches.len();
+                    let covered = assembly.space.cell(cell);
+                    let own = assembler.stiffness(cell, &quadrature.cell(covered));
+                    let n = covered.patches.len();
                     let largest = (0..n).map(|k| own.block(k, k).norm_max()).fold(0.0, f64::max);
                     let functions = CellFunctions::new(&assembly, cell);
                     for (k, l) in functions.pairs(&assembly) {

@@ -333,7 +333,7 @@ impl WeightedShapes<'_> {
 
     /// ∫ h⁻² ψ² of the first function of a jump, where the other one is not zero.
     fn square(&self, jump: &Jump, other: &Jump) -> f64 {
-        let row = |k: usize| &self.shapes.value[k * self.shapes.points..][..self.shapes.points];
+        let row = |k: usize| self.shapes.row(&self.shapes.value, k);
         let (own, other) = (row(self.functions(jump).start), row(self.functions(other).start));
         let (phi, half) = (row(self.first(jump.patch)), self.space.partition().half[jump.patch]);
         let weights = &self.rule.weights;
@@ -346,7 +346,7 @@ impl WeightedShapes<'_> {
         let product = 1.0 / half.iter().map(|h| (h.x * h.y).sqrt()).product::<f64>();
         let (shapes, rows) = (self.shapes, [self.functions(a), self.functions(b)]);
         let mut gram = Mat::zeros(rows[0].len(), rows[1].len());
-        for (array, factor) in [(&shapes.dx, 1.0), (&shapes.dy, 1.0), (&shapes.value, product)] {
+        for (array, factor) in shapes.gram_terms(product) {
             let [of_a, of_b] = [0, 1].map(|k| shapes.rows(array, rows[k].clone()));
             matmul(gram.as_mut(), Accum::Add, of_a, of_b.transpose(), factor, Par::Seq);
         }

@@ -40,14 +40,14 @@ impl Gram {
     /// = 1. Only the lower half of the weighted matrix is added to.
     fn add(&mut self, shapes: &Shapes, range: Range<usize>, weights: &[f64], half: Vec2) {
         let h2 = 1.0 / (half.x * half.y);
-        for (array, factor) in [(&shapes.dx, 1.0), (&shapes.dy, 1.0), (&shapes.value, h2)] {
+        for (array, factor) in shapes.gram_terms(h2) {
             let rows = shapes.rows(array, range.clone());
             let (sum, lower) = (self.weighted.as_mut(), BlockStructure::TriangularLower);
             let all = BlockStructure::Rectangular;
             let columns = rows.transpose();
             triangular(sum, lower, Accum::Add, rows, all, columns, all, factor, Par::Seq);
         }
-        let row = |k: usize| &shapes.value[k * shapes.points..][..shapes.points];
+        let row = |k: usize| shapes.row(&shapes.value, k);
         let phi = row(range.start).iter().zip(weights);
         let is_seen = |phi: f64| if phi > LEAST { 1.0 / phi } else { 0.0 };
         let scales: Vec<_> =
@@ -74,13 +74,13 @@ pub(super) const LEAST: f64 = 1e-280;
 /// The Gram matrix of every patch, over the domain.
 pub(super) fn grams(space: &TrialSpace<'_>, stage: &WorkPhase<'_>) -> Result<Vec<Arc<Gram>>, Halt> {
     let (quadrature, alike) = (space.quadrature(0), space.alike());
-    let of_cells = each(stage, alike.kinds().len(), |kind| {
-        let (kind, alone) = (&alike.kinds()[kind], alike.kinds()[kind].space(space));
+    let of_cells = each(stage, alike.kinds.len(), |kind| {
+        let (kind, alone) = (&alike.kinds[kind], alike.kinds[kind].space(space));
         let mut seen = (ShapeEvaluator::of_series(&alone), Shapes::default());
-        Ok(parts(&alone, &alone.covering_patches[0], kind.rules(), &mut seen))
+        Ok(parts(&alone, &alone.covering_patches[0], &kind.rules, &mut seen))
     })?;
     let of_kinds: Vec<_> =
-        alike.patch_kinds().iter().map(|cells| Arc::new(sum(cells, &of_cells))).collect();
+        alike.patch_kinds.iter().map(|cells| Arc::new(sum(cells, &of_cells))).collect();
     let mut grams: Vec<_> =
         (0..space.sizes.len()).map(|i| Gram::zero(space.evaluated(i))).collect();
     in_batches(

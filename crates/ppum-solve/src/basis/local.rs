@@ -170,7 +170,7 @@ impl LocalBasis {
     ///
     /// # Errors
     /// Functions that are not finite.
-    pub(super) fn damp(&mut self, gram: MatRef<'_, f64>) -> Result<(), EigenError> {
+    pub(super) fn rescale(&mut self, gram: MatRef<'_, f64>) -> Result<(), EigenError> {
         let eigen = SymmetricEigen::new(gram)?;
         let root = &eigen.vectors * eigen.inverse_root(0.0);
         if let Some(tie) = &mut self.tie {

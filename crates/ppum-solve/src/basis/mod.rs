@@ -62,7 +62,7 @@ impl StableBasis {
         let grams = grams(space, stage)?;
         let reductions = reductions(space, &grams, stage)?;
         let (alike, none) = (space.alike(), Vec::new());
-        let mut of_kinds: Vec<Option<Arc<LocalBasis>>> = vec![None; alike.patch_kinds().len()];
+        let mut of_kinds: Vec<Option<Arc<LocalBasis>>> = vec![None; alike.patch_kinds.len()];
         let mut first = vec![usize::MAX; of_kinds.len()];
         let is_free = |i: usize| space.held_lines(i).is_empty();
         let kinds: Vec<_> =
@@ -124,18 +124,18 @@ impl StableBasis {
     ///
     /// # Errors
     /// Functions that are not finite, with their place; cancelled.
-    pub fn damp(&mut self, space: &TrialSpace<'_>, penalties: &[Penalty]) -> Result<(), Halt> {
-        for (patch, gram) in self.border_grams(space, penalties) {
+    pub fn rescale(&mut self, space: &TrialSpace<'_>, penalties: &[Penalty]) -> Result<(), Halt> {
+        for (patch, gram) in self.boundary_grams(space, penalties) {
             self.kinds[patch as usize] = None;
             Arc::make_mut(&mut self.patches[patch as usize])
-                .damp(gram.as_ref())
+                .rescale(gram.as_ref())
                 .map_err(|_| Halt::at(space.partition().support(patch as usize)))?;
         }
         Ok(())
     }
 
     /// I + Σ w ∫ N Nᵀ of the patches that rules on the boundary see.
-    fn border_grams(
+    fn boundary_grams(
         &self,
         space: &TrialSpace<'_>,
         penalties: &[Penalty],
@@ -206,9 +206,7 @@ impl StableBasis {
         let (mut from, mut to) = (0, 0);
         for &patch in patches {
             let t = &self.patches[patch as usize].matrix;
-            for (source, target) in
-                [(&plain.value, &mut out.value), (&plain.dx, &mut out.dx), (&plain.dy, &mut out.dy)]
-            {
+            for (source, target) in plain.arrays().zip(out.arrays_mut()) {
                 let source = plain.rows(source, from..from + t.ncols());
                 let range = to * plain.points..(to + t.nrows()) * plain.points;
                 let target =

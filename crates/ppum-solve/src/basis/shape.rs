@@ -3,6 +3,7 @@
 //! Sides of cracks enter shifted, see [`TrialSpace::shifts`].
 
 use super::williams::PatchTipFrame;
+use crate::law::{OPERATORS, Stress};
 use crate::quadrature::{CrackFace, EdgeRule};
 use crate::space::{ANGULAR, Origin, SeriesFunctions, TrialSpace};
 use faer::linalg::matmul::matmul;
@@ -16,9 +17,9 @@ use ppum::real::{LaneJob, LaneNumber, Real};
 use ppum::vec2::Vec2;
 use std::ops::Range;
 
-/// Values and gradients of shape functions at points. Arrays have shape \[functions, points\],
-/// row-major; functions are those of the patches in order, in each patch in the order of the
-/// dataset's coefficients.
+/// Values of shape functions at points, and all that strains are made of. Arrays have shape
+/// \[functions, points\], row-major; functions are those of the patches in order, in each patch in
+/// the order of the dataset's coefficients.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Shapes {
     /// Number of functions.
@@ -27,19 +28,60 @@ pub(crate) struct Shapes {
     pub points: usize,
     /// φ_i ψ
     pub value: Vec<f64>,
-    /// ∂(φ_i ψ)/∂x
-    pub dx: Vec<f64>,
-    /// ∂(φ_i ψ)/∂y
-    pub dy: Vec<f64>,
+    /// D_k (φ_i ψ) with the operators of [`Strain`](crate::law::Strain): ∂/∂x and ∂/∂y.
+    pub slopes: [Vec<f64>; OPERATORS],
 }
 
 impl Shapes {
     /// Makes room for functions and points, whose values are to be written.
     pub(crate) fn resize(&mut self, functions: usize, points: usize) {
         (self.functions, self.points) = (functions, points);
-        for array in [&mut self.value, &mut self.dx, &mut self.dy] {
-            array.resize(functions * points, 0.0);
+        self.arrays_mut().for_each(|array| array.resize(functions * points, 0.0));
+    }
+
+    /// The values, then the slopes.
+    pub(crate) fn arrays(&self) -> impl Iterator<Item = &Vec<f64>> {
+        [&self.value].into_iter().chain(&self.slopes)
+    }
+
+    /// The arrays, to be written, in the order of [`Shapes::arrays`].
+    pub(crate) fn arrays_mut(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
+        [&mut self.value].into_iter().chain(&mut self.slopes)
+    }
+
+    /// The terms of ∇(φψ)·∇(φψ′) + f φ² ψ ψ′ for a factor f: arrays whose products they are, with
+    /// their factors.
+    pub(crate) fn gram_terms(&self, factor: f64) -> impl Iterator<Item = (&Vec<f64>, f64)> {
+        self.slopes.iter().map(|array| (array, 1.0)).chain([(&self.value, factor)])
+    }
+
+    /// D_k of a function at a point.
+    pub(crate) fn slopes_at(&self, function: usize, point: usize) -> [f64; OPERATORS] {
+        self.slopes.each_ref().map(|array| array[function * self.points + point])
+    }
+
+    /// A row of one of the arrays.
+    pub(crate) fn row<'a>(&self, array: &'a [f64], function: usize) -> &'a [f64] {
+        &array[function * self.points..][..self.points]
+    }
+
+    /// ∂_k φ of a partition function in the product rule D_k (φ u) = φ D_k u + u ∂_k φ.
+    pub(crate) fn factor_slopes(&self, phi: usize) -> [&[f64]; OPERATORS] {
+        self.slopes.each_ref().map(|array| self.row(array, phi))
+    }
+
+    /// The products of all functions with the partition function in row `phi` of `other`.
+    pub(crate) fn times_row(&self, other: &Self, phi: usize) -> Self {
+        let (factor, slopes) = (other.row(&other.value, phi), other.factor_slopes(phi));
+        let mut out = self.clone();
+        for at in 0..out.value.len() {
+            let q = at % self.points;
+            for (own, slope) in out.slopes.iter_mut().zip(slopes) {
+                own[at] = factor[q] * own[at] + slope[q] * self.value[at];
+            }
+            out.value[at] *= factor[q];
         }
+        out
     }
 
     /// Multiplies the columns by the square roots of quadrature weights, so that products of rows
@@ -51,14 +93,12 @@ impl Shapes {
     /// Makes a function zero at all points.
     pub(crate) fn clear(&mut self, function: usize) {
         let range = function * self.points..(function + 1) * self.points;
-        for array in [&mut self.value, &mut self.dx, &mut self.dy] {
-            array[range.clone()].fill(0.0);
-        }
+        self.arrays_mut().for_each(|array| array[range.clone()].fill(0.0));
     }
 
     /// Multiplies the columns by factors.
     pub(crate) fn multiply(&mut self, factors: &[f64]) {
-        for array in [&mut self.value, &mut self.dx, &mut self.dy] {
+        for array in self.arrays_mut() {
             for row in array.chunks_exact_mut(factors.len().max(1)) {
                 row.iter_mut().zip(factors).for_each(|(v, factor)| *v *= factor);
             }
@@ -89,29 +129,26 @@ impl Shapes {
         }
     }
 
-    /// Adds Σ ∇N · σ over the points, the stresses σ_ik times weights, to the same load.
-    pub(crate) fn add_stresses(
+    /// Adds the work Σ σ_ik D_k N of several stresses at each point, times weights, on the
+    /// functions to loads as [`Shapes::add_loads`] has them, one for each stress.
+    pub(crate) fn add_stresses<const M: usize>(
         &self,
-        stresses: &[[[f64; 2]; 2]],
+        stresses: &[[Stress; M]],
         numbers: &[usize],
-        sum: &mut [f64],
+        sums: [&mut [f64]; M],
     ) {
-        let along = |k: usize| Mat::from_fn(self.points, 2, |q, i| stresses[q][i][k]);
-        let sums = self.slopes_along([&along(0), &along(1)]);
-        for (k, &number) in numbers.iter().enumerate() {
-            (0..2).for_each(|i| sum[number * 2 + i] += sums[(k, i)]);
+        let mut work = Mat::zeros(self.functions, 2 * M);
+        for (k, slopes) in self.slopes.iter().enumerate() {
+            let entry = |q: usize, column: usize| stresses[q][column / 2].0[column % 2][k];
+            let stresses = Mat::from_fn(self.points, 2 * M, entry);
+            let slopes = self.rows(slopes, 0..self.functions);
+            matmul(work.as_mut(), Accum::Add, slopes, &stresses, 1.0, Par::Seq);
         }
-    }
-
-    /// Σ G·∇N over the points, for vectors G with a column of points each, of their x and of their
-    /// y: \[functions, vectors\].
-    pub(crate) fn slopes_along(&self, [x, y]: [&Mat<f64>; 2]) -> Mat<f64> {
-        let all = 0..self.functions;
-        let mut sum = Mat::zeros(self.functions, x.ncols());
-        let (dx, dy) = (self.rows(&self.dx, all.clone()), self.rows(&self.dy, all));
-        matmul(sum.as_mut(), Accum::Replace, dx, x, 1.0, Par::Seq);
-        matmul(sum.as_mut(), Accum::Add, dy, y, 1.0, Par::Seq);
-        sum
+        for (m, sum) in sums.into_iter().enumerate() {
+            for (k, &number) in numbers.iter().enumerate() {
+                (0..2).for_each(|i| sum[number * 2 + i] += work[(k, 2 * m + i)]);
+            }
+        }
     }
 
     /// Writes the value and the slopes of a function at as many points from `point` on as there are
@@ -120,8 +157,9 @@ impl Shapes {
     fn set<R: Real<Scalar = f64>>(&mut self, function: usize, point: usize, [v, x, y]: [R; 3]) {
         let (at, lanes) = (function * self.points + point, R::LANES.min(self.points - point));
         v.store_some(&mut self.value[at..at + lanes]);
-        x.store_some(&mut self.dx[at..at + lanes]);
-        y.store_some(&mut self.dy[at..at + lanes]);
+        for (array, slope) in self.slopes.iter_mut().zip([x, y]) {
+            slope.store_some(&mut array[at..at + lanes]);
+        }
     }
 
     /// Writes a factor times all monomials to functions from `function` on, at as many points from
@@ -632,9 +670,11 @@ mod tests {
     ) -> ([f64; 3], [f64; 3]) {
         let (mut sum, mut size, mut at) = ([0.0; 3], [0.0; 3], q);
         for &patch in patches {
-            let plain = space.data().coefficients_of(patch as usize).nth(component);
-            for c in shifted(space, patch as usize, plain.expect("a component")) {
-                for (k, array) in [&shapes.value, &shapes.dx, &shapes.dy].into_iter().enumerate() {
+            let data = space.data();
+            let blocks = data.blocks(patch as usize);
+            let plain = blocks.flat_map(|block| data.block_coefficients(block, component));
+            for c in shifted(space, patch as usize, &plain.copied().collect::<Vec<_>>()) {
+                for (k, array) in shapes.arrays().enumerate() {
                     sum[k] += c * array[at];
                     size[k] += (c * array[at]).abs();
                 }

@@ -19,6 +19,7 @@ use ppum::border::touch;
 use ppum::crack::{Crack, LocalCrack, Side, tips};
 use ppum::domain::Hole;
 use ppum::formula::Formula;
+use ppum::line::circles_meet;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::{rim_crossings, sure_side};
 use ppum_problem::{BoundaryCondition, BoundaryPart, Problem};
@@ -50,7 +51,7 @@ pub struct SingularCorner {
     /// Distance to the nearest other feature: a corner of the boundary, a tip, a rim, a crack.
     pub(crate) room: f64,
     /// Its nature.
-    pub nature: CornerMedium,
+    pub nature: SingularCause,
     /// Its fields, where they are known in all of the room.
     pub wedge: Option<Wedge>,
 }
@@ -71,7 +72,7 @@ pub struct Wedge {
 impl SingularCorner {
     /// True for a kink that the field along a free crack hardly sees.
     pub(crate) fn is_gentle(&self) -> bool {
-        matches!(self.nature, CornerMedium::Kink(_)) && self.is_mild()
+        matches!(self.nature, SingularCause::Kink(_)) && self.is_mild()
     }
 
     fn is_mild(&self) -> bool {
@@ -88,7 +89,7 @@ impl SingularCorner {
     /// loads jump.
     pub fn weakness(&self) -> f64 {
         match self.nature {
-            CornerMedium::Load => LOGARITHM,
+            SingularCause::Load => LOGARITHM,
             _ => 1.0 - self.exponent,
         }
     }
@@ -96,7 +97,7 @@ impl SingularCorner {
 
 /// The cause of a singular point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CornerMedium {
+pub enum SingularCause {
     /// A kink of the crack with this index.
     Kink(usize),
     /// A corner of the body, at its boundary or at holes, free or held alike on its two sides.
@@ -110,7 +111,7 @@ pub enum CornerMedium {
     Jump,
 }
 
-impl CornerMedium {
+impl SingularCause {
     /// In words.
     pub fn name(self) -> String {
         match self {
@@ -142,14 +143,9 @@ pub fn corners(problem: &Problem) -> Vec<SingularCorner> {
         };
         let room = around.distance(at).min(apart(&places)).min(apart(&tips));
         let sectors = around.sectors(at, room);
+        let with = |exponent, nature| SingularCorner { at, exponent, room, nature, wedge: None };
         if sectors.iter().any(|sector| values_jump(sector, scale)) {
-            return Some(SingularCorner {
-                at,
-                exponent: 0.0,
-                room,
-                nature: CornerMedium::Jump,
-                wedge: None,
-            });
+            return Some(with(0.0, SingularCause::Jump));
         }
         let constants = Constants::at(&problem.equation, at);
         let exponents = sectors.iter().map(|sector| (smallest(sector, constants), sector));
@@ -159,16 +155,10 @@ pub fn corners(problem: &Problem) -> Vec<SingularCorner> {
             let wedge = is_free(sector)
                 .then(|| wedge(problem, (at, room, nature), sector, &sectors, constants))
                 .flatten();
-            return Some(SingularCorner { at, exponent, room, nature, wedge });
+            return Some(SingularCorner { wedge, ..with(exponent, nature) });
         }
         let unfit = sectors.iter().any(|sector| is_unfit(sector, problem.components()));
-        unfit.then_some(SingularCorner {
-            at,
-            exponent,
-            room,
-            nature: CornerMedium::Load,
-            wedge: None,
-        })
+        unfit.then_some(with(exponent, SingularCause::Load))
     };
     with_functions(problem, places.iter().filter_map(corner).collect())
 }
@@ -217,7 +207,7 @@ fn is_free(sector: &Sector) -> bool {
 /// a hole, or on the other side of the crack.
 fn wedge(
     problem: &Problem,
-    (at, room, nature): (Vec2, f64, CornerMedium),
+    (at, room, nature): (Vec2, f64, SingularCause),
     sector: &Sector,
     sectors: &[Sector],
     constants: Constants,
@@ -226,7 +216,7 @@ fn wedge(
     let fills = sectors.iter().map(|s| s.opening).sum::<f64>() > TAU - SAME_ANGLE;
     let (side, room) = match (nature, sectors.len()) {
         (_, 1) => (None, room),
-        (CornerMedium::Kink(crack), 2) if fills => {
+        (SingularCause::Kink(crack), 2) if fills => {
             let inside = at + vec2(bisector.cos(), bisector.sin()) * (LOOK * room);
             let (own, bounds) = (&problem.cracks()[crack], &problem.domain().bounds);
             let seen = LocalCrack::new(own, inside);
@@ -268,17 +258,17 @@ fn scale_of_values(problem: &Problem) -> f64 {
     sizes.fold(0.0, f64::max)
 }
 
-fn nature(problem: &Problem, sector: &Sector, at: Vec2, touch: f64) -> CornerMedium {
+fn nature(problem: &Problem, sector: &Sector, at: Vec2, touch: f64) -> SingularCause {
     let inner = |crack: &Crack| {
         let inner = &crack.points[1..crack.points.len() - 1];
         inner.iter().any(|p| (*p - at).length() <= touch)
     };
     match problem.cracks().iter().position(inner) {
-        Some(crack) => CornerMedium::Kink(crack),
+        Some(crack) => SingularCause::Kink(crack),
         None if (sector.held[0], sector.axes[0]) == (sector.held[1], sector.axes[1]) => {
-            CornerMedium::Corner
+            SingularCause::Corner
         }
-        None => CornerMedium::Support,
+        None => SingularCause::Support,
     }
 }
 
@@ -306,7 +296,7 @@ fn places(problem: &Problem) -> Vec<Vec2> {
 }
 
 /// A part of the boundary that is smooth: its points by a coordinate, and the ends of that.
-type BorderCurve<'p> = (Box<dyn Fn(f64) -> Vec2 + 'p>, [f64; 2]);
+type SmoothBoundary<'p> = (Box<dyn Fn(f64) -> Vec2 + 'p>, [f64; 2]);
 
 /// Places at which the data of a condition may jump.
 fn jumps(condition: &BoundaryCondition, problem: &Problem) -> Vec<Vec2> {
@@ -314,7 +304,7 @@ fn jumps(condition: &BoundaryCondition, problem: &Problem) -> Vec<Vec2> {
     if levels.is_empty() {
         return Vec::new();
     }
-    let on_curve = |(at, [from, to]): BorderCurve<'_>| {
+    let on_curve = |(at, [from, to]): SmoothBoundary<'_>| {
         let of_level = |level: &Formula| {
             let value = |s: f64| clamp_non_finite(level.evaluate(&<[f64; 2]>::from(at(s))));
             sign_changes(&value, from, to)
@@ -325,9 +315,10 @@ fn jumps(condition: &BoundaryCondition, problem: &Problem) -> Vec<Vec2> {
 }
 
 /// The edges, circles and segments that a part of the boundary consists of.
-fn curves(part: BoundaryPart, problem: &Problem) -> Vec<BorderCurve<'_>> {
-    let straight =
-        |[a, b]: [Vec2; 2]| -> BorderCurve<'_> { (Box::new(move |s| a + (b - a) * s), [0.0, 1.0]) };
+fn curves(part: BoundaryPart, problem: &Problem) -> Vec<SmoothBoundary<'_>> {
+    let straight = |[a, b]: [Vec2; 2]| -> SmoothBoundary<'_> {
+        (Box::new(move |s| a + (b - a) * s), [0.0, 1.0])
+    };
     match part {
         BoundaryPart::Edge { edge, from, to } => {
             let bounds = &problem.domain().bounds;
@@ -364,27 +355,16 @@ fn rims_crossing(hole: &Hole, other: &Hole) -> Vec<Vec2> {
         (Hole::Polygon { .. }, _) => hole.sides().flat_map(|s| crossing(s, other)).collect(),
         (_, Hole::Polygon { .. }) => other.sides().flat_map(|s| crossing(s, hole)).collect(),
         (Hole::Circle { center, radius }, Hole::Circle { center: c, radius: r }) => {
-            circles_crossing((*center, *radius), (*c, *r))
+            let meet = circles_meet((*center, *radius), (*c, *r));
+            meet.filter(|[p, q]| p != q).into_iter().flatten().collect()
         }
     }
 }
 
-fn circles_crossing((center, radius): (Vec2, f64), (c, r): (Vec2, f64)) -> Vec<Vec2> {
-    let way = c - center;
-    let d = way.length();
-    let along = 0.5 * (d + (radius - r) * (radius + r) / d);
-    let across = ((radius - along) * (radius + along)).sqrt();
-    if !(across > 0.0 && d > 0.0) {
-        return Vec::new();
-    }
-    let (unit, foot) = (way.unit(), center + way.unit() * along);
-    vec![foot + unit.left() * across, foot - unit.left() * across]
-}
-
 /// Points without those that are the same as one before them.
-fn distinct(mut points: Vec<Vec2>, touch: f64) -> Vec<Vec2> {
+fn distinct(points: Vec<Vec2>, touch: f64) -> Vec<Vec2> {
     let mut kept: Vec<Vec2> = Vec::with_capacity(points.len());
-    for p in points.drain(..) {
+    for p in points {
         if kept.iter().all(|q| (*q - p).length() > touch) {
             kept.push(p);
         }

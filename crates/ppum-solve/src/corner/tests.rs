@@ -88,7 +88,7 @@ fn held_wedges_have_the_exponents_of_their_equations() {
                 assert!((found - exact).abs() < 6e-4, "{opening}, {kappa}: {found}, {exact}");
             }
         }
-        // the end of a held piece of a straight border: 1/2 ± i ln κ/(2π)
+        // the end of a held piece of a straight boundary: 1/2 ± i ln κ/(2π)
         assert!((wedge(0.0, PI, [FREE, HELD], kappa) - 0.5).abs() < 2e-4);
     }
     assert!((wedge(0.0, 0.5 * PI, [HELD, FREE], 1.8) - 0.711).abs() < 5e-4);
@@ -123,7 +123,7 @@ fn clamp() -> Vec<Condition> {
     vec![Condition::Dirichlet(0.0.into()), Condition::Dirichlet(0.0.into())]
 }
 
-fn found(problem: &ProblemData) -> Vec<(Vec2, f64, CornerMedium)> {
+fn found(problem: &ProblemData) -> Vec<(Vec2, f64, SingularCause)> {
     corners(&checked(problem))
         .iter()
         .map(|c| (c.at, (c.exponent * 1e3).round() / 1e3, c.nature))
@@ -148,14 +148,14 @@ fn a_plain_plate_has_none() {
 #[test]
 fn clamped_corners_ends_of_supports_and_mouths_at_supports_are_found() {
     let clamped = plate().with_boundary(DomainEdge::Bottom, clamp());
-    let at = |x: f64, y: f64| (vec2(x, y), 0.711, CornerMedium::Support);
+    let at = |x: f64, y: f64| (vec2(x, y), 0.711, SingularCause::Support);
     assert_eq!(found(&clamped), [at(-1.0, -1.0), at(1.0, -1.0)]);
     let mouth = clamped.with_crack(&[[0.25, -1.0], [0.25, 0.0]]);
     assert_eq!(found(&mouth), [at(-1.0, -1.0), at(1.0, -1.0), at(0.25, -1.0)]);
     let mut piece = plate();
     let on = BoundaryPart::Edge { edge: DomainEdge::Top, from: -1.0, to: 0.5 };
     piece.boundary.push(BoundaryCondition::new(on, clamp()));
-    assert_eq!(found(&piece), [at(-1.0, 1.0), (vec2(0.5, 1.0), 0.5, CornerMedium::Support)]);
+    assert_eq!(found(&piece), [at(-1.0, 1.0), (vec2(0.5, 1.0), 0.5, SingularCause::Support)]);
 }
 
 #[test]
@@ -167,19 +167,19 @@ fn corners_of_holes_and_kinks_are_found_where_they_are_in_the_plate() {
     let holes = vec![square(1.0, 0.5, 0.25), square(0.0, 0.5, 0.125)];
     let crack = [[-0.75, -0.5], [-0.25, -0.5], [-0.25, -0.25]];
     let problem = plate_with(holes).with_crack(&crack);
-    let corner = |x: f64, y: f64| (vec2(x, y), 0.544, CornerMedium::Corner);
+    let corner = |x: f64, y: f64| (vec2(x, y), 0.544, SingularCause::Corner);
     let inner = [[-0.125, 0.375], [0.125, 0.375], [0.125, 0.625], [-0.125, 0.625]];
     let mut expected = vec![corner(0.75, 0.25), corner(0.75, 0.75)];
     expected.extend(inner.map(|[x, y]| corner(x, y)));
-    expected.push((vec2(-0.25, -0.5), 0.544, CornerMedium::Kink(0)));
+    expected.push((vec2(-0.25, -0.5), 0.544, SingularCause::Kink(0)));
     let mut all = found(&problem);
-    let key = |c: &(Vec2, f64, CornerMedium)| (c.0.x * 8.0 + c.0.y * 100.0) as i64;
+    let key = |c: &(Vec2, f64, SingularCause)| (c.0.x * 8.0 + c.0.y * 100.0) as i64;
     all.sort_by_key(key);
     expected.sort_by_key(key);
     assert_eq!(all, expected);
     let kink = corners(&checked(&problem))
         .into_iter()
-        .find(|c| c.nature == CornerMedium::Kink(0))
+        .find(|c| c.nature == SingularCause::Kink(0))
         .expect("it");
     assert!((kink.room - 0.25).abs() < 1e-12);
 }
@@ -221,7 +221,7 @@ fn crossing_rims_make_corners() {
     let circle = |x: f64, y: f64| Hole::Circle { center: vec2(x, y), radius: 0.25 };
     let holes = vec![circle(0.0, -1.0), circle(-0.15, 0.5), circle(0.15, 0.5)];
     let problem = plate_with(holes).with_boundary(DomainEdge::Bottom, clamp());
-    let at = |x: f64| (vec2(x, -1.0), 0.711, CornerMedium::Support);
+    let at = |x: f64| (vec2(x, -1.0), 0.711, SingularCause::Support);
     let mut all = found(&problem);
     all.sort_by(|a, b| a.0.x.total_cmp(&b.0.x));
     assert_eq!(all, [at(-1.0), at(-0.25), at(0.25), at(1.0)]);
@@ -240,7 +240,7 @@ fn loads_that_no_stress_has_make_corners() {
             .with_boundary(DomainEdge::Bottom, traction([-0.5, -1.0]))
             .with_boundary(DomainEdge::Top, traction([top, 1.0]))
     };
-    let at = |x: f64, y: f64| (vec2(x, y), 1.0, CornerMedium::Load);
+    let at = |x: f64, y: f64| (vec2(x, y), 1.0, SingularCause::Load);
     // the free faces of the crack: 0.5 of shear and 1 of tension are missing there
     assert_eq!(found(&sheared(0.5)), [at(0.25, 1.0)]);
     assert_eq!(found(&sheared(0.0)), [at(1.0, 1.0), at(-1.0, 1.0), at(0.25, 1.0)]);
@@ -281,8 +281,8 @@ fn jumps_of_given_values_are_found() {
         let problem = problem.with_boundary(DomainEdge::Bottom, given(bottom));
         found(&problem.with_boundary(DomainEdge::Left, given(left)))
     };
-    let places = |all: &[(Vec2, f64, CornerMedium)]| -> Vec<Vec2> {
-        all.iter().filter(|corner| corner.2 == CornerMedium::Jump).map(|corner| corner.0).collect()
+    let places = |all: &[(Vec2, f64, SingularCause)]| -> Vec<Vec2> {
+        all.iter().filter(|corner| corner.2 == SingularCause::Jump).map(|corner| corner.0).collect()
     };
     assert_eq!(places(&potential("x + 1", "0")), []);
     assert_eq!(places(&potential("exp(3*x)*cos(y)", "exp(-3)*cos(y)")), []);
@@ -299,8 +299,8 @@ fn potentials_have_the_exponents_of_laplace() {
     problem.boundary.push(BoundaryCondition::new(on, vec![Condition::Dirichlet(0.0.into())]));
     let problem = problem.with_crack(&[[-0.5, 0.0], [0.0, 0.0], [0.0, 0.5]]);
     let places =
-        [([-0.5, 1.0], 0.5, CornerMedium::Support), ([0.5, 1.0], 0.5, CornerMedium::Support)];
+        [([-0.5, 1.0], 0.5, SingularCause::Support), ([0.5, 1.0], 0.5, SingularCause::Support)];
     let mut expected: Vec<_> = places.map(|(p, l, n)| (Vec2::from(p), l, n)).to_vec();
-    expected.push((vec2(0.0, 0.0), 0.667, CornerMedium::Kink(0)));
+    expected.push((vec2(0.0, 0.0), 0.667, SingularCause::Kink(0)));
     assert_eq!(found(&problem), expected);
 }

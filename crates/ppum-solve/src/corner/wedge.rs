@@ -11,6 +11,7 @@
 //! with λ = π/ω and r^λ cos λθ with λ = 2π/ω have no flux there.
 
 use super::exponent::Constants;
+use crate::quadrature::zero;
 use ppum_problem::Symmetry;
 use std::f64::consts::PI;
 
@@ -23,9 +24,6 @@ const LINEAR: f64 = 0.01;
 
 /// Steps in which roots are looked for.
 const STEPS: usize = 1000;
-
-/// Halvings of an interval for an exponent.
-const HALVINGS: usize = 60;
 
 /// Exponents are rounded to multiples of this, so that those of equal wedges are equal.
 const ROUNDED: f64 = 1e-13;
@@ -71,20 +69,10 @@ fn exponents(opening: f64, s: f64) -> Vec<f64> {
     let at = |k: usize| first + (last - first) * k as f64 / STEPS as f64;
     let root = |k: usize| {
         let ends = [at(k), at(k + 1)];
-        (divided(ends[0]) * divided(ends[1]) < 0.0).then(|| bisected(&divided, ends))
+        let [low, high] = ends.map(|end| [end, divided(end)]);
+        (low[1] * high[1] < 0.0).then(|| rounded(zero(&divided, low, high)))
     };
     (0..STEPS).filter_map(root).filter(|root| (root - 1.0).abs() > LINEAR).collect()
-}
-
-/// The root between two places where a function has different signs.
-fn bisected(f: &dyn Fn(f64) -> f64, [mut low, mut high]: [f64; 2]) -> f64 {
-    let is_negative = f(low) < 0.0;
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        let side = if (f(middle) < 0.0) == is_negative { &mut low } else { &mut high };
-        *side = middle;
-    }
-    rounded(low)
 }
 
 fn rounded(exponent: f64) -> f64 {

@@ -2,8 +2,9 @@
 //! whether the loads are in equilibrium there.
 
 use super::pieces::BodyPieces;
-use super::rigid::{MODES, PerMode, RigidModes};
+use crate::law::{MODES, PerMode, RigidModes};
 use faer::Mat;
+use ppum::equation::Equation;
 use ppum::text::{beside, trimmed};
 use ppum::vec2::{Vec2, vec2};
 use ppum_linear::{EigenError, SymmetricEigen};
@@ -102,14 +103,14 @@ pub struct Balance {
 
 impl Balance {
     /// One balance per piece, all empty.
-    pub(crate) fn of(pieces: &BodyPieces, components: usize) -> Vec<Self> {
+    pub(crate) fn of(pieces: &BodyPieces, equation: &Equation) -> Vec<Self> {
         let empty = |modes: RigidModes| Self {
             modes,
             held: [[0.0; MODES]; MODES],
             resultant: [0.0; MODES],
             magnitude: 0.0,
         };
-        pieces.rigid_modes(components).into_iter().map(empty).collect()
+        pieces.rigid_modes(equation).into_iter().map(empty).collect()
     }
 
     /// Adds a point where loads act.
@@ -177,13 +178,13 @@ impl Balance {
         piece: Option<Vec2>,
     ) -> UnbalancedError {
         // what is balanced except for rounding is zero
-        let [x, y, turn] = remaining.map(|part| beside(part, magnitude));
+        let (force, moment) = self.modes.resultant(remaining.map(|part| beside(part, magnitude)));
         let RigidModes { center, size, .. } = self.modes;
         let shown = |p: Vec2| vec2(beside(p.x, size), beside(p.y, size));
         UnbalancedError {
             piece: piece.map(shown),
-            force: vec2(x, y),
-            moment: (self.modes.count() > 1).then_some(turn * size),
+            force,
+            moment,
             about: shown(center),
             magnitude,
             friction: None,

@@ -2,18 +2,16 @@
 //! holds them and what loads them.
 
 mod balance;
+mod body;
 mod pieces;
-mod plate;
-mod rigid;
 mod supports;
 mod touching;
 
 pub(crate) use balance::Balance;
 pub use balance::UnbalancedError;
+pub use body::{BodyEquilibrium, EquilibriumError};
 pub use pieces::BodyPieces;
 pub(crate) use pieces::{SegmentMesh, crossing};
-pub use plate::{Plate, PlateError};
-pub(crate) use rigid::{MODES, PerMode, RigidModes};
 pub(crate) use supports::PieceConditions;
 pub use supports::SupportError;
-pub(crate) use touching::Motion;
+pub(crate) use touching::RigidMotion;

@@ -4,8 +4,8 @@
 //! those with Σ_k a_k m_k,i(x₀) = 0. Each must leave fewer than those before it: a component that
 //! cannot move any more would take a force.
 
-use super::plate::Plate;
-use super::touching::Motion;
+use super::body::BodyEquilibrium;
+use super::touching::RigidMotion;
 use ppum::text::trimmed;
 use ppum::vec2::Vec2;
 use ppum_problem::Support;
@@ -54,7 +54,7 @@ pub struct PieceConditions {
     pub(crate) left: Vec<Vec<f64>>,
 }
 
-impl Plate {
+impl BodyEquilibrium {
     /// The conditions on each group of pieces that touch; those of groups without supports are one
     /// for each free motion.
     ///
@@ -77,7 +77,7 @@ impl Plate {
             if !self.groups[group].contains(&piece) {
                 continue;
             }
-            let moved = |motion: &&Motion| self.moved(motion, piece, support.at);
+            let moved = |motion: &&RigidMotion| self.moved(motion, piece, support.at);
             for component in (0..2).filter(|&i| support.displacement[i].is_some()) {
                 let row: Vec<f64> = free.iter().map(|motion| moved(motion)[component]).collect();
                 let restrained = length(&row) < STILL;

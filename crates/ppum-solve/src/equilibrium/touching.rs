@@ -14,7 +14,7 @@
 
 use super::balance::{Balance, FREE, UnbalancedError};
 use super::pieces::BodyPieces;
-use super::rigid::{MODES, PerMode};
+use crate::law::{MODES, PerMode};
 use crate::terms::{FaceLaw, face_law};
 use faer::Mat;
 use ppum::vec2::Vec2;
@@ -26,7 +26,7 @@ const BALANCE: f64 = 1e-6;
 
 /// A force that a piece can exert on another one where they touch.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Touch {
+pub(super) struct ContactForce {
     at: Vec2,
     /// On the first of the pieces, and against it on the second.
     force: Vec2,
@@ -35,7 +35,7 @@ pub(super) struct Touch {
 }
 
 /// The forces between pieces, of cracks with their coefficients of friction.
-pub(super) fn touches(pieces: &BodyPieces, problem: &Problem) -> Vec<Touch> {
+pub(super) fn contact_forces(pieces: &BodyPieces, problem: &Problem) -> Vec<ContactForce> {
     let mut all = Vec::new();
     for crack in 0..problem.cracks().len() {
         let Some(FaceLaw { friction }) = face_law(problem, crack as u32) else { continue };
@@ -44,7 +44,12 @@ pub(super) fn touches(pieces: &BodyPieces, problem: &Problem) -> Vec<Touch> {
             let ways = [-friction, friction].map(|shear| along.left() + along * shear);
             let ways = if friction > 0.0 { &ways[..] } else { &ways[..1] };
             all.extend(edge.ends.into_iter().flat_map(|at| {
-                ways.iter().map(move |&force| Touch { at, force, pieces: edge.pieces, friction })
+                ways.iter().map(move |&force| ContactForce {
+                    at,
+                    force,
+                    pieces: edge.pieces,
+                    friction,
+                })
             }));
         }
     }
@@ -52,9 +57,9 @@ pub(super) fn touches(pieces: &BodyPieces, problem: &Problem) -> Vec<Touch> {
 }
 
 /// The pieces that touch each other, directly or through others, group by group.
-pub(super) fn groups(pieces: &BodyPieces, touches: &[Touch]) -> Vec<Vec<usize>> {
+pub(super) fn groups(pieces: &BodyPieces, forces: &[ContactForce]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = (0..pieces.all().len()).map(|piece| vec![piece]).collect();
-    for touch in touches {
+    for touch in forces {
         let [a, b] = touch.pieces.map(|piece| groups.iter().position(|own| own.contains(&piece)));
         if let (Some(a), Some(b)) = (a.min(b), a.max(b))
             && a != b
@@ -69,7 +74,7 @@ pub(super) fn groups(pieces: &BodyPieces, touches: &[Touch]) -> Vec<Vec<usize>> 
 
 /// A rigid motion of pieces that touch each other.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Motion {
+pub(crate) struct RigidMotion {
     /// The number of their group.
     pub(crate) group: usize,
     /// The first piece that moves. The motions of a group with the same one differ there.
@@ -103,10 +108,14 @@ pub(super) struct TouchingPieces<'p> {
 }
 
 impl<'p> TouchingPieces<'p> {
-    pub(super) fn new(plate: RigidPieces<'p>, pieces: &'p [usize], touches: &[Touch]) -> Self {
+    pub(super) fn new(
+        plate: RigidPieces<'p>,
+        pieces: &'p [usize],
+        forces: &[ContactForce],
+    ) -> Self {
         let of_piece = |&piece: &usize| (0..plate.free[piece].len()).map(move |k| (piece, k));
         let modes: Vec<_> = pieces.iter().flat_map(of_piece).collect();
-        let own = touches.iter().filter(|touch| pieces.contains(&touch.pieces[0]));
+        let own = forces.iter().filter(|touch| pieces.contains(&touch.pieces[0]));
         let own: Vec<_> = own.collect();
         let work = |row: usize, column: usize| {
             let ((piece, k), touch) = (modes[row], own[column]);
@@ -168,9 +177,10 @@ impl<'p> TouchingPieces<'p> {
     ///
     /// # Errors
     /// Data that are not finite.
-    pub(super) fn motions(&self, group: usize) -> Result<Vec<Motion>, EigenError> {
+    pub(super) fn motions(&self, group: usize) -> Result<Vec<RigidMotion>, EigenError> {
         let n = self.modes.len();
-        let motion = |lead: usize, own: &[f64]| Motion { group, lead, factors: self.factors(own) };
+        let motion =
+            |lead: usize, own: &[f64]| RigidMotion { group, lead, factors: self.factors(own) };
         if self.forces.ncols() == 0 {
             let units = Mat::<f64>::identity(n, n);
             return Ok((0..n).map(|k| motion(self.modes[k].0, units.col_as_slice(k))).collect());

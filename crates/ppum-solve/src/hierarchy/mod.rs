@@ -8,9 +8,11 @@
 
 mod transfer;
 
-use crate::assembly::{Assembly, Duals, FreeModes, Functionals, PrescribedData, System, slivers};
+use crate::assembly::{
+    Assembly, DualLoads, FreeModes, Functionals, PrescribedData, System, slivers,
+};
 use crate::basis::StableBasis;
-use crate::equilibrium::Plate;
+use crate::equilibrium::BodyEquilibrium;
 use crate::law::Law;
 use crate::space::{CoverMesh, SpaceError, TrialSpace, discretise_on};
 use crate::watched::{Halt, WorkPhase};
@@ -32,7 +34,7 @@ pub struct FinestLevel<'a> {
     /// The problem that it belongs to.
     pub problem: &'a Problem,
     /// The pieces of the body.
-    pub plate: &'a Plate,
+    pub plate: &'a BodyEquilibrium,
     /// The cells.
     pub mesh: &'a CoverMesh,
     /// The patches of the cells.
@@ -99,9 +101,9 @@ impl FinestLevel<'_> {
         let mut basis = StableBasis::new(&space, stage)?;
         let law = &Law::new(&problem.equation);
         let found = slivers(Assembly { problem, space: &space, basis: &basis, law }, stage)?;
-        basis.damp(&space, &found)?;
+        basis.rescale(&space, &found)?;
         let assembly = Assembly { problem, space: &space, basis: &basis, law };
-        let (free, duals) = (&FreeModes::none(self.plate), &Duals::new(Vec::new(), &space));
+        let (free, duals) = (&FreeModes::none(self.plate), &DualLoads::new(Vec::new(), &space));
         let given = PrescribedData::restraints(problem);
         let system = System::new(assembly, &given, Functionals { free, duals }, stage)?;
         let transfer = transfer(finer, (&space, &basis), stage)?;

@@ -297,32 +297,13 @@ fn add_products(
     half: Vec2,
     sums: &mut PatchIntegrals,
 ) {
-    let weighted = times_row(plain, phi, parent);
+    let weighted = parent.times_row(plain, phi);
     let h2 = 1.0 / (half.x * half.y);
     let all = 0..weighted.functions;
-    for (mine, theirs, factor) in [
-        (&own.dx, &weighted.dx, 1.0),
-        (&own.dy, &weighted.dy, 1.0),
-        (&own.value, &weighted.value, h2),
-    ] {
+    for ((mine, factor), (theirs, _)) in own.gram_terms(h2).zip(weighted.gram_terms(h2)) {
         let mine: MatRef<'_, f64> = own.rows(mine, rows.clone());
         let theirs = weighted.rows(theirs, all.clone());
         matmul(sums.gram.as_mut(), Accum::Add, mine, mine.transpose(), factor, Par::Seq);
         matmul(sums.mixed.as_mut(), Accum::Add, mine, theirs.transpose(), factor, Par::Seq);
     }
-}
-
-/// φ f with φ a row of shapes.
-fn times_row(shapes: &Shapes, phi: usize, f: &Shapes) -> Shapes {
-    let n = f.points;
-    let row = |array: &[f64]| array[phi * n..(phi + 1) * n].to_vec();
-    let [v, dx, dy] = [&shapes.value, &shapes.dx, &shapes.dy].map(|array| row(array));
-    let mut out = f.clone();
-    for at in 0..out.value.len() {
-        let q = at % n;
-        out.dx[at] = v[q] * f.dx[at] + dx[q] * f.value[at];
-        out.dy[at] = v[q] * f.dy[at] + dy[q] * f.value[at];
-        out.value[at] = v[q] * f.value[at];
-    }
-    out
 }

@@ -5,7 +5,8 @@
 //! strains ε⁰ = α T I + … it gives. Their local spaces have the same patches but functions of their
 //! own; in the joint field a block is of zeros in the components that do not have it.
 
-use crate::report::{SolverReport, UnresolvedIntegrand};
+use super::strain::Strain;
+use crate::report::SolverReport;
 use ppum::crack::{SegmentId, Side};
 use ppum::dataset::{Dataset, Equation, FieldData, NamedQuantity, Reaction, Step, TEMPERATURE};
 use ppum::equation::Moduli;
@@ -14,7 +15,7 @@ use ppum::field::{Field, FieldError};
 use ppum::formula::FormulaJets;
 use ppum::function::Function;
 use ppum::jet::Jet;
-use ppum::vec2::{Vec2, vec2};
+use ppum::vec2::Vec2;
 
 /// Components of a displacement.
 const DISPLACEMENT: usize = 2;
@@ -31,13 +32,11 @@ pub struct Temperature {
     equation: Equation,
     /// The solver's report; empty for a temperature that is stored.
     pub report: SolverReport,
-    /// Integrands of its system that were not resolved.
-    pub unresolved: Vec<UnresolvedIntegrand>,
 }
 
 impl Temperature {
     /// A temperature, the first field of a dataset's only step, in a body with an equation that has
-    /// a coefficient of expansion, with what its solution tells beside the field.
+    /// a coefficient of expansion, with the report of its solution.
     ///
     /// # Errors
     /// A field that does not compile.
@@ -45,10 +44,9 @@ impl Temperature {
         heat: Dataset,
         equation: Equation,
         report: SolverReport,
-        unresolved: Vec<UnresolvedIntegrand>,
     ) -> Result<Self, FieldError> {
         Field::new(&heat, 0)?;
-        Ok(Self { heat, equation, report, unresolved })
+        Ok(Self { heat, equation, report })
     }
 
     /// The temperature as the solution of its own problem, which has an equation of one component.
@@ -111,7 +109,7 @@ impl Temperature {
             part("displacement", 0..DISPLACEMENT, dataset.equation.clone().without_expansion());
         let heat = part(TEMPERATURE, DISPLACEMENT..DISPLACEMENT + 1, Equation::None);
         let (equation, report) = (dataset.equation.clone(), SolverReport::default());
-        Ok(Some((plain, Self::new(heat, equation, report, Vec::new())?)))
+        Ok(Some((plain, Self::new(heat, equation, report)?)))
     }
 }
 
@@ -203,7 +201,7 @@ impl TemperatureField<'_> {
 
     /// The derivative along `axis` of the strains in the plane that the temperature gives,
     /// (1 + ν) α T in plane strain and α T in plane stress.
-    pub(super) fn strain_slope(&self, x: Vec2, axis: Vec2) -> [Vec2; 2] {
+    pub(super) fn strain_slope(&self, x: Vec2, axis: Vec2) -> Strain {
         let along = |jets: &Option<FormulaJets>| {
             jets.as_ref().map_or(0.0, |jets| {
                 let mut out = [0.0; 3];
@@ -216,7 +214,6 @@ impl TemperatureField<'_> {
         let [of_expansion, of_poisson] = self.slopes.each_ref().map(along);
         let t = self.jet::<1>(x, None);
         let slope = expansion * (t.x * axis.x + t.y * axis.y) + of_expansion * t.v;
-        let strain = slope * (1.0 + out_of_plane) + of_poisson * expansion_out * t.v;
-        [vec2(strain, 0.0), vec2(0.0, strain)]
+        Strain::isotropic(slope * (1.0 + out_of_plane) + of_poisson * expansion_out * t.v)
     }
 }

@@ -1,20 +1,17 @@
-//! The derivative of the energy W(x, ∇u) by x, as the J-integral needs it.
+//! The derivative of the energy W(x, D u) by x, as the J-integral needs it.
 
+use super::strain::Strain;
 use super::stress::Law;
-use ppum::dataset::{Eigenstrain, Elasticity, StressState};
-use ppum::expression::Expression;
-use ppum::formula::FormulaJets;
-use ppum::vec2::{Vec2, vec2};
+use ppum::jet::Jet;
+use ppum::quantity::MaterialGradient;
+use ppum::vec2::Vec2;
 use ppum_problem::geometry::{interface_distance, jumps_within};
 
 /// A law that varies without jumps.
 pub struct EnergySlope<'a> {
     law: Law<'a>,
-    body: &'a Elasticity,
-    /// E and ν with their first derivatives; none of a constant.
-    constants: [Option<FormulaJets>; 2],
-    /// The given strains with their first derivatives.
-    eigenstrain: Option<[Option<FormulaJets>; 4]>,
+    /// The gradients of moduli and given strains; none if all are constants.
+    material: Option<MaterialGradient>,
 }
 
 impl<'a> EnergySlope<'a> {
@@ -32,91 +29,48 @@ impl<'a> EnergySlope<'a> {
         {
             return None;
         }
-        let jets = |expression: &Expression| match expression.constant() {
-            Some(_) => Some(None),
-            None => FormulaJets::new(&[expression.formula()], 1).ok().map(Some),
-        };
-        let eigenstrain = match body.eigenstrain.as_deref() {
-            None => None,
-            Some(Eigenstrain { strains: [xx, yy, xy, zz], .. }) => {
-                Some([jets(xx)?, jets(yy)?, jets(xy)?, jets(zz)?])
-            }
-        };
-        let constants = [jets(&body.young)?, jets(&body.poisson)?];
-        Some(Self { law, body, constants, eigenstrain })
+        let material = MaterialGradient::new(law.equation).ok()?;
+        Some(Self { law, material })
     }
 
     /// ½ e:C,_1:e − σ:ε⁰,_1 with the elastic strain e, the derivative along `axis` at a point where
-    /// u has the gradient `g`.
-    pub fn at(&self, x: Vec2, axis: Vec2, g: &[Vec2; 2]) -> f64 {
-        if !self.law.has_initial_stress() {
-            return self.of_moduli(x, axis, g);
-        }
+    /// the jets of the field are `u`.
+    pub fn at(&self, x: Vec2, axis: Vec2, u: &[Jet<f64>]) -> f64 {
         let law = self.law.at(x);
-        let heated =
-            self.law.temperature.as_ref().map_or([Vec2::ZERO; 2], |t| t.strain_slope(x, axis));
-        let given = self.eigenstrain(x, axis).unwrap_or_default();
-        let work = |(stress, k): ([f64; 2], usize)| (heated[k] + given[k]).dot(stress.into());
-        let strained: f64 = law.stress(g).into_iter().zip(0..).map(work).sum();
-        self.of_moduli(x, axis, &law.elastic(g)) - strained
-    }
-
-    /// ½ e:C,_1:e = ½ λ,_1 (tr e)² + μ,_1 e:e
-    fn of_moduli(&self, at: Vec2, axis: Vec2, [a, b]: &[Vec2; 2]) -> f64 {
-        let [young, poisson] = [0, 1].map(|k| along(self.constants[k].as_ref(), at, axis));
-        if young == 0.0 && poisson == 0.0 {
-            return 0.0;
+        let strain = law.strain(u);
+        let elastic = law.elastic(&strain);
+        let material = self.material.as_ref();
+        let slopes = material.map(|material| self.law.coefficient_slopes(x, axis, material));
+        let terms = self.law.terms.iter().zip(slopes.unwrap_or_default());
+        let terms = terms.filter(|(_, slope)| *slope != 0.0);
+        let by_material =
+            terms.map(|(term, slope)| slope * term.linear_stress(&elastic).work(&elastic));
+        let by_material = 0.5 * by_material.sum::<f64>();
+        if !self.law.has_initial_stress() {
+            return by_material;
         }
-        let [lambda, mu] = self.moduli(at, young, poisson);
-        let (trace, shear) = (a.x + b.y, 0.5 * (a.y + b.x));
-        let square = a.x * a.x + b.y * b.y + 2.0 * shear * shear;
-        0.5 * lambda * trace * trace + mu * square
+        let heated = self.law.temperature.as_ref().map(|t| t.strain_slope(x, axis));
+        let given = material.map(|material| self.eigenstrain(x, axis, material));
+        let slope = heated.unwrap_or_default().plus(1.0, &given.unwrap_or_default());
+        by_material - law.stress(&strain).work(&slope)
     }
 
-    /// The derivative of the plane's given strains along `axis`, as a gradient; none if there are
-    /// no strains.
-    fn eigenstrain(&self, at: Vec2, axis: Vec2) -> Option<[Vec2; 2]> {
-        let (jets, given) = (self.eigenstrain.as_ref()?, self.body.eigenstrain.as_deref()?);
-        let [xx, yy, xy, zz] = jets.each_ref().map(|jets| along(jets.as_ref(), at, axis));
-        let through = match self.body.state {
-            StressState::PlaneStress => 0.0,
-            StressState::PlaneStrain => {
-                let slope = along(self.constants[1].as_ref(), at, axis);
-                self.body.poisson.value(at) * zz + slope * given.strains[3].value(at)
-            }
-        };
-        Some([vec2(xx + through, xy), vec2(xy, yy + through)])
+    /// The derivative of the plane's given strains along an axis, those through the plane among
+    /// them as [`plane_eigenstrain`](ppum::equation::Moduli::plane_eigenstrain) has them.
+    fn eigenstrain(&self, x: Vec2, axis: Vec2, material: &MaterialGradient) -> Strain {
+        let moduli = self.law.equation.moduli(x, [0.0; 2]);
+        let [xx, yy, xy, zz] = material.eigenstrain(x).map(|gradient| gradient.dot(axis));
+        let out_of_plane = material.at(x, &moduli).out_of_plane.dot(axis);
+        let through = moduli.out_of_plane * zz + out_of_plane * moduli.eigenstrain[3];
+        Strain::symmetric([xx + through, yy + through, xy])
     }
-
-    /// The derivatives of λ and μ from those of E and ν.
-    fn moduli(&self, at: Vec2, young: f64, poisson: f64) -> [f64; 2] {
-        let material = self.body.at(at);
-        let (e, nu) = (material.young, material.poisson);
-        let by_poisson = match material.state {
-            StressState::PlaneStrain => {
-                e * (1.0 + 2.0 * nu * nu) / ((1.0 + nu) * (1.0 - 2.0 * nu)).powi(2)
-            }
-            StressState::PlaneStress => e * (1.0 + nu * nu) / (1.0 - nu * nu).powi(2),
-        };
-        [
-            material.lambda() / e * young + by_poisson * poisson,
-            material.mu() * (young / e - poisson / (1.0 + nu)),
-        ]
-    }
-}
-
-/// The derivative of a formula along an axis; zero of a constant.
-fn along(jets: Option<&FormulaJets>, at: Vec2, axis: Vec2) -> f64 {
-    let Some(jets) = jets else { return 0.0 };
-    let mut out = [0.0; 3];
-    jets.evaluate(&[at.x, at.y], &mut Vec::new(), &mut out);
-    vec2(out[1], out[2]).dot(axis)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use ppum::dataset::Equation;
+    use ppum::dataset::{Eigenstrain, Elasticity, Equation, StressState};
+    use ppum::vec2::vec2;
 
     /// The energy of one gradient at two places nearby, also in a body that is strained.
     #[test]
@@ -132,10 +86,11 @@ mod tests {
                 let law = Law::new(&equation);
                 let (at, axis) = (vec2(0.3, 0.2), vec2(0.6, 0.8));
                 let slope = EnergySlope::new(law.clone(), at, 0.1).expect("no jump");
-                let u = [vec2(0.3, -0.2), vec2(0.5, 0.7)];
+                let zero = Jet::constant(0.0);
+                let u = [Jet { x: 0.3, y: -0.2, ..zero }, Jet { x: 0.5, y: 0.7, ..zero }];
                 let energy = |p: Vec2| {
-                    let (s, e) = (law.at(p).stress(&u), law.at(p).elastic(&u));
-                    0.5 * (e[0].dot(s[0].into()) + e[1].dot(s[1].into()))
+                    let (law, strain) = (law.at(p), law.at(p).strain(&u));
+                    0.5 * law.stress(&strain).work(&law.elastic(&strain))
                 };
                 let h = 1e-5;
                 let difference = (energy(at + axis * h) - energy(at - axis * h)) / (2.0 * h);

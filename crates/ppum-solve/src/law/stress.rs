@@ -1,16 +1,21 @@
 //! The stress of a gradient, as tensors: elasticity and Poisson share every line of the assembly.
 
 use super::heat::{FaceLocation, Temperature, TemperatureField};
+use super::strain::{
+    OPERATORS, PAIRS, Rigidity, Strain, Stress, WeightedRigidity, transposed, unit,
+};
 use ppum::dataset::Equation;
 use ppum::equation::Moduli;
 use ppum::expression::Expression;
-use ppum::vec2::{Vec2, vec2};
+use ppum::jet::Jet;
+use ppum::quantity::MaterialGradient;
+use ppum::vec2::Vec2;
 use std::sync::Arc;
 
 /// C\[i\]\[k\]\[j\]\[l\]
-type Tensor = [[[[f64; 2]; 2]; 2]; 2];
+type Tensor = [[[[f64; OPERATORS]; 2]; OPERATORS]; 2];
 
-/// The law of an equation: the flux of ∇u is σ_ik = Σ_jl C\[i\]\[k\]\[j\]\[l\] (∂u_j/∂x_l − ε⁰_jl)
+/// The law of an equation: the stress of u is σ_ik = Σ_jl C\[i\]\[k\]\[j\]\[l\] (D_l u_j − ε⁰_jl)
 /// with the given strains ε⁰ and C = Σ_m a_m(x) T_m, constant tensors T_m times coefficients a_m of
 /// position.
 ///
@@ -73,8 +78,8 @@ impl<'e> Law<'e> {
             return law;
         }
         let moduli = self.moduli(x, face);
-        let ([xx, yy, xy], [.., zz]) = (moduli.plane_eigenstrain(), moduli.eigenstrain);
-        let eigenstrain = [vec2(xx, xy), vec2(xy, yy)];
+        let [.., zz] = moduli.eigenstrain;
+        let eigenstrain = Strain::symmetric(moduli.plane_eigenstrain());
         LawAt { eigenstrain, through: moduli.young * zz * zz, ..law }
     }
 
@@ -90,10 +95,10 @@ impl<'e> Law<'e> {
     }
 
     /// The stress −C ε⁰ at a point of a body that does not deform.
-    pub(crate) fn initial_stress(&self, x: Vec2) -> [[f64; 2]; 2] {
+    pub(crate) fn initial_stress(&self, x: Vec2) -> Stress {
         match self.has_initial_stress() {
-            true => self.at(x).stress(&[Vec2::ZERO; 2]),
-            false => [[0.0; 2]; 2],
+            true => self.at(x).stress(&Strain::default()),
+            false => Stress::default(),
         }
     }
 
@@ -133,23 +138,63 @@ impl<'e> Law<'e> {
         if self.uniform {
             return [1.0, 0.0];
         }
-        let Moduli { lambda, mu, conductivity, .. } = self.equation.moduli(x, [0.0, 0.0]);
+        self.coefficients_of(&self.equation.moduli(x, [0.0, 0.0]))
+    }
+
+    /// The derivatives of the coefficients along an axis.
+    pub(super) fn coefficient_slopes(
+        &self,
+        x: Vec2,
+        axis: Vec2,
+        material: &MaterialGradient,
+    ) -> Coefficients {
+        if self.uniform {
+            return Coefficients::default();
+        }
+        let slopes = material.at(x, &self.equation.moduli(x, [0.0; 2]));
+        self.coefficients_of(&slopes).map(|slope| slope.dot(axis))
+    }
+
+    /// The coefficients by the moduli at a point, or their slopes by those of the moduli; moduli
+    /// that an equation does not have are zero.
+    fn coefficients_of<R: Copy>(&self, moduli: &Moduli<R>) -> Coefficients<R> {
         match self.equation {
-            Equation::Elasticity(_) => [lambda, mu],
-            Equation::Poisson { .. } => [conductivity, 0.0],
-            Equation::None => [0.0; TERMS],
+            Equation::Poisson { .. } => [moduli.conductivity, moduli.mu],
+            _ => [moduli.lambda, moduli.mu],
         }
     }
 
-    /// The law at a point, as a matrix.
-    pub(crate) fn rigidity(&self, x: Vec2) -> Rigidity {
-        let mut sum = [[0.0; 3]; 3];
-        for (term, a) in self.terms.iter().zip(self.coefficients(x)) {
-            let Rigidity(part) = term.rigidity();
-            let entries = sum.as_flattened_mut().iter_mut().zip(part.as_flattened());
-            entries.for_each(|(sum, part)| *sum += a * part);
+    /// How much the law differs between two points, in parts of its size.
+    pub(crate) fn contrast(&self, points: [Vec2; 2]) -> f64 {
+        let [a, b] = points.map(|p| self.coefficients(p));
+        let (mut jump, mut sum) = (0.0, 0.0);
+        for (k, term) in self.terms.iter().enumerate() {
+            jump += term.modulus(0) * (a[k] - b[k]).abs();
+            sum += term.modulus(0) * (a[k].abs() + b[k].abs());
         }
-        Rigidity(sum)
+        jump / sum
+    }
+
+    /// The law at points with their weights, as matrices.
+    pub(crate) fn rigidity(&self, points: impl Iterator<Item = (Vec2, f64)>) -> WeightedRigidity {
+        let uniform = self.uniform.then(|| self.rigidity_at(Vec2::ZERO));
+        let weighted = |(x, weight): (Vec2, f64)| {
+            let at = uniform.unwrap_or_else(|| self.rigidity_at(x));
+            at.map(|row| row.map(|entry| weight * entry))
+        };
+        WeightedRigidity(points.map(weighted).collect())
+    }
+
+    fn rigidity_at(&self, x: Vec2) -> Rigidity {
+        let mut sum = Rigidity::default();
+        for (term, a) in self.terms.iter().zip(self.coefficients(x)) {
+            for (row, pair) in sum.iter_mut().zip(PAIRS) {
+                row.iter_mut()
+                    .zip(PAIRS)
+                    .for_each(|(sum, other)| *sum += a * term.entry(pair, other));
+            }
+        }
+        sum
     }
 
     /// True if the law is the same everywhere.
@@ -158,29 +203,21 @@ impl<'e> Law<'e> {
     }
 }
 
-/// The law as a matrix on strains (ε_11, ε_22, 2ε_12), or on the gradient of a potential, with
-/// zeros after it.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Rigidity(pub(crate) [[f64; 3]; 3]);
-
 /// The tensors of the coefficients λ and μ, or κ.
 fn units(components: usize) -> Vec<LawAt> {
-    let delta = |a: usize, b: usize| f64::from(u8::from(a == b));
-    let term = |entry: &dyn Fn(usize, usize, usize, usize) -> f64| {
+    let same = |a: [usize; 2], b: [usize; 2]| f64::from(u8::from(a == b));
+    let term = |entry: &dyn Fn([usize; 2], [usize; 2]) -> f64| {
         let tensor = std::array::from_fn(|i| {
             std::array::from_fn(|k| {
-                std::array::from_fn(|j| std::array::from_fn(|l| entry(i, k, j, l)))
+                std::array::from_fn(|j| std::array::from_fn(|l| entry([i, k], [j, l])))
             })
         });
         LawAt { tensor, ..LawAt::zero(components) }
     };
     if components == 1 {
-        return vec![term(&|i, k, j, l| delta(i, 0) * delta(j, 0) * delta(k, l))];
+        return vec![term(&|a, b| if a[0] == 0 { same(a, b) } else { 0.0 })];
     }
-    vec![
-        term(&|i, k, j, l| delta(i, k) * delta(j, l)),
-        term(&|i, k, j, l| delta(i, j) * delta(k, l) + delta(i, l) * delta(j, k)),
-    ]
+    vec![term(&|a, b| unit(a) * unit(b)), term(&|a, b| same(a, b) + same(a, transposed(b)))]
 }
 
 /// The law at a point, as one tensor.
@@ -189,14 +226,14 @@ pub struct LawAt {
     components: usize,
     tensor: Tensor,
     /// ε⁰
-    eigenstrain: [Vec2; 2],
+    eigenstrain: Strain,
     /// E (ε⁰_zz)², twice the energy of the strain that the third direction does not take.
     through: f64,
 }
 
 impl LawAt {
     fn zero(components: usize) -> Self {
-        let (tensor, eigenstrain) = (Tensor::default(), [Vec2::ZERO; 2]);
+        let (tensor, eigenstrain) = (Tensor::default(), Strain::default());
         Self { components, tensor, eigenstrain, through: 0.0 }
     }
 
@@ -214,24 +251,15 @@ impl LawAt {
 
     /// The indices [i, k, j, l] of entries other than zero.
     pub(crate) fn entries(&self) -> impl Iterator<Item = [usize; 4]> {
-        let all = (0..16).map(|n| [n / 8, n / 4 % 2, n / 2 % 2, n % 2]);
+        let pairs = || (0..2).flat_map(|i| (0..OPERATORS).map(move |k| [i, k]));
+        let all = pairs().flat_map(move |[i, k]| pairs().map(move |[j, l]| [i, k, j, l]));
         all.filter(|&[i, k, j, l]| self.tensor[i][k][j][l] != 0.0)
     }
 
-    fn rigidity(&self) -> Rigidity {
-        let pairs: &[[usize; 2]] =
-            if self.components == 1 { &[[0, 0], [0, 1]] } else { &[[0, 0], [1, 1], [0, 1]] };
-        let mut matrix = [[0.0; 3]; 3];
-        for (row, &a) in matrix.iter_mut().zip(pairs) {
-            row.iter_mut().zip(pairs).for_each(|(sum, &b)| *sum = self.entry(a, b));
-        }
-        Rigidity(matrix)
-    }
-
-    /// Component i of the traction σ n of the function N e_j with gradient `d`.
+    /// Component i of the traction σ n of the function N e_j with D_k N = `slopes`.
     #[must_use]
-    pub(crate) fn traction(&self, i: usize, j: usize, d: Vec2, n: Vec2) -> f64 {
-        let row = |k: usize| self.tensor[i][k][j][0] * d.x + self.tensor[i][k][j][1] * d.y;
+    pub(crate) fn traction(&self, i: usize, j: usize, slopes: [f64; OPERATORS], n: Vec2) -> f64 {
+        let row = |k: usize| dot(&self.tensor[i][k][j], &slopes);
         row(0) * n.x + row(1) * n.y
     }
 
@@ -247,35 +275,41 @@ impl LawAt {
         self.tensor[0][0][1][1]
     }
 
-    /// The stress (flux) σ of a gradient, `g[j] = ∇u_j`; rows beyond the components are zero.
+    /// The strain of a field with these components at the point of the law.
     #[must_use]
-    pub fn stress(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
-        self.linear_stress(&self.elastic(g))
+    pub fn strain(&self, u: &[Jet<f64>]) -> Strain {
+        Strain::new(&u[..self.components])
     }
 
-    /// The part of a gradient that has stress.
+    /// The stress (flux) σ of a strain; rows beyond the components are zero.
     #[must_use]
-    pub fn elastic(&self, g: &[Vec2; 2]) -> [Vec2; 2] {
-        std::array::from_fn(|j| g[j] - self.eigenstrain[j])
+    pub fn stress(&self, strain: &Strain) -> Stress {
+        self.linear_stress(&self.elastic(strain))
     }
 
-    /// Twice the energy that a gradient stores, per area.
+    /// The part of a strain that has stress.
     #[must_use]
-    pub(crate) fn energy(&self, g: &[Vec2; 2]) -> f64 {
-        let (e, s) = (self.elastic(g), self.stress(g));
-        let row = |i: usize| s[i][0] * e[i].x + s[i][1] * e[i].y;
-        (0..self.components).map(row).sum::<f64>() + self.through
+    pub fn elastic(&self, strain: &Strain) -> Strain {
+        strain.plus(-1.0, &self.eigenstrain)
     }
 
-    /// The change of the stress by a change of the gradient: that of a body without stresses of
+    /// Twice the energy that a strain stores, per area.
+    #[must_use]
+    pub(crate) fn energy(&self, strain: &Strain) -> f64 {
+        self.stress(strain).work(&self.elastic(strain)) + self.through
+    }
+
+    /// The change of the stress by a change of the strain: that of a body without stresses of
     /// its own.
     #[must_use]
-    pub fn linear_stress(&self, g: &[Vec2; 2]) -> [[f64; 2]; 2] {
+    pub fn linear_stress(&self, strain: &Strain) -> Stress {
         let entry = |i: usize, k: usize| {
-            (0..self.components)
-                .map(|j| self.tensor[i][k][j][0] * g[j].x + self.tensor[i][k][j][1] * g[j].y)
-                .sum()
+            (0..self.components).map(|j| dot(&self.tensor[i][k][j], &strain.0[j])).sum()
         };
-        std::array::from_fn(|i| std::array::from_fn(|k| entry(i, k)))
+        Stress(std::array::from_fn(|i| std::array::from_fn(|k| entry(i, k))))
     }
+}
+
+fn dot(a: &[f64; OPERATORS], b: &[f64; OPERATORS]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }

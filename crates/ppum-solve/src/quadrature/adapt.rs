@@ -12,12 +12,13 @@
 //!
 //! For loads, only the integral of f itself is controlled, relative to the whole load: they may be
 //! singular, and vanish almost everywhere. Where division ends before the tolerance is reached, the
-//! remaining error is recorded as a [`QuadratureError`].
+//! remaining error is recorded as a [`QuadratureErrorEstimate`].
 
-use super::error_estimate::QuadratureError;
+use super::error_estimate::QuadratureErrorEstimate;
 use super::gauss::{Rules1d, closed, gauss};
-use super::geometry::{CrackFace, Probes};
-use ppum::vec2::Vec2;
+use super::geometry::{CrackFace, Probes, SmoothnessGeometry};
+use super::orders::Orders;
+use ppum::vec2::{Rect, Vec2};
 use std::cell::Cell;
 
 /// Differences that are left, relative to the integral over all parts.
@@ -90,10 +91,30 @@ pub(super) struct IntegrandDemand<'a> {
     pub(super) left: &'a Cell<usize>,
 }
 
-/// Parts that were divided, and what they do not resolve.
-pub(super) struct RefinedParts<P> {
-    pub(super) regions: Vec<P>,
-    pub(super) doubt: QuadratureError,
+impl<'a> SmoothnessGeometry<'a> {
+    /// The demand of some active functions on rules with `order` Gauss points in a cell with a
+    /// number of divisions that are left; the parts are straight, and offsets have the origin 0.
+    pub(super) fn demand(
+        &self,
+        active: &'a [u32],
+        order: usize,
+        orders: Orders,
+        (cell, left): (&Rect, &'a Cell<usize>),
+    ) -> IntegrandDemand<'a> {
+        let (probes, anchor, size) = (self.probes, Vec2::ZERO, cell.size().length());
+        let points = order.saturating_sub(orders.reserve).max(1);
+        IntegrandDemand {
+            probes,
+            active,
+            anchor,
+            face: None,
+            curved: false,
+            size,
+            points,
+            order,
+            left,
+        }
+    }
 }
 
 /// An integral, and the integral of the absolute value.
@@ -122,25 +143,31 @@ struct Division<P> {
     changes: Vec<f64>,
 }
 
-/// The parts divided until their rules resolve the functions that are demanded; as they are if
-/// division does not help.
+/// Calls `push` with the rules of parts, divided until these resolve the functions that are
+/// demanded; as they are if division does not help. Returns what they do not resolve.
 pub(super) fn refined<P: Subregion>(
     regions: Vec<P>,
     demand: &IntegrandDemand<'_>,
-) -> RefinedParts<P> {
+    push: &mut dyn FnMut(Vec2, f64),
+) -> QuadratureErrorEstimate {
+    let mut rules = |regions: &mut dyn Iterator<Item = &P>| {
+        regions.for_each(|region| region.nodes(gauss, demand.order, push));
+    };
     if demand.active.is_empty() && !demand.curved {
-        return RefinedParts { regions, doubt: QuadratureError::default() };
+        rules(&mut regions.iter());
+        return QuadratureErrorEstimate::default();
     }
     let mut entries: Vec<SubregionEntry<P>> =
         regions.iter().map(|region| demand.entry(region.clone(), 0)).collect();
     let helped = divide(&mut entries, demand);
     let doubt = demand.doubt(&entries);
     // what is known of a load is kept
-    let keep = helped || doubt.load > 0.0;
-    RefinedParts {
-        regions: if keep { entries.into_iter().map(|e| e.region).collect() } else { regions },
-        doubt,
+    if helped || doubt.load > 0.0 {
+        rules(&mut entries.iter().map(|entry| &entry.region));
+    } else {
+        rules(&mut regions.iter());
     }
+    doubt
 }
 
 /// Divides the worst part again and again; false if errors do not come down.
@@ -148,7 +175,7 @@ fn divide<P: Subregion>(
     entries: &mut Vec<SubregionEntry<P>>,
     demand: &IntegrandDemand<'_>,
 ) -> bool {
-    let mut progress = ErrorDecay { check: FIRST_CHECK, before: f64::INFINITY };
+    let mut progress = DecayMonitor { check: FIRST_CHECK, before: f64::INFINITY };
     while entries.len() < BUDGET && demand.left.get() > 0 {
         let allowed = demand.allowed(entries);
         let Some(at) = worst(entries, &allowed) else { break };
@@ -166,14 +193,14 @@ fn divide<P: Subregion>(
 }
 
 /// Watches whether errors come down.
-struct ErrorDecay {
+struct DecayMonitor {
     /// Number of parts to look at next.
     check: usize,
     /// Error at the last look.
     before: f64,
 }
 
-impl ErrorDecay {
+impl DecayMonitor {
     fn has_stopped(&mut self, regions: usize, error: impl FnOnce() -> f64) -> bool {
         if regions < self.check {
             return false;
@@ -263,12 +290,12 @@ impl IntegrandSamples {
 
 impl IntegrandDemand<'_> {
     fn entry<P: Subregion>(&self, region: P, depth: usize) -> SubregionEntry<P> {
-        let (inside, border) = (self.samples(&region, gauss), self.samples(&region, closed));
-        let whole = RuleSums { gauss: self.integrals(&inside), closed: self.integrals(&border) };
+        let (inside, boundary) = (self.samples(&region, gauss), self.samples(&region, closed));
+        let whole = RuleSums { gauss: self.integrals(&inside), closed: self.integrals(&boundary) };
         let mut errors = differences(&whole.gauss, &whole.closed);
         let hidden = errors.iter().zip(&whole.gauss).any(|(e, i)| *e > ACCURACY * i.size);
         let ways = if depth < DEPTH {
-            region.divisions(&self.directions([&inside, &border]))
+            region.divisions(&self.directions([&inside, &boundary]))
         } else {
             Vec::new()
         };
@@ -310,19 +337,22 @@ impl IntegrandDemand<'_> {
     }
 
     /// Errors that parts leave.
-    fn doubt<P>(&self, entries: &[SubregionEntry<P>]) -> QuadratureError {
+    fn doubt<P>(&self, entries: &[SubregionEntry<P>]) -> QuadratureErrorEstimate {
         let allowed = self.allowed(entries);
         let cut = entries.len() >= BUDGET || self.left.get() == 0;
-        let mut doubt = QuadratureError::default();
+        let mut doubt = QuadratureErrorEstimate::default();
         for (k, allowed) in allowed.iter().enumerate() {
             let error: f64 = entries.iter().map(|e| e.errors[k]).sum();
             let worst = entries.iter().max_by(|a, b| a.errors[k].total_cmp(&b.errors[k]));
             let Some(worst) = worst.filter(|_| error > *allowed) else { continue };
             let is_load = self.active.get(k / 3).is_some_and(|&f| self.probes.load(f).is_some());
             if is_load {
-                doubt.add(&QuadratureError::of_load(error, worst.at));
+                doubt.add(&QuadratureErrorEstimate::of_load(error, worst.at));
             } else if cut {
-                doubt.add(&QuadratureError::of_functions(ACCURACY * error / allowed, worst.at));
+                doubt.add(&QuadratureErrorEstimate::of_functions(
+                    ACCURACY * error / allowed,
+                    worst.at,
+                ));
             }
         }
         doubt

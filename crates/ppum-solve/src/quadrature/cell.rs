@@ -22,6 +22,15 @@ const LEAST_AREA: f64 = TOLERANCE * TOLERANCE;
 /// Singular points nearer than this part of a rectangle's diameter to each other count as one.
 pub(super) const SAME_POINT: f64 = 1e-9;
 
+/// A cell of a cover, and the patches whose open supports meet it; more of them do no harm.
+#[derive(Clone, Copy, Debug)]
+pub struct CoveredCell<'a> {
+    /// The cell.
+    pub rect: &'a Rect,
+    /// The patches.
+    pub patches: &'a [u32],
+}
+
 /// The rules of a step's cells.
 #[derive(Clone)]
 pub struct Quadrature<'a> {
@@ -104,23 +113,22 @@ impl<'a> Quadrature<'a> {
         Self { divisions: most.min(self.divisions), ..self }
     }
 
-    /// The rules on a cell. `covering_patches` are the patches whose open supports meet the cell;
-    /// more of them do no harm.
+    /// The rules on a cell.
     #[must_use]
-    pub(crate) fn cell(&self, cell: &Rect, covering_patches: &[u32]) -> Vec<CellRule> {
-        self.rules(cell, covering_patches, self.orders, None)
+    pub(crate) fn cell(&self, cell: CoveredCell<'_>) -> Vec<CellRule> {
+        self.rules(cell, self.orders, None)
     }
 
     /// True if nothing but boundaries of patches cuts a cell, and all factors of their weights are
     /// smooth there.
     #[must_use]
-    pub(crate) fn is_whole(&self, cell: &Rect, covering_patches: &[u32]) -> bool {
+    pub(crate) fn is_whole(&self, cell: CoveredCell<'_>) -> bool {
         let SmoothnessGeometry { common_kinks, common_probes, .. } = self.geometry;
         common_kinks.is_empty()
             && common_probes.is_empty()
-            && self.geometry.is_smooth(covering_patches)
-            && self.cuts_near(cell).next().is_none()
-            && !self.boxes.iter().any(|hole| hole.overlaps(cell))
+            && self.geometry.is_smooth(cell.patches)
+            && self.cuts_near(cell.rect).next().is_none()
+            && !self.boxes.iter().any(|hole| hole.overlaps(cell.rect))
     }
 
     /// The rules on the pieces of a cell that meet a disc, with more points than the disc asks for
@@ -130,21 +138,21 @@ impl<'a> Quadrature<'a> {
     /// and must vanish outside the disc: of the cell the part inside the disc's bounding square is
     /// integrated. The anchor is the centre wherever no other singular point is near.
     #[must_use]
-    pub fn disc(&self, cell: &Rect, covering_patches: &[u32], disc: Disc) -> Vec<CellRule> {
-        let part = cell.intersection(&Rect::around(disc.center, vec2(disc.radius, disc.radius)));
+    pub fn disc(&self, cell: CoveredCell<'_>, disc: Disc) -> Vec<CellRule> {
+        let square = Rect::around(disc.center, vec2(disc.radius, disc.radius));
+        let part = cell.rect.intersection(&square);
         let size = part.size();
         if size.x <= 0.0 || size.y <= 0.0 {
             return Vec::new();
         }
         let overlap = disc.order.max(self.orders.overlap);
         let orders = Orders { overlap, parts: self.orders.parts, ..Orders::uniform(disc.order) };
-        self.rules(&part, covering_patches, orders, Some(disc))
+        self.rules(CoveredCell { rect: &part, ..cell }, orders, Some(disc))
     }
 
     fn rules(
         &self,
-        cell: &Rect,
-        covering_patches: &[u32],
+        CoveredCell { rect: cell, patches }: CoveredCell<'_>,
         orders: Orders,
         disc: Option<Disc>,
     ) -> Vec<CellRule> {
@@ -157,7 +165,7 @@ impl<'a> Quadrature<'a> {
         let quadrature = self;
         let mut run =
             CellIntegration { quadrature, cell, orders, disc, segments, holes, least, rules, left };
-        let mut sorted = covering_patches.to_vec();
+        let mut sorted = patches.to_vec();
         sorted.sort_unstable();
         let partition = self.geometry.partition;
         split::rectangles(partition, orders.parts, cell, &sorted, &mut |rect, patches| {
@@ -246,16 +254,12 @@ impl CellIntegration<'_> {
         };
         let polygons = self.cut(rect, anchor, &kinks);
         let mut pieces = PieceQuadrature {
+            demand: geometry.demand(&active, order, self.orders, (self.cell, &self.left)),
             rules: &mut self.rules,
             patches,
-            order,
-            reserve: self.orders.reserve,
-            size: self.cell.size().length(),
             least: self.least,
             curves: &curves,
             holes: &holes::near(&self.holes, rect),
-            probes: (geometry.probes, &active),
-            left: &self.left,
         };
         for polygon in polygons {
             pieces.add(anchor, &polygon, &singular);

@@ -21,7 +21,7 @@ pub(super) enum CellChart<'c> {
     /// The bilinear map of the unit square; a triangle is the case of two equal corners.
     Quadrilateral([Vec2; 4]),
     /// A triangle seen from a singular point.
-    Apex(Apex),
+    Apex(ApexTriangle),
     /// A part of another chart on one side of a curve.
     Strip(CurveStrip<'c>),
 }
@@ -29,7 +29,7 @@ pub(super) enum CellChart<'c> {
 /// The triangle between the anchor and an edge, with s = u along the edge, x = foot + d sinh u at
 /// the distance d from the anchor, and r = t^power along the rays, 0 ≤ t ≤ 1.
 #[derive(Clone, Copy)]
-pub(super) struct Apex {
+pub(super) struct ApexTriangle {
     pub(super) foot: Vec2,
     pub(super) tangent: Vec2,
     pub(super) height: f64,
@@ -124,7 +124,7 @@ impl CellChart<'_> {
     /// in space.
     pub(super) fn between(&self, axis: usize, (lo, hi): (f64, f64), part: f64) -> f64 {
         match self {
-            Self::Apex(Apex { grading: RayGrading { power, .. }, .. }) if axis == 1 => {
+            Self::Apex(ApexTriangle { grading: RayGrading { power, .. }, .. }) if axis == 1 => {
                 let (from, to) = (lo.powf(*power), hi.powf(*power));
                 (from + (to - from) * part).powf(1.0 / power).clamp(lo, hi)
             }
@@ -157,7 +157,7 @@ fn bilinear(&[a, b, c, d]: &[Vec2; 4], [xi, eta]: [f64; 2]) -> (Vec2, f64) {
     (left + along * xi, along.cross(across))
 }
 
-impl Apex {
+impl ApexTriangle {
     fn at(&self, [u, t]: [f64; 2]) -> (Vec2, f64) {
         let power = self.grading.power;
         let r = t.powf(power);

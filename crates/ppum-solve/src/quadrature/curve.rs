@@ -13,7 +13,7 @@
 use super::chart::{CellChart, CurveStrip, LevelOn, UNIT, range};
 use super::geometry::LevelFunction;
 use super::roots::{ZERO, sign_changes};
-use super::split::{TOLERANCE, breaks};
+use super::split::{TOLERANCE, breaks, cut_at};
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::rc::Rc;
 
@@ -73,13 +73,7 @@ impl<'c> ChartWindow<'c> {
 
     /// The halves below and above the middle of an axis.
     pub(super) fn halves(&self, axis: usize) -> [Self; 2] {
-        let middle = self.between(axis, 0.5);
-        let (mut low, mut high) = (self.range, self.range);
-        match axis {
-            0 => (low.max.x, high.min.x) = (middle, middle),
-            _ => (low.max.y, high.min.y) = (middle, middle),
-        }
-        [self.part(low), self.part(high)]
+        cut_at(&self.range, axis, self.between(axis, 0.5)).map(|range| self.part(range))
     }
 }
 

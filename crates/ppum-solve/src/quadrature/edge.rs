@@ -1,17 +1,16 @@
 //! Rules along segments: parts of the boundary, faces of cracks.
 
-use super::adapt::{IntegrandDemand, RefinedParts, Subregion as _, refined};
-use super::cell::{Quadrature, SAME_POINT, distinct, straight_cut};
-use super::error_estimate::QuadratureError;
-use super::gauss::gauss;
+use super::adapt::{IntegrandDemand, Subregion, refined};
+use super::cell::{CoveredCell, Quadrature, SAME_POINT, distinct, straight_cut};
 use super::geometry::{CrackFace, KinkLine, LevelFunction, Singularity};
+use super::graded_interval::{GradedInterval, LineParameter};
 use super::orders::ActiveFunctions;
 use super::polygon::SegmentCut;
 use super::polygon::line_side;
 use super::roots::{ZERO, clamp_non_finite, sign_changes};
+use super::rule::EdgeRule;
 use super::singular::panels;
 use super::split::{TOLERANCE, breaks, component, divided, kinks, varies};
-use super::stretch::{LineParameter, Stretch};
 use ppum::border::{TOUCH, touch};
 use ppum::crack::Side;
 use ppum::segment::Segment;
@@ -28,41 +27,6 @@ const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Distance behind a boundary, in units of a cell, at which it is asked whether there is a hole.
 const INWARD: f64 = 1e-9;
 
-/// A rule on the part of a segment in one cell on which one set of patches is active.
-#[derive(Clone, Debug, PartialEq)]
-pub struct EdgeRule {
-    /// Origin of the offsets: the singular point they are graded toward, else the
-    /// centre of the cell.
-    pub anchor: Vec2,
-    /// Points, relative to the anchor.
-    pub offsets: Vec<Vec2>,
-    /// Quadrature weights; they sum to the length.
-    pub weights: Vec<f64>,
-    /// The patches whose supports hold the points, ascending.
-    pub patches: Vec<u32>,
-    /// Unit normals out of the material, one per point.
-    pub normals: Vec<Vec2>,
-    /// The face that the points lie on, if they are on one. Rounding may put them on either side of
-    /// the crack: what has sides there takes that of the face.
-    pub face: Option<CrackFace>,
-    /// Errors that the points leave.
-    pub doubt: QuadratureError,
-}
-
-impl EdgeRule {
-    pub(super) fn empty(anchor: Vec2, patches: &[u32]) -> Self {
-        let (offsets, weights, normals) = (Vec::new(), Vec::new(), Vec::new());
-        let doubt = QuadratureError::default();
-        Self { anchor, offsets, weights, patches: patches.to_vec(), normals, face: None, doubt }
-    }
-
-    pub(super) fn push(&mut self, offset: Vec2, weight: f64, normal: Vec2) {
-        self.offsets.push(offset);
-        self.weights.push(weight);
-        self.normals.push(normal);
-    }
-}
-
 impl Quadrature<'_> {
     /// False if behind a point of a boundary, where the normal comes from, there is a hole.
     pub(super) fn is_solid(&self, cell: &Rect, p: Vec2, normal: Vec2) -> bool {
@@ -75,76 +39,105 @@ impl Quadrature<'_> {
     /// # Panics
     /// If there is no such segment.
     #[must_use]
-    pub(crate) fn face(
-        &self,
-        cell: &Rect,
-        covering_patches: &[u32],
-        face: CrackFace,
-    ) -> Vec<EdgeRule> {
-        self.part_of_face(cell, covering_patches, face.ends(self.geometry.cracks), face)
+    pub(crate) fn face(&self, cell: CoveredCell<'_>, face: CrackFace) -> Vec<EdgeRule> {
+        self.part_of_face(cell, face.ends(self.geometry.cracks), face)
     }
 
     /// Returns the rule along the part of a face between two points of its segment.
     #[must_use]
     pub fn part_of_face(
         &self,
-        cell: &Rect,
-        covering_patches: &[u32],
+        cell: CoveredCell<'_>,
         part: [Vec2; 2],
         face: CrackFace,
     ) -> Vec<EdgeRule> {
         let ends = face.ends(self.geometry.cracks);
         let left = (ends[1] - ends[0]).unit().left();
         let normal = if face.side == Side::Above { -left } else { left };
-        self.along(cell, covering_patches, EdgeLine::new(cell.center(), part, normal), Some(face))
+        self.along(cell, part, normal, Some(face))
     }
 
     /// Rules on the part of a straight segment that belongs to a cell; empty if none does.
     ///
     /// `normal` is the segment's unit normal out of the material. Parts without material behind
     /// them count for nothing, and neither do faces of cracks on it. A segment along a cell's
-    /// boundary belongs to the cell that `normal` points out of. `covering_patches` are the patches
-    /// whose open supports meet the cell; more of them do no harm.
+    /// boundary belongs to the cell that `normal` points out of.
     #[must_use]
     pub(crate) fn edge(
         &self,
-        cell: &Rect,
-        covering_patches: &[u32],
+        cell: CoveredCell<'_>,
         ends: [Vec2; 2],
         normal: Vec2,
     ) -> Vec<EdgeRule> {
-        self.along(cell, covering_patches, EdgeLine::new(cell.center(), ends, normal), None)
+        self.along(cell, ends, normal, None)
     }
 
     fn along(
         &self,
-        cell: &Rect,
-        covering_patches: &[u32],
-        line: EdgeLine,
+        cell: CoveredCell<'_>,
+        ends: [Vec2; 2],
+        normal: Vec2,
         face: Option<CrackFace>,
     ) -> Vec<EdgeRule> {
-        let tolerance = TOLERANCE * cell.size().length();
-        let counts = |(lo, hi): &(f64, f64)| hi - lo > tolerance && line.belongs_to(cell);
-        let inside = line.inside(cell, line.ends, line.slack).filter(counts);
+        let line = EdgeLine::new(cell.rect.center(), ends, normal);
+        let tolerance = TOLERANCE * cell.rect.size().length();
+        let counts = |(lo, hi): &(f64, f64)| hi - lo > tolerance && line.belongs_to(cell.rect);
+        let inside = line.inside(cell.rect, line.ends, line.slack).filter(counts);
         let Some((lo, hi)) = inside else { return Vec::new() };
-        let left = Cell::new(self.divisions);
-        let mut run = LineIntegration {
-            quadrature: self,
-            line,
-            face,
-            tolerance,
-            cell,
-            rules: Vec::new(),
-            left,
-        };
+        let (left, rules, quadrature) = (Cell::new(self.divisions), Vec::new(), self);
+        let mut run = LineIntegration { quadrature, line, face, tolerance, cell, rules, left };
         let faces: Vec<_> = match face {
             None => self.faces.iter().filter_map(|face| run.line.range_of(*face)).collect(),
             Some(_) => Vec::new(),
         };
-        without([lo, hi], &faces)
-            .into_iter()
-            .for_each(|[lo, hi]| run.add(lo, hi, covering_patches));
+        without([lo, hi], &faces).into_iter().for_each(|[lo, hi]| run.add(lo, hi));
         run.rules
+    }
+
+    /// Adds parts of a curve with normals out of the material, divided until they resolve what they
+    /// have to, to a rule with the anchor that the parts have. Some divisions are left for the
+    /// cell.
+    pub(super) fn add_parts<P: Subregion>(
+        &self,
+        parts: Vec<P>,
+        order: usize,
+        (cell, left): (&Rect, &Cell<usize>),
+        normal: impl Fn(Vec2) -> Vec2,
+        rule: &mut EdgeRule,
+    ) {
+        let active = self.geometry.active_probes(&rule.patches);
+        let demand = self.geometry.demand(&active, order, self.orders, (cell, left));
+        let demand = IntegrandDemand { anchor: rule.anchor, face: rule.face, ..demand };
+        let doubt = refined(parts, &demand, &mut |x, w| rule.push(x, w, normal(x)));
+        rule.doubt.add(&doubt);
+    }
+
+    /// The number of Gauss points on a part of a curve that is so far from singular points, in
+    /// parts of its length.
+    pub(super) fn order_along(&self, patches: &[u32], distance: f64) -> usize {
+        self.orders.choose(&ActiveFunctions {
+            patches: patches.len(),
+            distance,
+            kinks: self.geometry.has_kinks(patches),
+            probes: !self.geometry.active_probes(patches).is_empty(),
+        })
+    }
+
+    /// The distinct singular points of some patches.
+    pub(super) fn singular_points(&self, patches: &[u32], cell: &Rect) -> Vec<Singularity> {
+        distinct(self.geometry.singular_points(patches), SAME_POINT * cell.size().length())
+    }
+
+    /// The level functions of round rims, and of the curves among some kinks.
+    pub(super) fn levels<'k>(
+        &'k self,
+        kinks: &'k [&KinkLine],
+    ) -> impl Iterator<Item = &'k LevelFunction> {
+        let curved = kinks.iter().filter_map(|kink| match kink {
+            KinkLine::Curve(level) => Some(level),
+            _ => None,
+        });
+        curved.chain(&self.circles).map(|level| level.as_ref())
     }
 }
 
@@ -181,7 +174,7 @@ impl EdgeLine {
         let [mut lo, mut hi] = ends;
         let main = usize::from(self.tangent.y.abs() > self.tangent.x.abs());
         for axis in [main, 1 - main] {
-            let (min, max) = self.borders(rect, axis);
+            let (min, max) = self.boundaries(rect, axis);
             if let Some(at) = self.level(axis) {
                 if at < min - slack || at > max + slack {
                     return None;
@@ -195,7 +188,7 @@ impl EdgeLine {
     }
 
     /// The lower and the upper end of a box along an axis, relative to the anchor.
-    fn borders(&self, rect: &Rect, axis: usize) -> (f64, f64) {
+    fn boundaries(&self, rect: &Rect, axis: usize) -> (f64, f64) {
         (component(rect.min - self.anchor, axis), component(rect.max - self.anchor, axis))
     }
 
@@ -211,7 +204,7 @@ impl EdgeLine {
     fn belongs_to(&self, rect: &Rect) -> bool {
         let points_in = |axis: usize| {
             let Some(at) = self.level(axis) else { return false };
-            let ((min, max), normal) = (self.borders(rect, axis), component(self.normal, axis));
+            let ((min, max), normal) = (self.boundaries(rect, axis), component(self.normal, axis));
             (at <= min + self.slack && normal > 0.0) || (at >= max - self.slack && normal < 0.0)
         };
         !points_in(0) && !points_in(1)
@@ -252,7 +245,7 @@ struct LineIntegration<'a> {
     /// The face that the line lies on, if it is on one.
     face: Option<CrackFace>,
     tolerance: f64,
-    cell: &'a Rect,
+    cell: CoveredCell<'a>,
     rules: Vec<EdgeRule>,
     /// Divisions that are left.
     left: Cell<usize>,
@@ -260,17 +253,19 @@ struct LineIntegration<'a> {
 
 impl LineIntegration<'_> {
     /// Splits at the boundaries of supports.
-    fn add(&mut self, lo: f64, hi: f64, covering_patches: &[u32]) {
+    fn add(&mut self, lo: f64, hi: f64) {
         let partition = self.quadrature.geometry.partition;
-        let covered: Vec<(u32, (f64, f64))> = covering_patches
+        let covered: Vec<(u32, (f64, f64))> = self
+            .cell
+            .patches
             .iter()
             .filter_map(|&i| {
                 let support = partition.support(i as usize);
                 Some((i, self.line.inside(&support, [lo, hi], -self.line.slack)?))
             })
             .collect();
-        let borders = covered.iter().flat_map(|&(_, (a, b))| [a, b]).collect();
-        for part in breaks(lo, hi, borders, self.tolerance).windows(2) {
+        let boundaries = covered.iter().flat_map(|&(_, (a, b))| [a, b]).collect();
+        for part in breaks(lo, hi, boundaries, self.tolerance).windows(2) {
             let mid = 0.5 * (part[0] + part[1]);
             let holds = |&(_, (a, b)): &(u32, (f64, f64))| a < mid && mid < b;
             let mut patches: Vec<u32> = covered.iter().filter(|c| holds(c)).map(|c| c.0).collect();
@@ -290,15 +285,15 @@ impl LineIntegration<'_> {
                 && varies(geometry.partition, patches, axis);
         }
         points.extend(self.crossings(lo, hi, &geometry.active_kinks(patches)));
-        let apart = SAME_POINT * self.cell.size().length();
-        let singular = distinct(geometry.singular_points(patches), apart);
+        let singular = self.quadrature.singular_points(patches, self.cell.rect);
         let mut breaks = breaks(lo, hi, points, self.tolerance);
         if varying {
             breaks = divided(breaks, self.quadrature.orders.parts);
         }
         for part in breaks.windows(2) {
             let middle = self.line.foot + self.line.tangent * (0.5 * (part[0] + part[1]));
-            if self.quadrature.is_solid(self.cell, self.line.anchor + middle, self.line.normal) {
+            if self.quadrature.is_solid(self.cell.rect, self.line.anchor + middle, self.line.normal)
+            {
                 self.add_smooth(part[0], part[1], patches, &singular);
             }
         }
@@ -313,17 +308,12 @@ impl LineIntegration<'_> {
             let at = (from != to).then(|| lo + (hi - lo) * (from / (from - to)))?;
             cut.passes(point(at)).then_some(at)
         };
-        let straight = kinks.iter().filter_map(|kink| straight_cut(kink, self.cell));
-        let others = self.quadrature.cuts_near(self.cell);
+        let straight = kinks.iter().filter_map(|kink| straight_cut(kink, self.cell.rect));
+        let others = self.quadrature.cuts_near(self.cell.rect);
         let others = others.filter(|cut| cut.ends != self.line.segment);
         let lines = others.chain(straight);
-        let levels = kinks.iter().filter_map(|kink| match kink {
-            KinkLine::Curve(level) => Some(level),
-            _ => None,
-        });
-        let curved = levels
-            .chain(&self.quadrature.circles)
-            .flat_map(|level| self.curve_crossings(lo, hi, &**level));
+        let levels = self.quadrature.levels(kinks);
+        let curved = levels.flat_map(|level| self.curve_crossings(lo, hi, level));
         lines.filter_map(crossing).chain(curved).collect()
     }
 
@@ -347,18 +337,16 @@ impl LineIntegration<'_> {
         let near: Vec<Singularity> =
             singular.iter().copied().filter(|at| distance(at) < hi - lo).collect();
         let nearest = singular.iter().map(distance).fold(f64::INFINITY, f64::min);
-        let geometry = &self.quadrature.geometry;
-        let order = self.quadrature.orders.choose(&ActiveFunctions {
-            patches: patches.len(),
-            distance: nearest / (hi - lo),
-            kinks: geometry.has_kinks(patches),
-            probes: !geometry.active_probes(patches).is_empty(),
-        });
+        let order = self.quadrature.order_along(patches, nearest / (hi - lo));
         match near[..] {
             [] => {
                 let (foot, tangent) = (self.line.foot, self.line.tangent);
-                let stretch =
-                    Stretch { path: LineParameter::Straight, foot, tangent, interval: (lo, hi) };
+                let stretch = GradedInterval {
+                    path: LineParameter::Straight,
+                    foot,
+                    tangent,
+                    interval: (lo, hi),
+                };
                 self.push(self.line.anchor, patches, order, vec![stretch]);
             }
             [at] => self.push(at.point, patches, order, self.graded(lo, hi, &at, order)),
@@ -372,7 +360,7 @@ impl LineIntegration<'_> {
 
     /// Graded toward a singular point, and relative to it: x = d sinh u at distance d, a power on
     /// the line itself.
-    fn graded(&self, lo: f64, hi: f64, at: &Singularity, order: usize) -> Vec<Stretch> {
+    fn graded(&self, lo: f64, hi: f64, at: &Singularity, order: usize) -> Vec<GradedInterval> {
         let (s, d) = self.line.seen_from(at.point);
         // an end at the point itself is there exactly: what rounding would leave between
         // them counts
@@ -382,8 +370,12 @@ impl LineIntegration<'_> {
         if d > ON_LINE * (hi - lo) {
             let normal = tangent.left();
             let foot = normal * normal.dot(self.line.foot - (at.point - self.line.anchor));
-            let beside =
-                |interval| Stretch { path: LineParameter::Beside(d), foot, tangent, interval };
+            let beside = |interval| GradedInterval {
+                path: LineParameter::Beside(d),
+                foot,
+                tangent,
+                interval,
+            };
             return panels(lo, hi, d).map(beside).collect();
         }
         let grading = at.growth.along_lines(order);
@@ -391,7 +383,7 @@ impl LineIntegration<'_> {
         [(lo.max(0.0), hi, 1.0), ((-hi).max(0.0), -lo, -1.0)]
             .into_iter()
             .filter(|(from, to, _)| to > from)
-            .map(|(from, to, sign)| Stretch {
+            .map(|(from, to, sign)| GradedInterval {
                 path: LineParameter::Through { sign, grading },
                 foot: Vec2::ZERO,
                 tangent,
@@ -400,31 +392,19 @@ impl LineIntegration<'_> {
             .collect()
     }
 
-    fn push(&mut self, anchor: Vec2, patches: &[u32], order: usize, stretches: Vec<Stretch>) {
-        let Quadrature { geometry, orders, .. } = self.quadrature;
-        let demand = IntegrandDemand {
-            probes: geometry.probes,
-            active: &geometry.active_probes(patches),
-            anchor,
-            face: self.face,
-            curved: false,
-            size: self.cell.size().length(),
-            points: order.saturating_sub(orders.reserve).max(1),
-            order,
-            left: &self.left,
-        };
+    fn push(
+        &mut self,
+        anchor: Vec2,
+        patches: &[u32],
+        order: usize,
+        intervals: Vec<GradedInterval>,
+    ) {
         let same = |r: &EdgeRule| r.anchor == anchor && r.patches == patches;
         let at = self.rules.iter().position(same).unwrap_or_else(|| {
             self.rules.push(EdgeRule { face: self.face, ..EdgeRule::empty(anchor, patches) });
             self.rules.len() - 1
         });
-        let rule = &mut self.rules[at];
-        let RefinedParts { regions: parts, doubt } = refined(stretches, &demand);
-        rule.doubt.add(&doubt);
-        for stretch in parts {
-            stretch.nodes(gauss, order, &mut |x, w| {
-                rule.push(x, w, self.line.normal);
-            });
-        }
+        let (within, normal) = ((self.cell.rect, &self.left), |_| self.line.normal);
+        self.quadrature.add_parts(intervals, order, within, normal, &mut self.rules[at]);
     }
 }

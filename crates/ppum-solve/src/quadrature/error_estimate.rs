@@ -5,7 +5,7 @@ use ppum::vec2::Vec2;
 /// The rest of the errors that rules are divided for, where division was ended: by its bounds, or
 /// because it did not help.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct QuadratureError {
+pub struct QuadratureErrorEstimate {
     /// Estimated error of the integral of |f| of the loads, the larger of two rules' difference and
     /// what a further division changes; zero where it is within what is allowed.
     pub load: f64,
@@ -17,7 +17,7 @@ pub struct QuadratureError {
     worst: f64,
 }
 
-impl QuadratureError {
+impl QuadratureErrorEstimate {
     /// The error estimate of loads at a place.
     pub(super) fn of_load(load: f64, at: Vec2) -> Self {
         Self { load, functions: 0.0, at, worst: load }

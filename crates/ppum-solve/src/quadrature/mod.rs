@@ -32,6 +32,7 @@ mod edge;
 mod error_estimate;
 mod gauss;
 mod geometry;
+mod graded_interval;
 mod holes;
 mod orders;
 mod piece;
@@ -41,14 +42,13 @@ mod roots;
 mod rule;
 mod singular;
 mod split;
-mod stretch;
 #[cfg(test)]
 mod tests;
 
-pub use cell::{Disc, Quadrature};
+pub use cell::{CoveredCell, Disc, Quadrature};
 pub(crate) use curve::may_meet;
-pub use edge::EdgeRule;
-pub use error_estimate::QuadratureError;
+
+pub use error_estimate::QuadratureErrorEstimate;
 pub use gauss::gauss;
 pub use gauss::{GaussRule, closed};
 pub use geometry::CrackFace;
@@ -56,5 +56,6 @@ pub(crate) use geometry::{
     KinkLine, LevelFunction, Probes, SingularGrowth, Singularity, SmoothnessGeometry,
 };
 pub(crate) use orders::Orders;
-pub(crate) use roots::{clamp_non_finite, sign_changes};
-pub use rule::CellRule;
+pub(crate) use rim::closed_meet;
+pub(crate) use roots::{clamp_non_finite, sign_changes, zero};
+pub use rule::{CellRule, EdgeRule};

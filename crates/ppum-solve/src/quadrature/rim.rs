@@ -1,12 +1,11 @@
 //! Rules along the rims of holes.
 
-use super::adapt::{IntegrandDemand, RefinedParts, Subregion, refined};
-use super::cell::{Quadrature, SAME_POINT, distinct, straight_cut};
-use super::edge::EdgeRule;
-use super::gauss::{MAX_POINTS, Rules1d, gauss};
-use super::geometry::{KinkLine, Singularity};
-use super::orders::ActiveFunctions;
+use super::adapt::Subregion;
+use super::cell::{CoveredCell, Quadrature, straight_cut};
+use super::gauss::{MAX_POINTS, Rules1d};
+use super::geometry::Singularity;
 use super::roots::{clamp_non_finite, sign_changes};
+use super::rule::EdgeRule;
 use super::split::{TOLERANCE, breaks, component, divided, kinks};
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -30,24 +29,21 @@ impl Quadrature<'_> {
     #[must_use]
     pub(crate) fn rim(
         &self,
-        cell: &Rect,
-        covering_patches: &[u32],
+        cell: CoveredCell<'_>,
         hole: &Hole,
         is_wanted: impl Fn(usize) -> bool,
     ) -> Vec<EdgeRule> {
         // a side on a line of cells may be beside it by rounding
-        let near = wider(cell, TOLERANCE * cell.size().length());
+        let near = wider(cell.rect, TOLERANCE * cell.rect.size().length());
         if !closed_meet(&near, &hole.rim_bounds()) {
             return Vec::new();
         }
         match *hole {
-            Hole::Circle { center, radius } => {
-                self.arcs(cell, covering_patches, &RoundRim { center, radius })
-            }
+            Hole::Circle { center, radius } => self.arcs(cell, &RoundRim { center, radius }),
             Hole::Polygon { .. } => {
                 let turn = hole.orientation();
                 let side = |(_, [a, b]): (usize, [Vec2; 2])| {
-                    self.edge(cell, covering_patches, [a, b], (b - a).unit().left() * turn)
+                    self.edge(cell, [a, b], (b - a).unit().left() * turn)
                 };
                 let here = |(k, [a, b]): &(usize, [Vec2; 2])| {
                     is_wanted(*k) && closed_meet(&near, &Rect::new(a.min(*b), a.max(*b)))
@@ -57,26 +53,26 @@ impl Quadrature<'_> {
         }
     }
 
-    fn arcs(&self, cell: &Rect, covering_patches: &[u32], circle: &RoundRim) -> Vec<EdgeRule> {
+    fn arcs(&self, cell: CoveredCell<'_>, circle: &RoundRim) -> Vec<EdgeRule> {
         let mut rules = Vec::new();
-        let all = self.turns(cell, covering_patches, circle);
+        let all = self.turns(cell, circle);
         for ends in all.windows(2).filter(|ends| ends[1] - ends[0] > TOLERANCE) {
             let normal = circle.normal(0.5 * (ends[0] + ends[1]));
             let middle = circle.center - normal * circle.radius;
-            if !cell.contains(middle) || !self.is_solid(cell, middle, normal) {
+            if !cell.rect.contains(middle) || !self.is_solid(cell.rect, middle, normal) {
                 continue;
             }
             let support = |i: &u32| self.geometry.partition.support(*i as usize);
             let covers = |i: &u32| support(i).contains(middle);
-            let mut patches: Vec<u32> = covering_patches.iter().copied().filter(covers).collect();
+            let mut patches: Vec<u32> = cell.patches.iter().copied().filter(covers).collect();
             patches.sort_unstable();
-            let mut rule = EdgeRule::empty(cell.center(), &patches);
+            let mut rule = EdgeRule::empty(cell.rect.center(), &patches);
             let parts = ((ends[1] - ends[0]) / LONGEST).ceil() as usize;
             let parts = if patches.len() > 1 { parts * self.orders.parts } else { parts };
-            let apart = SAME_POINT * cell.size().length();
-            let singular = distinct(self.geometry.singular_points(&patches), apart);
+            let singular = self.singular_points(&patches, cell.rect);
             for part in divided(ends.to_vec(), parts).windows(2) {
-                self.add_arc(circle, [part[0], part[1]], &singular, (DEPTH, cell), &mut rule);
+                let arc = RoundArc { circle, anchor: rule.anchor, turns: [part[0], part[1]] };
+                self.add_arc(arc, &singular, (DEPTH, cell.rect), &mut rule);
             }
             rules.push(rule);
         }
@@ -84,30 +80,26 @@ impl Quadrature<'_> {
     }
 
     /// Angles at which something happens in a cell, from 0 to 2π.
-    fn turns(&self, cell: &Rect, covering_patches: &[u32], circle: &RoundRim) -> Vec<f64> {
+    fn turns(&self, cell: CoveredCell<'_>, circle: &RoundRim) -> Vec<f64> {
         let geometry = &self.geometry;
-        let supports = covering_patches.iter().map(|&i| geometry.partition.support(i as usize));
-        let boxes: Vec<Rect> = supports.chain([*cell]).collect();
+        let supports = cell.patches.iter().map(|&i| geometry.partition.support(i as usize));
+        let boxes: Vec<Rect> = supports.chain([*cell.rect]).collect();
         let mut turns = Vec::new();
         for axis in 0..2 {
-            let borders = boxes.iter().flat_map(|b| [b.min, b.max].map(|p| component(p, axis)));
-            let kinks = kinks(geometry.partition, covering_patches, axis);
-            for at in borders.chain(kinks) {
+            let boundaries = boxes.iter().flat_map(|b| [b.min, b.max].map(|p| component(p, axis)));
+            let kinks = kinks(geometry.partition, cell.patches, axis);
+            for at in boundaries.chain(kinks) {
                 turns.extend(circle.turns_at(axis, at));
             }
         }
-        let active = geometry.active_kinks(covering_patches);
-        let straight = active.iter().filter_map(|kink| straight_cut(kink, cell));
-        for cut in self.cuts_near(cell).chain(straight) {
+        let active = geometry.active_kinks(cell.patches);
+        let straight = active.iter().filter_map(|kink| straight_cut(kink, cell.rect));
+        for cut in self.cuts_near(cell.rect).chain(straight) {
             turns.extend(circle.turns_on(cut.ends[0], cut.ends[1]));
         }
-        let curved = active.iter().filter_map(|kink| match kink {
-            KinkLine::Curve(level) => Some(level),
-            _ => None,
-        });
         turns.sort_by(f64::total_cmp);
         let known = breaks(0.0, TAU, turns.clone(), TOLERANCE);
-        for level in curved.chain(&self.circles) {
+        for level in self.levels(&active) {
             // Its own rim is zero except for rounding.
             let size = circle.radius * circle.radius;
             let at = |turn: f64| {
@@ -121,51 +113,26 @@ impl Quadrature<'_> {
 
     fn add_arc(
         &self,
-        circle: &RoundRim,
-        [from, to]: [f64; 2],
+        arc: RoundArc<'_>,
         singular: &[Singularity],
         (depth, cell): (usize, &Rect),
         rule: &mut EdgeRule,
     ) {
+        let RoundArc { circle, turns: [from, to], .. } = arc;
         let middle = 0.5 * (from + to);
         let length = circle.radius * (to - from);
         let distance = |at: &Singularity| (circle.at(middle) - at.point).length() - 0.5 * length;
         let nearest = singular.iter().map(distance).fold(f64::INFINITY, f64::min);
         if nearest < length && depth > 0 {
-            for half in [[from, middle], [middle, to]] {
-                self.add_arc(circle, half, singular, (depth - 1, cell), rule);
+            for half in arc.halves() {
+                self.add_arc(half, singular, (depth - 1, cell), rule);
             }
             return;
         }
-        let active = self.geometry.active_probes(&rule.patches);
-        let order = self.orders.choose(&ActiveFunctions {
-            patches: rule.patches.len(),
-            distance: nearest / length,
-            kinks: self.geometry.has_kinks(&rule.patches),
-            probes: !active.is_empty(),
-        });
-        let left = Cell::new(self.divisions);
-        let demand = IntegrandDemand {
-            probes: self.geometry.probes,
-            active: &active,
-            anchor: rule.anchor,
-            face: None,
-            curved: false,
-            size: cell.size().length(),
-            points: order.saturating_sub(self.orders.reserve).max(1),
-            order,
-            left: &left,
-        };
-        let arc = RoundArc { circle, anchor: rule.anchor, turns: [from, to] };
-        let RefinedParts { regions: parts, doubt } = refined(vec![arc], &demand);
-        rule.doubt.add(&doubt);
-        for RoundArc { turns: [from, to], .. } in parts {
-            for (turn, weight) in gauss((order + EXTRA_POINTS).min(MAX_POINTS)).on(from, to) {
-                let normal = circle.normal(turn);
-                let offset = (circle.center - rule.anchor) - normal * circle.radius;
-                rule.push(offset, weight * circle.radius, normal);
-            }
-        }
+        let order = self.order_along(&rule.patches, nearest / length);
+        let to_center = circle.center - rule.anchor;
+        let normal = |offset: Vec2| (to_center - offset).unit();
+        self.add_parts(vec![arc], order, (cell, &Cell::new(self.divisions)), normal, rule);
     }
 }
 
@@ -177,23 +144,31 @@ struct RoundArc<'c> {
     turns: [f64; 2],
 }
 
+impl RoundArc<'_> {
+    fn halves(&self) -> [Self; 2] {
+        let [from, to] = self.turns;
+        let middle = 0.5 * (from + to);
+        [[from, middle], [middle, to]].map(|turns| Self { turns, ..self.clone() })
+    }
+}
+
 impl Subregion for RoundArc<'_> {
     fn nodes(&self, rules: Rules1d, n: usize, push: &mut dyn FnMut(Vec2, f64)) {
         let [from, to] = self.turns;
         for (turn, weight) in rules((n + EXTRA_POINTS).min(MAX_POINTS)).on(from, to) {
-            push(self.circle.at(turn) - self.anchor, weight * self.circle.radius);
+            let to_center = self.circle.center - self.anchor;
+            let offset = to_center - self.circle.normal(turn) * self.circle.radius;
+            push(offset, weight * self.circle.radius);
         }
     }
 
     fn divisions(&self, _: &[Vec2]) -> Vec<[Self; 2]> {
-        let [from, to] = self.turns;
-        let middle = 0.5 * (from + to);
-        vec![[[from, middle], [middle, to]].map(|turns| Self { turns, ..self.clone() })]
+        vec![self.halves()]
     }
 }
 
 /// True if two closed boxes have a point in common.
-fn closed_meet(a: &Rect, b: &Rect) -> bool {
+pub(crate) fn closed_meet(a: &Rect, b: &Rect) -> bool {
     let common = a.intersection(b);
     common.min.x <= common.max.x && common.min.y <= common.max.y
 }

@@ -74,7 +74,7 @@ fn narrowed([a, b, c]: [[f64; 2]; 3], x: [f64; 2]) -> [[f64; 2]; 3] {
 /// The zero between two samples (x, f(x)) of different signs, to rounding: inverse quadratic
 /// interpolation where it is safe, else bisection (Chandrupatla, Advances in Engineering Software
 /// 28 (1997)).
-pub(super) fn zero(f: &dyn Fn(f64) -> f64, start: [f64; 2], end: [f64; 2]) -> f64 {
+pub(crate) fn zero(f: &dyn Fn(f64) -> f64, start: [f64; 2], end: [f64; 2]) -> f64 {
     let (mut one, mut two) = (end, start);
     let mut part = 0.5;
     for _ in 0..EVALUATIONS {

@@ -11,18 +11,16 @@
 //!
 //! [`SingularGrowth`]: super::SingularGrowth
 
-use super::adapt::{IntegrandDemand, RefinedParts, Subregion as _, refined};
-use super::chart::{Apex, CellChart, quadrilaterals};
+use super::adapt::{IntegrandDemand, refined};
+use super::chart::{ApexTriangle, CellChart, quadrilaterals};
 use super::curve::{ChartWindow, cut_all};
-use super::gauss::gauss;
-use super::geometry::{LevelFunction, Probes, Singularity};
+use super::geometry::{LevelFunction, Singularity};
 use super::holes;
 use super::piece::SmoothPiece;
 use super::polygon::ConvexPolygon;
 use super::rule::Rules;
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
-use std::cell::Cell;
 use std::rc::Rc;
 
 /// Longest panel in u. The integrand's nearest singularities lie at u = ±iπ/2, so that n points
@@ -38,22 +36,14 @@ pub(super) struct PieceQuadrature<'r, 'c> {
     pub(super) rules: &'r mut Rules,
     /// The patches that cover the rectangle.
     pub(super) patches: &'r [u32],
-    /// Gauss points in each direction.
-    pub(super) order: usize,
-    /// Those of them that are kept for the polynomials that multiply a probe.
-    pub(super) reserve: usize,
-    /// Size of the cell.
-    pub(super) size: f64,
+    /// The number of points, and the functions that have to be resolved.
+    pub(super) demand: IntegrandDemand<'r>,
     /// Pieces smaller than this are dropped.
     pub(super) least: f64,
     /// Curves across which integrands jump.
     pub(super) curves: &'r [&'c LevelFunction],
     /// Holes that may meet the rectangle.
     pub(super) holes: &'r [&'r Hole],
-    /// Functions that have to be resolved: all, and the active ones.
-    pub(super) probes: (&'r dyn Probes, &'r [u32]),
-    /// Divisions that are left for the cell.
-    pub(super) left: &'r Cell<usize>,
 }
 
 impl PieceQuadrature<'_, '_> {
@@ -91,7 +81,7 @@ impl PieceQuadrature<'_, '_> {
     fn add_fan(&mut self, at: &Singularity, polygon: &ConvexPolygon) {
         let has_area = |(a, b): &(Vec2, Vec2)| 0.5 * a.cross(*b) > self.least;
         let edges = polygon.edges().filter(has_area);
-        let triangles = edges.map(|(a, b)| apex_triangle(at, a, b, self.order));
+        let triangles = edges.map(|(a, b)| apex_triangle(at, a, b, self.demand.order));
         let (windows, cut) = cut_all(triangles.flatten().collect(), self.curves, at.point);
         self.add_windows(at.point, windows, cut);
     }
@@ -103,25 +93,10 @@ impl PieceQuadrature<'_, '_> {
     /// Adds the rules of pieces, divided until they resolve what they have to.
     fn add_parts(&mut self, anchor: Vec2, mut parts: Vec<SmoothPiece<'_>>, curved: bool) {
         holes::remove(self.holes, anchor, &mut parts);
-        let (probes, active) = self.probes;
-        let points = self.order.saturating_sub(self.reserve).max(1);
-        let demand = IntegrandDemand {
-            probes,
-            active,
-            anchor,
-            face: None,
-            curved,
-            size: self.size,
-            points,
-            order: self.order,
-            left: self.left,
-        };
+        let demand = IntegrandDemand { anchor, curved, ..self.demand };
         let rule = self.rules.rule(self.patches, anchor);
-        let RefinedParts { regions: parts, doubt } = refined(parts, &demand);
+        let doubt = refined(parts, &demand, &mut |x, w| rule.push(x, w));
         rule.doubt.add(&doubt);
-        for part in parts {
-            part.nodes(gauss, self.order, &mut |x, w| rule.push(x, w));
-        }
     }
 }
 
@@ -144,7 +119,7 @@ fn apex_triangle<'c>(at: &Singularity, a: Vec2, b: Vec2, n: usize) -> Vec<ChartW
     let tangent = edge.unit();
     let height = a.cross(tangent);
     let foot = -tangent.left() * height;
-    let apex = Apex { foot, tangent, height, grading: at.growth.over_areas(n) };
+    let apex = ApexTriangle { foot, tangent, height, grading: at.growth.over_areas(n) };
     let chart = Rc::new(CellChart::Apex(apex));
     let window = |(from, to)| ChartWindow {
         chart: Rc::clone(&chart),

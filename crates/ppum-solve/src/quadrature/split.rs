@@ -41,8 +41,8 @@ impl Splitter<'_> {
             let meets = |&i: &u32| self.partition.support(i as usize).overlaps(r);
             patches.iter().copied().filter(meets).collect()
         };
-        if let Some(line) = self.main_border(rect, patches) {
-            for half in halves(rect, &line) {
+        if let Some(line) = self.main_boundary(rect, patches) {
+            for half in cut_at(rect, line.axis, line.at) {
                 self.constant_sets(&half, &inside(&half), visit);
             }
         } else {
@@ -53,8 +53,8 @@ impl Splitter<'_> {
 
     /// The patch boundary that runs through the largest part of the rectangle: cutting along it
     /// first leaves the fewest rectangles.
-    fn main_border(&self, rect: &Rect, patches: &[u32]) -> Option<SplitLine> {
-        let mut lines = self.borders(rect, patches);
+    fn main_boundary(&self, rect: &Rect, patches: &[u32]) -> Option<SplitLine> {
+        let mut lines = self.boundaries(rect, patches);
         lines.sort_by(|a, b| a.axis.cmp(&b.axis).then(a.at.total_cmp(&b.at)));
         lines.dedup_by(|next, kept| {
             let same = next.axis == kept.axis && next.at - kept.at <= self.tolerance;
@@ -66,7 +66,7 @@ impl Splitter<'_> {
         lines.into_iter().reduce(|best, line| if line.share > best.share { line } else { best })
     }
 
-    fn borders(&self, rect: &Rect, patches: &[u32]) -> Vec<SplitLine> {
+    fn boundaries(&self, rect: &Rect, patches: &[u32]) -> Vec<SplitLine> {
         let size = rect.size();
         let mut lines = Vec::new();
         for &patch in patches {
@@ -106,11 +106,12 @@ impl Splitter<'_> {
     }
 }
 
-fn halves(rect: &Rect, line: &SplitLine) -> [Rect; 2] {
+/// The parts of a rectangle below and above a coordinate along an axis.
+pub(super) fn cut_at(rect: &Rect, axis: usize, at: f64) -> [Rect; 2] {
     let (mut low, mut high) = (*rect, *rect);
-    match line.axis {
-        0 => (low.max.x, high.min.x) = (line.at, line.at),
-        _ => (low.max.y, high.min.y) = (line.at, line.at),
+    match axis {
+        0 => (low.max.x, high.min.x) = (at, at),
+        _ => (low.max.y, high.min.y) = (at, at),
     }
     [low, high]
 }

@@ -7,7 +7,7 @@
 //! comes from the rings of cells, the same part from each, and does not depend on the finest size.
 
 use super::rim::{FOR_ENERGY, RimCorner, bends, finest};
-use crate::corner::{CornerMedium, SingularCorner};
+use crate::corner::{SingularCause, SingularCorner};
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::Problem;
@@ -75,7 +75,7 @@ pub(super) fn graded(
         problem.domain().holes.iter().flat_map(bends).map(|bend| bits(bend.at)).collect();
     // what follows a curve has its radius, and is no corner; what is given may end there
     let sharp = corners.iter().filter(|corner| {
-        corner.nature != CornerMedium::Corner || !on_curves.contains(&bits(corner.at))
+        corner.nature != SingularCause::Corner || !on_curves.contains(&bits(corner.at))
     });
     let at_corners = sharp.filter_map(|c| GradedDemand::corner(c, plate.x.min(plate.y)));
     let rims = problem.domain().holes.iter().flat_map(|hole| GradedDemand::rim(hole, problem));
@@ -89,7 +89,7 @@ impl GradedDemand {
     fn corner(corner: &SingularCorner, plate: f64) -> Option<Self> {
         let SingularCorner { at, exponent, room, nature, .. } = *corner;
         // cells of any size see the same of a field of infinite energy
-        if corner.is_gentle() || nature == CornerMedium::Jump {
+        if corner.is_gentle() || nature == SingularCause::Jump {
             return None;
         }
         if corner.wedge.is_some() {
@@ -99,7 +99,7 @@ impl GradedDemand {
         // a small room holds a small part of the energy
         let missed = MISSED * plate / (room * corner.weakness());
         let finest = room * missed.powf(0.5 / exponent).min(1.0);
-        let is_steep = nature == CornerMedium::Support && exponent < STRONG;
+        let is_steep = nature == SingularCause::Support && exponent < STRONG;
         let slope = if is_steep { STEEP } else { SLOPE };
         Some(Self { from: GradedShape::Point(at), finest, slope })
     }

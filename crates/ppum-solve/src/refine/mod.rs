@@ -149,7 +149,7 @@ pub(crate) fn cover(
     if !problem.discretization.refine {
         return Ok(cover);
     }
-    let needs = Needs::new(problem);
+    let needs = TipDemands::new(problem);
     // what is divided by hand takes nothing from what the program may add
     let mut wishes = RefinementRequests::new(problem, &cells);
     wishes.most_cells += cover.n_cells() - cells.len();
@@ -195,13 +195,13 @@ fn at_most(most: usize, cover: &Cover) -> Result<(), RefineError> {
 }
 
 /// The needs of tips and of the mouths of cracks, and all tips.
-struct Needs {
-    needs: BoxList<Need>,
+struct TipDemands {
+    needs: BoxList<TipDemand>,
     /// With the distance up to which nothing may mislead the angle.
     tips: BoxList<(TipId, Vec2, f64)>,
 }
 
-impl Needs {
+impl TipDemands {
     fn new(problem: &Problem) -> Self {
         let tip = |tip: TipId| problem.cracks()[tip.crack as usize].end_point(tip.end);
         let reach = |id: TipId| {
@@ -211,9 +211,9 @@ impl Needs {
         let points: Vec<_> = tips(problem.cracks()).map(|id| (id, tip(id), reach(id))).collect();
         let numbered = problem.cracks().iter().enumerate();
         let cracks = BoxList::new(numbered.map(|crack| (around(&crack.1.points), crack)));
-        let at_tips = tips(problem.cracks()).map(|tip| Need::new(problem, &cracks, tip));
+        let at_tips = tips(problem.cracks()).map(|tip| TipDemand::new(problem, &cracks, tip));
         let all = at_tips.chain(problem.cracks().iter().flat_map(|crack| mouths(crack, problem)));
-        let place = |need: Need| (wider(&around(&[need.tip]), need.near), need);
+        let place = |need: TipDemand| (wider(&around(&[need.tip]), need.near), need);
         Self {
             needs: BoxList::new(all.map(place)),
             tips: BoxList::new(points.into_iter().map(|t| (wider(&around(&[t.1]), t.2), t))),
@@ -291,7 +291,7 @@ impl<'p> RefinementRequests<'p> {
     /// True if a patch holds a singular point of an interface.
     fn at_interface(&self, cell: &Rect) -> bool {
         let part = patch_of(cell, self.problem).intersection(&self.problem.domain().bounds);
-        self.interfaces.as_ref().is_some_and(|all| all.trouble(&part).is_some())
+        self.interfaces.as_ref().is_some_and(|all| all.unresolved(&part).is_some())
     }
 }
 
@@ -357,7 +357,7 @@ impl<'p> Rims<'p> {
 }
 
 /// The demand of one tip on the cells around it.
-struct Need {
+struct TipDemand {
     tip: Vec2,
     /// Largest cells at the tip, and near it.
     largest: f64,
@@ -368,7 +368,7 @@ struct Need {
     apart: Vec<Vec2>,
 }
 
-impl Need {
+impl TipDemand {
     fn new(problem: &Problem, cracks: &BoxList<(usize, &Crack)>, id: TipId) -> Self {
         let crack = &problem.cracks()[id.crack as usize];
         let share = crack.length() / crack.tips().count() as f64;
@@ -402,14 +402,14 @@ impl Need {
 
 /// The demands of a crack's ends at holes: the side of the crack, which jumps on its straight
 /// extension too, must not be among the functions beyond the hole.
-fn mouths(crack: &Crack, problem: &Problem) -> Vec<Need> {
+fn mouths(crack: &Crack, problem: &Problem) -> Vec<TipDemand> {
     let ends = [End::Start, End::Last].into_iter().zip(crack.ends);
     let at_hole = ends.filter_map(|(end, kind)| {
         let p = crack.end_point(end);
         let reach = crack.growth_direction(end) * problem.domain().bounds.size().length();
         let beyond =
             (kind == CrackEnd::Mouth).then(|| behind_holes(p, reach, problem.domain()))??;
-        Some(Need {
+        Some(TipDemand {
             tip: p,
             largest: f64::INFINITY,
             ample: f64::INFINITY,

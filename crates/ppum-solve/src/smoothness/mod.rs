@@ -19,7 +19,7 @@ mod traits;
 use crate::quadrature::{KinkLine, Singularity, SmoothnessGeometry};
 use interfaces::proportional;
 pub(crate) use interfaces::{BESIDE, Interface, InterfacePoint};
-pub use interfaces::{Cause, Interfaces, UnresolvedKink};
+pub use interfaces::{Interfaces, UnresolvedCause, UnresolvedInterface};
 use ppum::crack::Crack;
 use ppum::dataset::{BoxPartition, Equation, FieldData, Step};
 use ppum::domain::Hole;

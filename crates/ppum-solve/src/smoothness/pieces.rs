@@ -1,5 +1,6 @@
 //! Lines and curves between which a formula is smooth.
 
+use crate::quadrature::zero;
 use ppum::formula::{Formula, Kink};
 use std::f64::consts::PI;
 
@@ -12,9 +13,6 @@ const MOST_SETS: usize = 64;
 
 /// Angles among which zeros of functions of θ are looked for.
 const ANGLES: usize = 720;
-
-/// Bisections of an interval of angles, to rounding.
-const BISECTIONS: usize = 60;
 
 /// A formula as quadrature sees it.
 pub(super) struct SmoothPieces {
@@ -91,12 +89,8 @@ pub(super) fn rays(formula: &Formula) -> Option<Vec<f64>> {
     let inside = (1..ANGLES).filter(|&k| value(at(k)) == 0.0).map(at);
     let changes = (0..ANGLES).filter(|&k| value(at(k)) * value(at(k + 1)) < 0.0);
     let zeros = changes.map(|k| {
-        let (mut lo, mut hi) = (at(k), at(k + 1));
-        for _ in 0..BISECTIONS {
-            let mid = 0.5 * (lo + hi);
-            if value(lo) * value(mid) > 0.0 { lo = mid } else { hi = mid }
-        }
-        0.5 * (lo + hi)
+        let [low, high] = [k, k + 1].map(|k| [at(k), value(at(k))]);
+        zero(&value, low, high)
     });
     Some(inside.chain(zeros).collect())
 }

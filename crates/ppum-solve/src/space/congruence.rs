@@ -17,12 +17,12 @@ use ppum::vec2::Vec2;
 /// The cells of a space that are alike.
 #[derive(Debug, Default)]
 pub(crate) struct CongruentCells {
-    pub(super) kinds: Vec<ReferenceCell>,
+    pub(crate) kinds: Vec<ReferenceCell>,
     /// The kind and the patches of each cell that is of a kind.
-    pub(super) cells: Vec<Option<Member>>,
+    pub(super) cells: Vec<Option<CongruentCell>>,
     /// The kind of each patch all cells of which are of kinds.
     pub(super) patches: Vec<Option<u32>>,
-    pub(super) patch_kinds: Vec<PatchKind>,
+    pub(crate) patch_kinds: Vec<PatchKind>,
 }
 
 /// A cell whose rules all cells that are congruent to it share.
@@ -30,12 +30,12 @@ pub(crate) struct CongruentCells {
 pub(crate) struct ReferenceCell {
     pub(super) measures: Vec<i64>,
     /// The rules of the cell at the origin; patches are numbered by their local indices.
-    pub(super) rules: Vec<CellRule>,
+    pub(crate) rules: Vec<CellRule>,
 }
 
 /// A cell of a kind.
 #[derive(Clone, Debug)]
-pub(crate) struct Member {
+pub(crate) struct CongruentCell {
     pub(crate) kind: u32,
     /// The patches that cover the cell, in the order of the kind, which gives each its *local
     /// index*.
@@ -47,19 +47,9 @@ pub(crate) struct Member {
 pub(crate) type PatchKind = Vec<(u32, u32)>;
 
 impl CongruentCells {
-    /// All kinds of cells.
-    pub(crate) fn kinds(&self) -> &[ReferenceCell] {
-        &self.kinds
-    }
-
     /// Returns the kind of a cell, if it has one.
-    pub(crate) fn cell(&self, cell: usize) -> Option<&Member> {
+    pub(crate) fn cell(&self, cell: usize) -> Option<&CongruentCell> {
         self.cells.get(cell)?.as_ref()
-    }
-
-    /// All kinds of patches.
-    pub(crate) fn patch_kinds(&self) -> &[PatchKind] {
-        &self.patch_kinds
     }
 
     /// The kind of a patch all of whose cells are of kinds.
@@ -69,7 +59,7 @@ impl CongruentCells {
 
     /// The rules on a cell with this centre, if it is of a kind.
     pub(super) fn rules(&self, cell: usize, anchor: Vec2) -> Option<Vec<CellRule>> {
-        let Member { kind, patches } = self.cell(cell)?;
+        let CongruentCell { kind, patches } = self.cell(cell)?;
         let moved = |rule: &CellRule| {
             let mut seated: Vec<_> =
                 rule.patches.iter().map(|&seat| patches[seat as usize]).collect();
@@ -77,12 +67,5 @@ impl CongruentCells {
             CellRule { anchor, patches: seated, ..rule.clone() }
         };
         Some(self.kinds[*kind as usize].rules.iter().map(moved).collect())
-    }
-}
-
-impl ReferenceCell {
-    /// The rules of the cell at the origin, with local indices of patches.
-    pub(crate) fn rules(&self) -> &[CellRule] {
-        &self.rules
     }
 }

@@ -1,6 +1,6 @@
 //! Finds the cells of a space that are alike.
 
-use super::congruence::{CongruentCells, Member, PatchKind, ReferenceCell};
+use super::congruence::{CongruentCell, CongruentCells, PatchKind, ReferenceCell};
 use super::trial::TrialSpace;
 use ppum::dataset::{BoxPartition, FieldData, Step};
 use ppum::function::{Function, FunctionKind};
@@ -37,13 +37,11 @@ impl CongruentCells {
         let quadrature = space.quadrature(0);
         let mut known: HashMap<Vec<i64>, u32> = HashMap::new();
         let measured = |cell: usize| {
-            let is_whole =
-                quadrature.is_whole(&space.partition().cell[cell], &space.covering_patches[cell]);
-            is_whole.then(|| measures(space, cell)).flatten()
+            quadrature.is_whole(space.cell(cell)).then(|| measures(space, cell)).flatten()
         };
         let mut numbered = |(measures, patches): (Vec<i64>, Vec<u32>)| {
             let new = known.len() as u32;
-            Member { kind: *known.entry(measures).or_insert(new), patches }
+            CongruentCell { kind: *known.entry(measures).or_insert(new), patches }
         };
         let (n, mut cells) = (space.partition().len(), Vec::new());
         for first in (0..n).step_by(AT_ONCE) {
@@ -66,7 +64,7 @@ impl CongruentCells {
         for (member, covering_patches) in self.cells.iter().zip(&space.covering_patches) {
             match member {
                 None => covering_patches.iter().for_each(|&patch| is_whole[patch as usize] = false),
-                Some(Member { kind, patches }) => (0..)
+                Some(CongruentCell { kind, patches }) => (0..)
                     .zip(patches)
                     .for_each(|(seat, &patch)| seats[patch as usize].push((*kind, seat))),
             }
@@ -88,7 +86,7 @@ impl ReferenceCell {
     fn find_rules(&mut self, like: &TrialSpace<'_>) {
         let space = self.space(like);
         let quadrature = space.quadrature(0);
-        self.rules = quadrature.cell(&space.partition().cell[0], &space.covering_patches[0]);
+        self.rules = quadrature.cell(space.cell(0));
     }
 
     /// The space of the cell at the origin and its patches, with the quadrature of another one: its

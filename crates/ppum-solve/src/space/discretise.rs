@@ -4,7 +4,7 @@ use super::enrichment::{BlockSpec, Enrichments};
 use super::error::SpaceError;
 use super::inspect::inspect;
 use super::mesh::CoverMesh;
-use crate::quadrature::{CellRule, Orders, Quadrature, SmoothnessGeometry};
+use crate::quadrature::{CellRule, CoveredCell, Orders, Quadrature, SmoothnessGeometry};
 use crate::refine::RefineError;
 use crate::watched::WorkPhase;
 use ppum::dataset::{Attribute, BoxPartition, FieldData, MAX_DEGREE, Step, monomials};
@@ -116,7 +116,8 @@ fn solid_part(
         let area = |rules: Vec<CellRule>| rules.iter().flat_map(|r| &r.weights).sum::<f64>();
         near.is_empty()
             || has_room(cell, &near)
-            || area(quadrature.cell(cell, &[index])) > LEAST_PART * size.x * size.y
+            || area(quadrature.cell(CoveredCell { rect: cell, patches: &[index] }))
+                > LEAST_PART * size.x * size.y
     };
     let solid: Vec<bool> = (0..).zip(&partition.cell).map(is_solid).collect();
     if !solid.contains(&true) {

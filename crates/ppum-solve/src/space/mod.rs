@@ -13,7 +13,7 @@ mod trial;
 mod williams;
 
 pub use crate::refine::RefineError;
-pub(crate) use congruence::Member;
+pub(crate) use congruence::CongruentCell;
 pub use discretise::{discretise, discretise_on};
 pub use error::SpaceError;
 pub use inspect::InspectError;

@@ -4,7 +4,7 @@ use super::congruence::CongruentCells;
 use super::known::{KnownFunction, KnownFunctions, known_functions};
 use super::williams::{self, SeriesFunctions};
 use crate::law::joined;
-use crate::quadrature::{CellRule, Orders, Quadrature};
+use crate::quadrature::{CellRule, CoveredCell, Orders, Quadrature};
 use crate::smoothness::Smoothness;
 use crate::terms::{HeldLine, held_lines};
 use ppum::box_tree::BoxTree;
@@ -167,6 +167,11 @@ impl<'d> TrialSpace<'d> {
         self.held.get(&(patch as u32)).map_or(&[], Vec::as_slice)
     }
 
+    /// A cell with the patches that meet it.
+    pub fn cell(&self, cell: usize) -> CoveredCell<'_> {
+        CoveredCell { rect: &self.partition().cell[cell], patches: &self.covering_patches[cell] }
+    }
+
     /// The step, whose coefficients play no part.
     pub(crate) fn step(&self) -> &Step {
         &self.step
@@ -200,8 +205,7 @@ impl<'d> TrialSpace<'d> {
         if let Some(rules) = self.alike().rules(cell, self.partition().cell[cell].center()) {
             return Cow::Owned(rules);
         }
-        let rules = || quadrature.cell(&self.partition().cell[cell], &self.covering_patches[cell]);
-        Cow::Borrowed(self.caches.rules[cell].get_or_init(rules))
+        Cow::Borrowed(self.caches.rules[cell].get_or_init(|| quadrature.cell(self.cell(cell))))
     }
 
     /// Operations of all formulas that quadrature looks at.

@@ -93,12 +93,8 @@ impl FaceLaw {
         side: Side,
         (normal, size): (Vec2, f64),
     ) -> FaceTraction {
-        let flux = |u: &[Jet<f64>]| law.stress(&[0, 1].map(|i| vec2(u[i].x, u[i].y)));
-        let [one, other] = [above, below].map(flux);
-        let on = |i: usize| {
-            0.5 * ((one[i][0] + other[i][0]) * normal.x + (one[i][1] + other[i][1]) * normal.y)
-        };
-        let traction = vec2(on(0), on(1));
+        let flux = |u: &[Jet<f64>]| law.stress(&law.strain(u));
+        let traction = flux(above).plus(&flux(below)).traction(normal) * 0.5;
         let jump = vec2(above[0].v - below[0].v, above[1].v - below[1].v);
         let opening = if side == Side::Below { jump.dot(normal) } else { -jump.dot(normal) };
         let stress = traction.dot(normal);

@@ -5,37 +5,18 @@ use ppum::real::LaneNumber as Number;
 
 use super::cases::FormulaCase;
 
-/// The result of an evaluator on a case.
-#[derive(Clone, Debug)]
-pub enum CaseOutcome {
-    /// Value, gradient, Hessian, as in [`FormulaCase::expected`]; orders may be missing at the end.
-    Results(Vec<Vec<f64>>),
-    /// It cannot be asked, for this reason.
-    Skipped(String),
-}
-
-/// An evaluator.
-pub trait FormulaBackend {
-    /// For messages.
-    fn name(&self) -> &str;
-
-    /// Evaluates a case, derivatives included.
-    fn evaluate(&mut self, case: &FormulaCase) -> CaseOutcome;
-}
+/// Value, gradient, Hessian of a case as in [`FormulaCase::expected`], where orders may be missing
+/// at the end; or why its evaluator cannot be asked.
+pub type CaseResult = Result<Vec<Vec<f64>>, String>;
 
 /// Double precision at one point, each derivative made by [`Formula::derivative`] as a formula of
 /// its own.
-#[derive(Debug, Default)]
-pub struct DerivativeFormulas {
-    scratch: Vec<f64>,
-}
-
-impl FormulaBackend for DerivativeFormulas {
-    fn name(&self) -> &str {
-        "scalar, derivative by derivative"
-    }
-
-    fn evaluate(&mut self, case: &FormulaCase) -> CaseOutcome {
+///
+/// # Panics
+/// When a derivative cannot be made.
+pub fn derivative_formulas() -> impl FnMut(&FormulaCase) -> CaseResult {
+    let mut scratch = Vec::new();
+    move |case| {
         let f = parse(case);
         let by = |f: &Formula, variable: &String| {
             f.derivative(variable).unwrap_or_else(|error| panic!("{}: {error}", case.place))
@@ -47,63 +28,39 @@ impl FormulaBackend for DerivativeFormulas {
             .flat_map(|(d, i)| case.variables[i..].iter().map(move |v| (d, v)));
         let second: Vec<Formula> = pairs.map(|(d, v)| by(d, v)).collect();
         let mut all = |formulas: &[Formula]| -> Vec<f64> {
-            formulas.iter().map(|f| f.evaluate_with(&case.inputs, &mut self.scratch)).collect()
+            formulas.iter().map(|f| f.evaluate_with(&case.inputs, &mut scratch)).collect()
         };
-        CaseOutcome::Results(vec![all(&[f]), all(&first), all(&second)])
+        Ok(vec![all(&[f]), all(&first), all(&second)])
     }
 }
 
 /// Double precision at one point, all derivatives in one program: [`FormulaJets`].
-#[derive(Debug, Default)]
-pub struct ScalarJets {
-    scratch: Vec<f64>,
-}
-
-impl FormulaBackend for ScalarJets {
-    fn name(&self) -> &str {
-        "scalar f64"
-    }
-
-    fn evaluate(&mut self, case: &FormulaCase) -> CaseOutcome {
-        let f = parse(case);
-        let jets = jets(case, &f);
+pub fn scalar_jets() -> impl FnMut(&FormulaCase) -> CaseResult {
+    let mut scratch = Vec::new();
+    move |case| {
+        let jets = jets(case, &parse(case));
         let mut out = vec![0.0; jets.n_outputs()];
-        jets.evaluate(&case.inputs, &mut self.scratch, &mut out);
-        CaseOutcome::Results(orders(case, &out))
+        jets.evaluate(&case.inputs, &mut scratch, &mut out);
+        Ok(orders(case, &out))
     }
-}
-
-/// Blocks of points on lanes, in the precision of `T`.
-///
-/// The case's point stands at several places of a block, other numbers and NaN between them: its
-/// results must not depend on where it stands.
-#[derive(Debug)]
-pub struct LaneBlocks<T> {
-    name: String,
-    scratch: BlockScratch<T>,
 }
 
 /// The places of the case's point: first, last, and between, in different lanes of vectors of up
 /// to 16.
 const PLACES: [usize; 5] = [0, 7, 16, 31, 63];
 
-impl<T: Number> LaneBlocks<T> {
-    /// The lanes of a number type, called `name`.
-    #[must_use]
-    pub fn new(name: &str) -> Self {
-        Self { name: name.to_owned(), scratch: BlockScratch::default() }
-    }
-}
-
-impl<T: Number> FormulaBackend for LaneBlocks<T> {
-    fn name(&self) -> &str {
-        &self.name
-    }
-
-    fn evaluate(&mut self, case: &FormulaCase) -> CaseOutcome {
-        let f = parse(case);
-        let jets = jets(case, &f);
-        let mut block = jets.block::<T>(&mut self.scratch);
+/// Blocks of points on lanes, in the precision of `T`.
+///
+/// The case's point stands at several places of a block, other numbers and NaN between them: its
+/// results must not depend on where it stands.
+///
+/// # Panics
+/// When they do.
+pub fn lane_blocks<T: Number>() -> impl FnMut(&FormulaCase) -> CaseResult {
+    let mut scratch = BlockScratch::default();
+    move |case| {
+        let jets = jets(case, &parse(case));
+        let mut block = jets.block::<T>(&mut scratch);
         for (index, &input) in case.inputs.iter().enumerate() {
             fill(block.input(index), input);
         }
@@ -117,7 +74,7 @@ impl<T: Number> FormulaBackend for LaneBlocks<T> {
             let equal = here.iter().zip(&first).all(|(&a, &b)| same(a, b));
             assert!(equal, "{}: {here:?} at {place}, not {first:?}", case.place);
         }
-        CaseOutcome::Results(orders(case, &first))
+        Ok(orders(case, &first))
     }
 }
 

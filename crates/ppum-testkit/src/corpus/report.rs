@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use super::backend::{CaseOutcome, FormulaBackend};
+use super::backend::CaseResult;
 use super::cases::FormulaCase;
 use super::tolerance::Tolerance;
 
@@ -24,18 +24,19 @@ pub struct CorpusReport {
     pub worst: (f64, String),
 }
 
-/// Evaluates the cases and compares with what the corpus says.
+/// Evaluates the cases by a back end and compares with what the corpus says.
 pub fn check(
-    backend: &mut dyn FormulaBackend,
+    backend: &str,
+    mut evaluate: impl FnMut(&FormulaCase) -> CaseResult,
     tolerance: &Tolerance,
     cases: &[FormulaCase],
 ) -> CorpusReport {
-    let mut report = CorpusReport { backend: backend.name().to_owned(), ..CorpusReport::default() };
+    let mut report = CorpusReport { backend: backend.to_owned(), ..CorpusReport::default() };
     for case in cases {
-        match (&case.not_single, backend.evaluate(case)) {
+        match (&case.not_single, evaluate(case)) {
             (Some(reason), _) if tolerance.rounds_inputs => report.skip(reason),
-            (_, CaseOutcome::Skipped(reason)) => report.skip(&reason),
-            (_, CaseOutcome::Results(found)) => report.compare(case, &found, tolerance),
+            (_, Err(reason)) => report.skip(&reason),
+            (_, Ok(found)) => report.compare(case, &found, tolerance),
         }
     }
     report

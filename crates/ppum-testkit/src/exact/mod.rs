@@ -4,14 +4,14 @@
 //! real ones — so that each checks the other. The texts are formulas of x and y in the syntax of
 //! `ppum::formula`; what they bind with `let` is named `dx`, `px`, … and never `r` or `theta`.
 
-#[cfg(test)]
-mod checks;
 mod collinear;
 mod field;
 mod in_plane;
 mod round_hole;
 mod slit;
 mod smooth;
+#[cfg(test)]
+mod tests;
 mod williams;
 
 pub use collinear::CollinearCracks;

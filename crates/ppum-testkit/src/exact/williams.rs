@@ -72,14 +72,10 @@ impl WilliamsTerm {
         let power = power_text(self.order);
         let [c, s] = angle_text(lambda);
         let [c_far, s_far] = angle_text(far);
-        let row = |k: [f64; 4]| {
-            let [k0, k1, k2, k3] = k.map(number);
-            (k0, k1, k2, k3)
-        };
-        let (x0, x1, x2, x3) =
-            row([a * (kappa + plus), b * (kappa + minus), a * lambda, b * lambda]);
-        let (y0, y1, y2, y3) =
-            row([a * (kappa - plus), b * (minus - kappa), a * lambda, b * lambda]);
+        let [x0, x1, x2, x3] =
+            [a * (kappa + plus), b * (kappa + minus), a * lambda, b * lambda].map(number);
+        let [y0, y1, y2, y3] =
+            [a * (kappa - plus), b * (minus - kappa), a * lambda, b * lambda].map(number);
         [
             format!("{power}*({x0}*{c} + {x1}*{s} - {x2}*{c_far} + {x3}*{s_far})"),
             format!("{power}*({y0}*{s} + {y1}*{c} - {y2}*{s_far} - {y3}*{c_far})"),

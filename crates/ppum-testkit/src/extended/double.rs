@@ -52,60 +52,47 @@ impl From<f64> for DoubleDouble {
     }
 }
 
-impl Add for DoubleDouble {
-    type Output = Self;
-    fn add(self, b: Self) -> Self {
-        let (high, low) = (Self::sum(self.high, b.high), Self::sum(self.low, b.low));
+/// Operators of a type by their values: `Add add |a, b| a plus b;`.
+macro_rules! operators {
+    ($type:ty: $($trait:ident $method:ident |$a:ident $(, $b:ident: $other:ty)?| $value:expr;)+) => {$(
+        impl $trait $(<$other>)? for $type {
+            type Output = Self;
+
+            fn $method(self $(, $b: $other)?) -> Self {
+                let $a = self;
+                $value
+            }
+        }
+    )+};
+}
+pub(super) use operators;
+
+operators! {
+    DoubleDouble:
+    Add add |a, b: DoubleDouble| {
+        let (high, low) = (Self::sum(a.high, b.high), Self::sum(a.low, b.low));
         let first = Self::sum(high.high, high.low + low.high);
         Self::sum(first.high, low.low + first.low)
-    }
-}
-
-impl Neg for DoubleDouble {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self { high: -self.high, low: -self.low }
-    }
-}
-
-impl Sub for DoubleDouble {
-    type Output = Self;
-    fn sub(self, b: Self) -> Self {
-        self + -b
-    }
-}
-
-impl Mul for DoubleDouble {
-    type Output = Self;
-    fn mul(self, b: Self) -> Self {
-        let p = Self::product(self.high, b.high);
-        Self::sum(p.high, p.low + (self.high * b.low + self.low * b.high))
-    }
-}
-
-impl Div for DoubleDouble {
-    type Output = Self;
-    /// Long division: three digits of 53 bits.
-    fn div(self, b: Self) -> Self {
-        let first = self.high / b.high;
-        let rest = self - b * first;
+    };
+    Neg neg |a| Self { high: -a.high, low: -a.low };
+    Sub sub |a, b: DoubleDouble| a + -b;
+    Mul mul |a, b: DoubleDouble| {
+        let p = Self::product(a.high, b.high);
+        Self::sum(p.high, p.low + (a.high * b.low + a.low * b.high))
+    };
+    // long division: three digits of 53 bits
+    Div div |a, b: DoubleDouble| {
+        let first = a.high / b.high;
+        let rest = a - b * first;
         let second = rest.high / b.high;
         let third = (rest - b * second).high / b.high;
         Self::sum(first, second) + third
-    }
+    };
+    Add add |a, b: f64| a + Self::from(b);
+    Sub sub |a, b: f64| a - Self::from(b);
+    Mul mul |a, b: f64| a * Self::from(b);
+    Div div |a, b: f64| a / Self::from(b);
 }
-
-macro_rules! with_f64 {
-    ($($trait:ident $method:ident),*) => {$(
-        impl $trait<f64> for DoubleDouble {
-            type Output = Self;
-            fn $method(self, b: f64) -> Self {
-                self.$method(Self::from(b))
-            }
-        }
-    )*};
-}
-with_f64!(Add add, Sub sub, Mul mul, Div div);
 
 impl PartialOrd for DoubleDouble {
     fn partial_cmp(&self, b: &Self) -> Option<Ordering> {

@@ -9,9 +9,10 @@ mod double;
 pub mod elementary;
 
 pub use double::DoubleDouble;
+use double::operators;
 use ppum::crack::{Crack, End, TipId};
 use ppum::dataset::{Dataset, FieldData, Material, Step, StressState};
-use ppum::function::{Cut, CutSide, Frame, FunctionKind, WESTERGAARD};
+use ppum::function::{Cut, CutBranch, Frame, FunctionKind, WESTERGAARD};
 use ppum::polynomial::exponents;
 use ppum::vec2::Vec2;
 use ppum::weight::WeightFunction;
@@ -68,47 +69,17 @@ impl Dual {
     }
 }
 
-impl Add for Dual {
-    type Output = Self;
-    fn add(self, b: Self) -> Self {
-        Self { v: self.v + b.v, x: self.x + b.x, y: self.y + b.y }
-    }
-}
-
-impl Sub for Dual {
-    type Output = Self;
-    fn sub(self, b: Self) -> Self {
-        Self { v: self.v - b.v, x: self.x - b.x, y: self.y - b.y }
-    }
-}
-
-impl Neg for Dual {
-    type Output = Self;
-    fn neg(self) -> Self {
-        Self { v: -self.v, x: -self.x, y: -self.y }
-    }
-}
-
-impl Mul for Dual {
-    type Output = Self;
-    fn mul(self, b: Self) -> Self {
-        Self::chain_of_two(self.v * b.v, (self, b.v), (b, self.v))
-    }
-}
-
-impl Mul<f64> for Dual {
-    type Output = Self;
-    fn mul(self, b: f64) -> Self {
-        Self { v: self.v * b, x: self.x * b, y: self.y * b }
-    }
-}
-
-impl Div for Dual {
-    type Output = Self;
-    fn div(self, b: Self) -> Self {
-        let v = self.v / b.v;
-        Self::chain_of_two(v, (self, DoubleDouble::from(1.0) / b.v), (b, -(v / b.v)))
-    }
+operators! {
+    Dual:
+    Add add |a, b: Dual| Self { v: a.v + b.v, x: a.x + b.x, y: a.y + b.y };
+    Sub sub |a, b: Dual| Self { v: a.v - b.v, x: a.x - b.x, y: a.y - b.y };
+    Neg neg |a| Self { v: -a.v, x: -a.x, y: -a.y };
+    Mul mul |a, b: Dual| Self::chain_of_two(a.v * b.v, (a, b.v), (b, a.v));
+    Mul mul |a, b: f64| Self { v: a.v * b, x: a.x * b, y: a.y * b };
+    Div div |a, b: Dual| {
+        let v = a.v / b.v;
+        Self::chain_of_two(v, (a, DoubleDouble::from(1.0) / b.v), (b, -(v / b.v)))
+    };
 }
 
 /// The first field of a step of a dataset.
@@ -285,9 +256,11 @@ pub fn side(crack: &Crack, p: ExtendedPoint) -> f64 {
 /// If a cut or a segment is not there.
 #[must_use]
 pub fn indicator(cuts: &[Cut], cracks: &[Crack], p: ExtendedPoint) -> f64 {
-    let mut part = CutSide::Cut(0);
+    let mut part = CutBranch::Cut(0);
     loop {
-        let CutSide::Cut(k) = part else { return if part == CutSide::Inside { 1.0 } else { 0.0 } };
+        let CutBranch::Cut(k) = part else {
+            return if part == CutBranch::Inside { 1.0 } else { 0.0 };
+        };
         let Cut { segment, left, right } = cuts[k as usize];
         let points = &cracks[segment.crack as usize].points[segment.segment as usize..];
         let from = minus(point(points[1], Vec2::ZERO), points[0]);

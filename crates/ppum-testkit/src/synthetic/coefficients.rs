@@ -7,6 +7,7 @@ use ppum::crack::{Crack, End, LocalCrack, Side};
 use ppum::dataset::{BoxPartition, FieldData, monomials};
 use ppum::function::{Function, FunctionKind, FunctionTable, GROUP, Slot};
 use ppum::jet::Jet;
+use ppum::line::Line;
 use ppum::polynomial::exponents;
 use ppum::vec2::{Rect, Vec2, vec2};
 
@@ -316,9 +317,7 @@ impl CoefficientMaker<'_> {
         }
         jets
     }
-}
 
-impl CoefficientMaker<'_> {
     /// Adds what the field has on the components at junctions.
     fn add_levels(&self, p: Vec2, jets: &mut [Jet<f64>]) {
         for (junction, (place, components)) in
@@ -378,23 +377,13 @@ fn cuts_through(crack: &Crack, support: &Rect) -> bool {
     !tip_inside && crack.points.windows(2).any(|s| meets(s[0], s[1], support))
 }
 
-/// True if a segment has a part of positive length in a box: it is clipped at the four borders.
+/// True if a segment has a part of positive length in an open box.
 fn meets(a: Vec2, b: Vec2, support: &Rect) -> bool {
-    let d = b - a;
-    let (mut lo, mut hi) = (0.0f64, 1.0f64);
-    for (from, step, min, max) in
-        [(a.x, d.x, support.min.x, support.max.x), (a.y, d.y, support.min.y, support.max.y)]
-    {
-        if step == 0.0 {
-            if from <= min || from >= max {
-                return false;
-            }
-            continue;
-        }
-        let (t, u) = ((min - from) / step, (max - from) / step);
-        (lo, hi) = (lo.max(t.min(u)), hi.min(t.max(u)));
-    }
-    lo < hi
+    let is_off = |a: f64, b: f64, min: f64, max: f64| a == b && (a <= min || a >= max);
+    let Rect { min, max } = *support;
+    let range = Line::through([a, b]).within(support, [0.0, 1.0]);
+    let is_beside = is_off(a.x, b.x, min.x, max.x) || is_off(a.y, b.y, min.y, max.y);
+    !is_beside && range.is_some_and(|[low, high]| low < high)
 }
 
 /// The point of a crack nearest to `p`, and the left normal there.

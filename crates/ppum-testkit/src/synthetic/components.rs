@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use ppum::crack::{Crack, SegmentId};
-use ppum::function::{Cut, CutSide};
+use ppum::function::{Cut, CutBranch};
 use ppum::segment::signed_area;
 use ppum::vec2::{Rect, Vec2};
 
@@ -160,24 +160,24 @@ impl SyntheticComponents {
     }
 
     /// Appends the cuts of a node, unless all of it is in the component or all outside.
-    fn write(&self, node: &SyntheticNode, component: usize, cuts: &mut Vec<Cut>) -> CutSide {
+    fn write(&self, node: &SyntheticNode, component: usize, cuts: &mut Vec<Cut>) -> CutBranch {
         let SyntheticNode::Cut { line, sides } = node else { return self.part(node, component) };
         let here = cuts.len();
         let segment = self.lines[*line].id;
-        cuts.push(Cut { segment, left: CutSide::Outside, right: CutSide::Outside });
+        cuts.push(Cut { segment, left: CutBranch::Outside, right: CutBranch::Outside });
         let [left, right] = [0, 1].map(|side| self.write(&sides[side], component, cuts));
-        if left == right && !matches!(left, CutSide::Cut(_)) {
+        if left == right && !matches!(left, CutBranch::Cut(_)) {
             cuts.truncate(here);
             return left;
         }
         cuts[here] = Cut { segment, left, right };
-        CutSide::Cut(here as u32)
+        CutBranch::Cut(here as u32)
     }
 
-    fn part(&self, node: &SyntheticNode, component: usize) -> CutSide {
+    fn part(&self, node: &SyntheticNode, component: usize) -> CutBranch {
         match node {
-            SyntheticNode::Cell(cell) if self.of_cell[*cell] == component => CutSide::Inside,
-            _ => CutSide::Outside,
+            SyntheticNode::Cell(cell) if self.of_cell[*cell] == component => CutBranch::Inside,
+            _ => CutBranch::Outside,
         }
     }
 }

@@ -3,7 +3,7 @@
 use ppum::formula::{FormulaJets, Scope, wgsl_prelude};
 
 use super::module::Module;
-use crate::corpus::{CaseOutcome, FormulaBackend, FormulaCase, SHADER, jets, orders, parse};
+use crate::corpus::{CaseResult, FormulaCase, SHADER, jets, orders, parse};
 
 /// Single precision at one point: the text of [`FormulaJets::wgsl`] in the interpreter.
 ///
@@ -50,6 +50,23 @@ impl Shader {
         }
         Ok(Self { module: Module::new(&source)?, formulas })
     }
+
+    /// The results of the function of a case.
+    ///
+    /// # Errors
+    /// When there is none of it.
+    ///
+    /// # Panics
+    /// When the function cannot be run.
+    pub fn evaluate(&self, case: &FormulaCase) -> CaseResult {
+        let known = self.formulas.iter().position(|known| *known == key(case));
+        let index = known.ok_or("not among the functions")?;
+        let inputs: Vec<f32> = case.inputs.iter().map(|&input| input as f32).collect();
+        let out = self.module.call(&format!("formula_{index}"), &inputs);
+        let out = out.unwrap_or_else(|error| panic!("{}: {error}", case.place));
+        let out: Vec<f64> = out.into_iter().map(f64::from).collect();
+        Ok(orders(case, &out))
+    }
 }
 
 /// The name that tells the functions of cases apart.
@@ -59,23 +76,6 @@ fn key(case: &FormulaCase) -> (String, Scope, usize) {
 
 fn jets_of(case: &FormulaCase) -> FormulaJets {
     jets(case, &parse(case))
-}
-
-impl FormulaBackend for Shader {
-    fn name(&self) -> &str {
-        "WGSL, interpreted"
-    }
-
-    fn evaluate(&mut self, case: &FormulaCase) -> CaseOutcome {
-        let Some(index) = self.formulas.iter().position(|known| *known == key(case)) else {
-            return CaseOutcome::Skipped("not among the functions".to_owned());
-        };
-        let inputs: Vec<f32> = case.inputs.iter().map(|&input| input as f32).collect();
-        let out = self.module.call(&format!("formula_{index}"), &inputs);
-        let out = out.unwrap_or_else(|error| panic!("{}: {error}", case.place));
-        let out: Vec<f64> = out.into_iter().map(f64::from).collect();
-        CaseOutcome::Results(orders(case, &out))
-    }
 }
 
 /// The text of a function whose last result is wrong by more than itself, for tests that must fail.

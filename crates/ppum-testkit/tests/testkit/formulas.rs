@@ -1,15 +1,19 @@
 //! All back ends of formulas against the conformance corpus (`tests/corpus`).
 
 use ppum_testkit::corpus::{
-    self, CorpusReport, DerivativeFormulas, FormulaBackend, LANES, LANES_SINGLE, LaneBlocks,
-    SCALAR, ScalarJets, Tolerance,
+    self, CaseResult, CorpusReport, FormulaCase, LANES, LANES_SINGLE, SCALAR, Tolerance,
+    derivative_formulas, lane_blocks, scalar_jets,
 };
 
 /// Runs the whole corpus.
 #[track_caller]
-fn conforms(backend: &mut dyn FormulaBackend, tolerance: &Tolerance) -> CorpusReport {
+fn conforms(
+    name: &str,
+    backend: impl FnMut(&FormulaCase) -> CaseResult,
+    tolerance: &Tolerance,
+) -> CorpusReport {
     let cases = corpus::cases();
-    let report = corpus::check(backend, tolerance, &cases);
+    let report = corpus::check(name, backend, tolerance, &cases);
     println!("{report}");
     assert!(report.failures.is_empty(), "{report}");
     assert_eq!(report.cases(), cases.len(), "every case is asserted or declared skipped");
@@ -18,27 +22,27 @@ fn conforms(backend: &mut dyn FormulaBackend, tolerance: &Tolerance) -> CorpusRe
 
 #[test]
 fn scalar() {
-    let report = conforms(&mut ScalarJets::default(), &SCALAR);
+    let report = conforms("scalar f64", scalar_jets(), &SCALAR);
     assert!(report.asserted >= 900, "{} cases", report.asserted);
     assert!(report.skipped.is_empty());
 }
 
 #[test]
 fn scalar_derivative_by_derivative() {
-    let report = conforms(&mut DerivativeFormulas::default(), &SCALAR);
+    let report = conforms("scalar, derivative by derivative", derivative_formulas(), &SCALAR);
     assert!(report.asserted >= 900, "{} cases", report.asserted);
     assert!(report.skipped.is_empty());
 }
 
 #[test]
 fn lanes_of_doubles() {
-    let report = conforms(&mut LaneBlocks::<f64>::new("lanes f64"), &LANES);
+    let report = conforms("lanes f64", lane_blocks::<f64>(), &LANES);
     assert!(report.skipped.is_empty());
 }
 
 #[test]
 fn lanes_of_singles() {
-    let report = conforms(&mut LaneBlocks::<f32>::new("lanes f32"), &LANES_SINGLE);
+    let report = conforms("lanes f32", lane_blocks::<f32>(), &LANES_SINGLE);
     assert!(report.asserted >= 700, "{} cases", report.asserted);
 }
 
@@ -55,7 +59,7 @@ fn wrong_expectations_fail() {
             changed += 1;
         }
     }
-    let report = corpus::check(&mut DerivativeFormulas::default(), &SCALAR, &cases);
+    let report = corpus::check("scalar", derivative_formulas(), &SCALAR, &cases);
     assert!(changed > 900, "{changed} of {} changed", cases.len());
     assert_eq!(report.failures.len(), changed);
 }

@@ -72,7 +72,6 @@ const NOUNS: &[(&str, &str)] = &[
     ("Assembled", "a stage of a solution"),
     ("Cancelled", "the error of work that was stopped"),
     ("Diagnosed", "a stage of a solution"),
-    ("Discretised", "a stage of a solution"),
     ("Need", "a noun"),
     ("Padding", "a noun"),
     ("Ring", "a noun"),

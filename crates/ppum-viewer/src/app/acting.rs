@@ -1,12 +1,11 @@
 //! Runs actions.
 
 use std::path::Path;
-use std::sync::Arc;
 
+use egui::gui_zoom::{zoom_in, zoom_out};
 use ppum_render::colormap::NAMES;
 use ppum_render::range::RangeChoice;
 use ppum_render::scale::Scale;
-use ppum_scene::colors::ColorOptions;
 use ppum_scene::compare::Compare;
 use ppum_scene::deformed::Magnification;
 use ppum_scene::mirror::Mirror;
@@ -14,212 +13,187 @@ use ppum_scene::overlays::IsolineLevels;
 
 use crate::actions::Action;
 use crate::app::Viewer;
+use crate::app::closing::CloseGuard;
 use crate::controls::deformation_animation::DeformationAnimation;
-use crate::export::{ExportChoice, ExportKind, ImageExport, PageSize};
+use crate::export::{ExportChoice, Motion};
+use crate::files::SavedFile;
+use crate::files::dialog::Purpose;
 use crate::panels::export::Exporter;
 use crate::panels::palette::CommandPalette;
 use crate::player;
-use crate::reading::tool::Tool;
 use crate::session::{DrawerPage, Pane};
-use crate::stage::ViewPane;
+use crate::solving::editor_id;
+use crate::viewport::ViewState;
 
 impl Viewer {
-    /// Does what was asked for.
+    /// Runs an action.
+    #[expect(clippy::too_many_lines, reason = "it has a line for each action")]
     pub fn act(&mut self, ctx: &egui::Context, action: Action) {
         // whatever opens next has the keyboard
         self.palette = None;
-        let is_done = self.travel(action)
-            || self.choose(ctx, action)
-            || self.read(ctx, action)
-            || self.arrange(ctx, action);
-        if !is_done {
-            self.act_on_files(ctx, action);
-        }
-    }
-
-    /// True if an action would do something to what is open.
-    pub(crate) fn is_possible(&self, action: Action) -> bool {
-        let (pane, stage) = (self.session.pane(), &self.stages[self.session.active]);
-        let opened = stage.opened.as_ref();
-        let (tips, has_text) = (stage.tips(pane), self.session.draft.is_some());
-        match action {
-            Action::Tip(number) => number < tips,
-            Action::NextTip | Action::CircleForK | Action::Draw(Tool::Ray) => tips > 0,
-            Action::Step(_)
-            | Action::Play
-            | Action::Save(ExportChoice::Steps)
-            | Action::Drawer(DrawerPage::Series) => {
-                opened.is_some_and(|o| o.dataset.steps.len() > 1)
-            }
-            Action::Deform | Action::Swing | Action::Save(ExportChoice::Deformation) => {
-                opened.is_some() && !stage.is_rigid()
-            }
-            Action::Solve | Action::SaveProblem | Action::SaveProblemAs | Action::CloseProblem => {
-                has_text
-            }
-            Action::CancelSolving => self.solving.running().is_some(),
-            Action::Open
-            | Action::Example(_)
-            | Action::SaveSession
-            | Action::SaveSessionAs
-            | Action::Drawer(_)
-            | Action::Undo
-            | Action::Redo
-            | Action::Panels
-            | Action::Theme
-            | Action::Interface(_)
-            | Action::Help
-            | Action::Palette
-            | Action::Quit => true,
-            _ => opened.is_some(),
-        }
-    }
-
-    fn active(&mut self) -> (&mut Pane, &mut ViewPane) {
         let active = self.session.active;
-        (&mut self.session.panes[active], &mut self.stages[active])
-    }
-
-    /// Moves; false if the action is none that does.
-    fn travel(&mut self, action: Action) -> bool {
-        let next = self.tip;
-        let (pane, stage) = self.active();
+        let (pane, viewport) = (&mut self.session.panes[active], &mut self.viewports[active]);
+        let scene = &mut pane.scene;
         match action {
-            Action::Fit => stage.fly_to(pane, None),
-            Action::Tip(number) => {
-                stage.fly_to_tip(pane, number);
-                self.tip = number + 1;
-            }
+            Action::Fit => viewport.camera.fly_to(None),
+            Action::Tip(number) => self.fly_to_tip(number),
             Action::NextTip => {
-                let count = stage.tips(pane);
-                if count > 0 {
-                    stage.fly_to_tip(pane, next % count);
-                    self.tip = next % count + 1;
+                let number = self.tip % viewport.tips(pane).max(1);
+                self.fly_to_tip(number);
+            }
+            Action::ZoomIn => viewport.nudge(pane, [0.0; 2], ENLARGED),
+            Action::ZoomOut => viewport.nudge(pane, [0.0; 2], 1.0 / ENLARGED),
+            Action::Pan(right, up) => viewport.nudge(pane, [right, up].map(f64::from), 1.0),
+            Action::Back => viewport.camera.go(pane.place, true),
+            Action::Forward => viewport.camera.go(pane.place, false),
+            Action::NextScale => scene.colors.scale = next_scale(scene.colors.scale),
+            Action::AutomaticRange => scene.colors.range = RangeChoice::Auto,
+            Action::FreezeRange => {
+                if let Some(frame) = viewport.frames.newest() {
+                    let [min, max] = frame.ends();
+                    scene.colors.range = RangeChoice::Fixed(min, max);
                 }
             }
-            Action::ZoomIn => stage.nudge(pane, 0.0, 0.0, ENLARGED),
-            Action::ZoomOut => stage.nudge(pane, 0.0, 0.0, 1.0 / ENLARGED),
-            Action::Pan(right, up) => stage.nudge(pane, right.into(), up.into(), 1.0),
-            Action::Back => stage.go_back(pane),
-            Action::Forward => stage.go_forward(pane),
-            _ => return false,
-        }
-        true
-    }
-
-    /// Changes what is shown, and its colours; false if the action is none that does.
-    fn choose(&mut self, ctx: &egui::Context, action: Action) -> bool {
-        let (pane, stage) = self.active();
-        let colors = &mut pane.scene.colors;
-        match action {
-            Action::NextScale => colors.scale = next_scale(colors.scale),
-            Action::AutomaticRange => colors.range = RangeChoice::Auto,
-            Action::FreezeRange => freeze(pane, stage),
-            Action::NextMap => next_map(colors, stage),
-            Action::ReverseMap => reverse_map(colors, stage),
-            Action::Overlays => stage.controls.toggle_overlays(&mut pane.scene.overlays),
-            Action::Isolines => toggle(&mut pane.scene.overlays.isolines, IsolineLevels::Auto),
-            Action::Deform | Action::Swing if stage.is_rigid() && pane.scene.deformed.is_none() => {
-                stage.tell("Nothing is deformed: a potential has no displacements");
+            Action::NextMap => change_map(pane, viewport, next_map),
+            Action::ReverseMap => change_map(pane, viewport, reversed),
+            Action::Overlays => viewport.controls.toggle_overlays(&mut scene.overlays),
+            Action::Isolines => toggle(&mut scene.overlays.isolines, IsolineLevels::Auto),
+            Action::Deform | Action::Swing if viewport.is_rigid() && scene.deformed.is_none() => {
+                viewport.tell("Nothing is deformed: a potential has no displacements");
             }
-            Action::Deform => toggle(&mut pane.scene.deformed, Magnification::Auto),
+            Action::Deform => toggle(&mut scene.deformed, Magnification::Auto),
             Action::Swing => {
-                let now = ctx.input(|input| input.time);
-                stage.controls.swing =
-                    stage.controls.swing.is_none().then(|| DeformationAnimation::new(now));
-                pane.scene.deformed = pane.scene.deformed.or(Some(Magnification::Auto));
+                let swing = DeformationAnimation::new(ctx.input(|input| input.time));
+                toggle(&mut viewport.controls.swing, swing);
+                scene.deformed.get_or_insert(Magnification::Auto);
             }
-            Action::Mirror => toggle(&mut pane.scene.mirror, Mirror::Auto),
+            Action::Mirror => toggle(&mut scene.mirror, Mirror::Auto),
             Action::Compare => {
                 toggle(&mut pane.compare, Compare::default());
-                stage.controls.wants = pane.compare.map(|_| "Compare");
+                viewport.controls.panel_to_open = pane.compare.map(|_| "Compare");
             }
             Action::Extrema => pane.extrema = !pane.extrema,
             Action::Quantity => {
-                stage.controls.quantities.open();
-                stage.controls.wants = Some("Quantity");
+                viewport.controls.quantities.open();
+                viewport.controls.panel_to_open = Some("Quantity");
                 self.session.panels = true;
             }
-            _ => return false,
-        }
-        true
-    }
-
-    /// Reads values, goes through the steps, takes images out; false if the action is none that
-    /// does.
-    fn read(&mut self, ctx: &egui::Context, action: Action) -> bool {
-        let active = self.session.active;
-        let (pane, stage) = (&mut self.session.panes[active], &mut self.stages[active]);
-        match action {
             Action::Save(what) => {
-                self.exporter = Some(Exporter::new(what, stage).as_fast_as(self.player.speed));
+                self.exporter = Some(Exporter::new(what, viewport, self.player.speed))
             }
-            Action::CopyCommand => {
-                match copy_command(ctx, pane, stage) {
-                    Ok(()) => stage.tell("Copied: the command that draws this"),
-                    // it says why there is none
-                    Err(_) => self.exporter = Some(Exporter::new(ExportChoice::Picture, stage)),
-                }
-            }
-            Action::Probe => match stage.hovered() {
-                Some(spot) => stage.pin(pane, spot),
-                None => stage.tell("No probe is pinned: the pointer is not over the plate"),
+            Action::CopyCommand => self.copy_command(ctx),
+            Action::Probe => match viewport.hovered() {
+                Some(spot) => viewport.pin(pane, spot),
+                None => viewport.tell("No probe is pinned: the pointer is not over the plate"),
             },
             Action::CircleForK => {
                 let before = pane.curve;
-                match stage.circle_nearest_tip(pane) {
+                match viewport.circle_nearest_tip(pane) {
                     true if pane.curve == before => pane.curve = None,
                     true => self.session.drawer = Some(DrawerPage::Plot),
-                    false => stage.tell("No circle for K: this step has no crack tip"),
+                    false => viewport.tell("No circle for K: this step has no crack tip"),
                 }
             }
             Action::Draw(tool) => {
-                let tool = Some(tool).filter(|tool| stage.reading.tool != Some(*tool));
-                stage.reading.tool = tool;
+                let is_on = viewport.tools.tool == Some(tool);
+                viewport.tools.tool = (!is_on).then_some(tool);
             }
             Action::Step(by) => {
-                if let Some(opened) = &stage.opened {
+                if let Some(opened) = &viewport.opened {
                     player::go(pane, &opened.dataset, by.into());
                 }
             }
             Action::Play => {
-                if let Some(opened) = &stage.opened {
+                if let Some(opened) = &viewport.opened {
                     self.player.toggle(pane, &opened.dataset);
                 }
             }
-            _ => return false,
-        }
-        true
-    }
-
-    /// Changes the window itself; false if the action is none that does.
-    fn arrange(&mut self, ctx: &egui::Context, action: Action) -> bool {
-        match action {
-            Action::Drawer(page) if self.session.drawer == Some(page) => self.session.drawer = None,
             Action::Drawer(page) => {
-                let (pane, stage) = self.active();
-                if page == DrawerPage::Plot {
-                    stage.choose_curve(pane);
+                let is_open = self.session.drawer == Some(page);
+                if page == DrawerPage::Plot && !is_open {
+                    viewport.choose_curve(pane);
                 }
-                self.session.drawer = Some(page);
+                self.session.drawer = (!is_open).then_some(page);
             }
+            Action::Open | Action::OpenBeside => {
+                let number = if action == Action::Open { active } else { 1 };
+                self.files.ask(Purpose::Open(number), pane.file.as_deref());
+            }
+            Action::Close => self.request_close(ctx, CloseGuard::Pane(active)),
+            Action::SaveDataset => self.ask_dataset_of(active),
+            Action::SaveDatasetOf(pane) => self.ask_dataset_of(pane),
+            Action::ExportPage => self.ask_page(),
+            // who writes the problem means the problem
+            Action::SaveSession if ctx.memory(|m| m.has_focus(editor_id())) => self.save_problem(),
+            Action::SaveSession => match self.files.session.clone() {
+                Some(path) => self.files.save(path, SavedFile::Session, &self.session),
+                None => self.ask(SavedFile::Session),
+            },
+            Action::SaveSessionAs => self.ask(SavedFile::Session),
+            Action::Solve => {
+                self.follow_dataset();
+                self.request_close(ctx, CloseGuard::Solve(None));
+            }
+            Action::Example(number) => self.request_close(ctx, CloseGuard::Solve(Some(number))),
+            Action::CancelSolving => self.solving.cancel(),
+            Action::SaveProblem => self.save_problem(),
+            Action::SaveProblemAs => {
+                if let Some(draft) = self.session.draft.clone() {
+                    self.ask(SavedFile::Problem(draft));
+                }
+            }
+            Action::CloseProblem => {
+                self.shelve();
+                self.session.drawer = None;
+            }
+            Action::TakeText(number) => self.take_text(number),
+            Action::DiscardText(number) => {
+                if let Some(draft) = self.files.texts().get(number).cloned() {
+                    self.request_close(ctx, CloseGuard::Text(draft));
+                }
+            }
+            Action::ShowText => self.show_text_of(active),
             Action::Split => self.split(ctx),
             Action::Minus => self.minus(ctx),
             Action::Undo => self.restore(ctx, true),
             Action::Redo => self.restore(ctx, false),
             Action::Panels => self.session.panels = !self.session.panels,
             Action::Theme => self.turn_theme(ctx),
-            Action::Interface(by) => match by {
-                1.. => egui::gui_zoom::zoom_in(ctx),
-                0 => ctx.set_zoom_factor(1.0),
-                _ => egui::gui_zoom::zoom_out(ctx),
-            },
+            Action::Interface(1..) => zoom_in(ctx),
+            Action::Interface(0) => ctx.set_zoom_factor(1.0),
+            Action::Interface(_) => zoom_out(ctx),
             Action::Help => self.has_help = !self.has_help,
             Action::Palette => self.palette = Some(CommandPalette::default()),
             Action::Quit => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
-            _ => return false,
         }
-        true
+    }
+
+    /// Flies to a tip, if the step has it.
+    fn fly_to_tip(&mut self, number: usize) {
+        let active = self.session.active;
+        let (pane, viewport) = (&self.session.panes[active], &mut self.viewports[active]);
+        if number < viewport.tips(pane) {
+            viewport.fly_to_tip(pane, number);
+            self.tip = number + 1;
+        }
+    }
+
+    /// Copies the command that draws what is seen, or shows why there is none.
+    fn copy_command(&mut self, ctx: &egui::Context) {
+        let active = self.session.active;
+        let (pane, viewport) = (&self.session.panes[active], &mut self.viewports[active]);
+        let kind = (ExportChoice::Image, Motion::default());
+        let Some(order) = viewport.export(pane, kind, None) else { return };
+        match order.command(Path::new("picture.png")) {
+            Ok(command) => {
+                ctx.copy_text(command);
+                viewport.tell("Copied: the command that draws this");
+            }
+            Err(_) => {
+                let exporter = Exporter::new(ExportChoice::Image, viewport, self.player.speed);
+                self.exporter = Some(exporter);
+            }
+        }
     }
 }
 
@@ -239,45 +213,21 @@ fn next_scale(scale: Scale) -> Scale {
     }
 }
 
-/// Copies the command that draws what is seen.
-fn copy_command(ctx: &egui::Context, pane: &Pane, stage: &ViewPane) -> Result<(), String> {
-    let (Some(frame), Some(view)) = (stage.frame(), stage.view) else { return Ok(()) };
-    let order = ImageExport {
-        field: Arc::clone(&frame.field),
-        file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),
-        left: frame.left(),
-        scene: pane.scene.drawn(),
-        view,
-        page: PageSize::pixels(view.pixels),
-        kind: ExportKind::Picture,
-    };
-    ctx.copy_text(order.command(Path::new("picture.png"))?);
-    Ok(())
+/// Chooses another map instead of the chosen one, or of that of the image.
+fn change_map(pane: &mut Pane, viewport: &ViewState, other: fn(&str) -> String) {
+    let default = || viewport.frames.newest().map_or(NAMES[0], |frame| frame.default_map());
+    let map = &mut pane.scene.colors.colormap;
+    *map = Some(other(map.as_deref().unwrap_or_else(default)));
 }
 
 /// The next map, reversed if this one is.
-fn next_map(colors: &mut ColorOptions, stage: &ViewPane) {
-    let name = colors.colormap.as_deref().unwrap_or(default_map(stage));
+fn next_map(name: &str) -> String {
     let (base, end) = name.strip_suffix("_r").map_or((name, ""), |base| (base, "_r"));
     let at = NAMES.iter().position(|known| *known == base).map_or(0, |at| at + 1);
-    colors.colormap = Some(format!("{}{end}", NAMES[at % NAMES.len()]));
+    format!("{}{end}", NAMES[at % NAMES.len()])
 }
 
-fn default_map(stage: &ViewPane) -> &'static str {
-    stage.frames.newest().map_or(NAMES[0], |frame| frame.default_map())
-}
-
-/// The map from its other end; that of the image if none is chosen.
-fn reverse_map(colors: &mut ColorOptions, stage: &ViewPane) {
-    let name = colors.colormap.as_deref().unwrap_or(default_map(stage));
-    let reversed = name.strip_suffix("_r").map_or_else(|| format!("{name}_r"), str::to_owned);
-    colors.colormap = Some(reversed);
-}
-
-/// Keeps the range of the image.
-fn freeze(pane: &mut Pane, stage: &ViewPane) {
-    if let Some(frame) = stage.frames.newest() {
-        let norm = &frame.picture.normalization;
-        pane.scene.colors.range = RangeChoice::Fixed(norm.min(), norm.max());
-    }
+/// The map from its other end.
+fn reversed(name: &str) -> String {
+    name.strip_suffix("_r").map_or_else(|| format!("{name}_r"), str::to_owned)
 }

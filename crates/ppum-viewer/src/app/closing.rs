@@ -8,9 +8,11 @@ use egui::{Context, Id, Key, Modal, Modifiers, Ui, ViewportCommand};
 use ppum::dataset::Dataset;
 
 use crate::app::Viewer;
+use crate::files::SavedFile;
 use crate::files::read::{FileContent, ReadFile, Why};
+use crate::same_arc::SameArc;
 use crate::session::ProblemDraft;
-use crate::stage::OpenDataset;
+use crate::viewport::OpenDataset;
 
 /// The object that is closed.
 #[derive(Clone, Debug)]
@@ -45,25 +47,14 @@ pub(super) enum ClosingQuestion {
 }
 
 /// Something that would be lost.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Loss {
     /// The solution of a view, and what it is called.
-    Solution(Arc<Dataset>, String),
+    Solution(SameArc<Dataset>, String),
     /// The work of a solver on a problem of this name.
     Work(String),
     /// The changes of a text.
     Text(ProblemDraft),
-}
-
-impl PartialEq for Loss {
-    fn eq(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Solution(dataset, _), Self::Solution(other, _)) => Arc::ptr_eq(dataset, other),
-            (Self::Work(name), Self::Work(other)) => name == other,
-            (Self::Text(text), Self::Text(other)) => text == other,
-            _ => false,
-        }
-    }
 }
 
 impl Loss {
@@ -95,17 +86,17 @@ fn is_let_go() -> Id {
 
 impl Viewer {
     /// Closes something, or asks first.
-    pub(crate) fn part(&mut self, ctx: &Context, parting: CloseGuard) {
-        let losses = self.losses(&parting);
+    pub(crate) fn request_close(&mut self, ctx: &Context, guard: CloseGuard) {
+        let losses = self.losses(&guard);
         if losses.is_empty() {
-            return self.close_at_last(ctx, parting);
+            return self.close_at_last(ctx, guard);
         }
-        self.parting = ClosingQuestion::Asked(parting, losses);
+        self.closing = ClosingQuestion::Asked(guard, losses);
     }
 
-    fn close_at_last(&mut self, ctx: &Context, parting: CloseGuard) {
-        self.parting = ClosingQuestion::None;
-        match parting {
+    fn close_at_last(&mut self, ctx: &Context, guard: CloseGuard) {
+        self.closing = ClosingQuestion::None;
+        match guard {
             CloseGuard::Pane(pane) if pane < self.session.panes.len() => {
                 self.solving.leave_pane(pane);
                 self.close(pane);
@@ -119,13 +110,14 @@ impl Viewer {
             }
             CloseGuard::Solve(example) => {
                 let active = self.session.active;
-                let opened = self.stages[active].opened.as_ref().filter(|_| !self.is_twice(active));
+                let opened =
+                    self.viewports[active].opened.as_ref().filter(|_| !self.is_twice(active));
                 self.replaced = opened.map(|opened| Arc::clone(&opened.dataset));
                 self.solve(example);
             }
             CloseGuard::Text(draft) => self.files.release(&draft),
             CloseGuard::Window => {
-                self.parting = ClosingQuestion::LetGo;
+                self.closing = ClosingQuestion::LetGo;
                 ctx.send_viewport_cmd(ViewportCommand::Close);
             }
             CloseGuard::Arrival => {
@@ -140,47 +132,52 @@ impl Viewer {
     pub(super) fn let_in(&mut self, ctx: &Context) {
         self.waiting.extend(self.files.arrived());
         while !self.is_asking() && !self.waiting.is_empty() {
-            self.part(ctx, CloseGuard::Arrival);
-        }
-    }
-
-    /// The panes that something takes.
-    fn taken_by(&self, arrived: &ReadFile) -> Range<usize> {
-        match arrived.content {
-            _ if arrived.why != Why::Opened => 0..0,
-            Ok(FileContent::Dataset(_)) => {
-                // the view that it was for may have been closed since, as in `place_of`
-                let pane = arrived.pane.min(self.stages.len() - 1);
-                pane..pane + 1
-            }
-            Ok(FileContent::Session(_)) => 0..self.stages.len(),
-            Ok(FileContent::Problem(_)) | Err(_) => 0..0,
+            self.request_close(ctx, CloseGuard::Arrival);
         }
     }
 
     /// All that would be lost.
-    fn losses(&self, parting: &CloseGuard) -> Vec<Loss> {
-        let mut losses = self.lost_solutions(parting);
-        losses.extend(self.lost_work(parting));
-        losses.extend(self.lost_texts(parting));
+    fn losses(&self, guard: &CloseGuard) -> Vec<Loss> {
+        let (panes, is_work_lost) = self.scope(guard);
+        let mut losses = self.lost_solutions(panes);
+        let running = self.solving.running().filter(|_| is_work_lost);
+        losses.extend(running.map(|running| Loss::Work(running.problem.name())));
+        losses.extend(self.lost_texts(guard));
         losses
     }
 
-    /// The work of the solver, if it would not go on, or for nobody.
-    fn lost_work(&self, parting: &CloseGuard) -> Option<Loss> {
-        let running = self.solving.running()?;
-        let is_lost = match parting {
-            CloseGuard::Window | CloseGuard::Solve(_) => true,
-            CloseGuard::Pane(pane) => running.pane() == *pane,
-            CloseGuard::View(back) => self.takes_view(*back) && running.pane() == 1,
-            CloseGuard::Arrival | CloseGuard::Text(_) => false,
-        };
-        is_lost.then(|| Loss::Work(running.problem().name()))
+    /// The views that go, and whether the work of the solver for one of them, or for nobody, goes
+    /// with them.
+    fn scope(&self, guard: &CloseGuard) -> (Range<usize>, bool) {
+        let active = self.session.active;
+        let is_for = |pane: usize| self.solving.running().is_some_and(|one| one.pane == pane);
+        match *guard {
+            CloseGuard::Window => (0..self.viewports.len(), true),
+            CloseGuard::Pane(pane) => (pane..pane + 1, is_for(pane)),
+            CloseGuard::View(back) if self.takes_view(back) => (1..2, is_for(1)),
+            // who changes a problem and solves it again, many times, wants the new solution
+            CloseGuard::Solve(None) if self.is_solved_again(active) => (0..0, true),
+            CloseGuard::Solve(_) => (active..active + 1, true),
+            CloseGuard::Arrival => match self.waiting.front() {
+                Some(ReadFile { why: Why::Opened, content: Ok(content), pane, .. }) => {
+                    // the view that it was for may have been closed since, as in `place_of`
+                    let pane = (*pane).min(self.viewports.len() - 1);
+                    let panes = match content {
+                        FileContent::Dataset(_) => pane..pane + 1,
+                        FileContent::Session(_) => 0..self.viewports.len(),
+                        FileContent::Problem(_) => 0..0,
+                    };
+                    (panes, false)
+                }
+                _ => (0..0, false),
+            },
+            CloseGuard::View(_) | CloseGuard::Text(_) => (0..0, false),
+        }
     }
 
     /// Changed texts outlast the window, unless it can keep nothing.
-    fn lost_texts(&self, parting: &CloseGuard) -> Vec<Loss> {
-        let texts = match parting {
+    fn lost_texts(&self, guard: &CloseGuard) -> Vec<Loss> {
+        let texts = match guard {
             CloseGuard::Text(draft) => self.files.texts().iter().filter(|t| *t == draft).collect(),
             CloseGuard::Window if !self.files.can_keep() => self.changed_texts(),
             _ => Vec::new(),
@@ -198,12 +195,12 @@ impl Viewer {
     /// True if something is asked, or the answer was that all may be lost.
     #[must_use]
     pub fn is_asking(&self) -> bool {
-        !matches!(self.parting, ClosingQuestion::None)
+        !matches!(self.closing, ClosingQuestion::None)
     }
 
     /// Returns the dataset of a view.
     pub(super) fn opened(&self, pane: usize) -> Option<&OpenDataset> {
-        self.stages.get(pane)?.opened.as_ref()
+        self.viewports.get(pane)?.opened.as_ref()
     }
 
     /// True if a dataset of a view has no file and cannot be had again at once, as examples of one
@@ -226,32 +223,21 @@ impl Viewer {
     /// The view for a solution: that for which it was computed, the other one if something would be
     /// lost there that was not given up, or was for more than the steps before a stop.
     pub(super) fn free_pane(&mut self, ctx: &Context, pane: usize, is_complete: bool) -> usize {
-        let pane = pane.min(self.stages.len() - 1);
+        let pane = pane.min(self.viewports.len() - 1);
         let is_given_up = self.is_given_up(pane);
         self.replaced = None;
         let is_free = |viewer: &Self, pane| !viewer.is_unsaved(pane) || viewer.is_twice(pane);
         if is_free(self, pane) || (is_given_up && is_complete) {
             return pane;
         }
-        if self.stages.len() == 1 {
+        if self.viewports.len() == 1 {
             self.split(ctx);
         }
         if is_given_up && !is_free(self, 1 - pane) { pane } else { 1 - pane }
     }
 
     /// The solutions of views that would be lost.
-    fn lost_solutions(&self, parting: &CloseGuard) -> Vec<Loss> {
-        let active = self.session.active;
-        let panes = match *parting {
-            CloseGuard::Window => 0..self.stages.len(),
-            CloseGuard::Pane(pane) => pane..pane + 1,
-            CloseGuard::View(back) if self.takes_view(back) => 1..2,
-            // who changes a problem and solves it again, many times, wants the new solution
-            CloseGuard::Solve(None) if self.is_solved_again(active) => 0..0,
-            CloseGuard::Solve(_) => active..active + 1,
-            CloseGuard::Arrival => self.waiting.front().map_or(0..0, |first| self.taken_by(first)),
-            CloseGuard::View(_) | CloseGuard::Text(_) => 0..0,
-        };
+    fn lost_solutions(&self, panes: Range<usize>) -> Vec<Loss> {
         // of one dataset in two views one may go
         let is_one = panes.len() == 1;
         let mut losses = Vec::new();
@@ -260,7 +246,7 @@ impl Viewer {
                 continue;
             };
             let name = format!("{}{}", opened.name(), self.side(pane));
-            let loss = Loss::Solution(Arc::clone(&opened.dataset), name);
+            let loss = Loss::Solution((&opened.dataset).into(), name);
             if !losses.contains(&loss) {
                 losses.push(loss);
             }
@@ -279,7 +265,7 @@ impl Viewer {
     /// Where a view is, if there are two of different datasets.
     fn side(&self, pane: usize) -> &'static str {
         match pane {
-            _ if self.stages.len() == 1 || self.is_twice(pane) => "",
+            _ if self.viewports.len() == 1 || self.is_twice(pane) => "",
             0 => " on the left",
             _ => " on the right",
         }
@@ -288,48 +274,48 @@ impl Viewer {
     /// True if the other view has the same dataset.
     fn is_twice(&self, pane: usize) -> bool {
         let dataset = |pane: usize| Some(Arc::as_ptr(&self.opened(pane)?.dataset));
-        (0..self.stages.len()).any(|other| other != pane && dataset(other) == dataset(pane))
+        (0..self.viewports.len()).any(|other| other != pane && dataset(other) == dataset(pane))
     }
 
     /// Keeps a window open that is about to close where something would be lost, and shows the
     /// question.
-    pub(super) fn ask_before_parting(&mut self, ui: &Ui) {
+    pub(super) fn ask_before_closing(&mut self, ui: &Ui) {
         let ctx = ui.ctx();
         let is_closing = ctx.input(|input| input.viewport().close_requested());
-        let is_free = matches!(self.parting, ClosingQuestion::LetGo)
+        let is_free = matches!(self.closing, ClosingQuestion::LetGo)
             || ctx.data(|data| data.get_temp(is_let_go())).unwrap_or(false);
         if is_closing && !is_free {
             let losses = self.losses(&CloseGuard::Window);
             if !losses.is_empty() {
                 ctx.send_viewport_cmd(ViewportCommand::CancelClose);
-                self.parting = ClosingQuestion::Asked(CloseGuard::Window, losses);
+                self.closing = ClosingQuestion::Asked(CloseGuard::Window, losses);
             }
         }
-        let ClosingQuestion::Asked(parting, losses) = &self.parting else { return };
-        let (parting, losses) = (parting.clone(), losses.clone());
-        if self.losses(&parting) != losses {
+        let ClosingQuestion::Asked(guard, losses) = &self.closing else { return };
+        let (guard, losses) = (guard.clone(), losses.clone());
+        if self.losses(&guard) != losses {
             // a solver has ended while one thought about it, and its solution may be asked for
-            return self.part(ctx, parting);
+            return self.request_close(ctx, guard);
         }
-        match ask(ui, &parting, &losses, &self.kept_texts(&parting)) {
-            Some(ClosingAnswer::Save) => self.save_first(parting, losses),
-            Some(ClosingAnswer::Close) => self.close_at_last(ctx, parting),
-            Some(ClosingAnswer::Back) => self.stay(&parting),
+        match ask(ui, &guard, &losses, &self.kept_texts(&guard)) {
+            Some(ClosingAnswer::Save) => self.save_first(guard, losses),
+            Some(ClosingAnswer::Close) => self.close_at_last(ctx, guard),
+            Some(ClosingAnswer::Back) => self.stay(&guard),
             None => {}
         }
     }
 
     /// Nothing is closed after all.
-    fn stay(&mut self, parting: &CloseGuard) {
-        self.parting = ClosingQuestion::None;
-        if matches!(parting, CloseGuard::Arrival) {
+    fn stay(&mut self, guard: &CloseGuard) {
+        self.closing = ClosingQuestion::None;
+        if matches!(guard, CloseGuard::Arrival) {
             self.waiting.pop_front();
         }
     }
 
     /// Tells which changed texts the window keeps when it closes.
-    fn kept_texts(&self, parting: &CloseGuard) -> String {
-        if !matches!(parting, CloseGuard::Window) || !self.files.can_keep() {
+    fn kept_texts(&self, guard: &CloseGuard) -> String {
+        if !matches!(guard, CloseGuard::Window) || !self.files.can_keep() {
             return String::new();
         }
         let names: Vec<_> = self.changed_texts().iter().map(|draft| draft.name()).collect();
@@ -340,11 +326,11 @@ impl Viewer {
     }
 
     /// Saves the first of what would be lost.
-    fn save_first(&mut self, parting: CloseGuard, losses: Vec<Loss>) {
+    fn save_first(&mut self, guard: CloseGuard, losses: Vec<Loss>) {
         let first = losses.iter().find(|loss| !matches!(loss, Loss::Work(_))).cloned();
-        self.parting = ClosingQuestion::Saving(parting, losses);
+        self.closing = ClosingQuestion::Saving(guard, losses);
         match first {
-            Some(Loss::Solution(dataset, _)) => self.ask_dataset(&dataset),
+            Some(Loss::Solution(dataset, _)) => self.ask(SavedFile::Dataset(Arc::clone(&dataset))),
             Some(Loss::Text(draft)) => self.save_text(draft),
             Some(Loss::Work(_)) | None => {}
         }
@@ -353,20 +339,20 @@ impl Viewer {
     /// Goes on with what was to be closed once a part of it is saved; if nothing was after all,
     /// everything stays.
     pub(super) fn leave_when_saved(&mut self, ctx: &Context) {
-        let ClosingQuestion::Saving(parting, losses) = &self.parting else { return };
+        let ClosingQuestion::Saving(guard, losses) = &self.closing else { return };
         if self.files.is_saving() {
             return;
         }
-        let (parting, is_same) = (parting.clone(), self.losses(parting) == *losses);
-        if is_same { self.stay(&parting) } else { self.part(ctx, parting) }
+        let (guard, is_same) = (guard.clone(), self.losses(guard) == *losses);
+        if is_same { self.stay(&guard) } else { self.request_close(ctx, guard) }
     }
 }
 
 /// Shows the question; what is answered.
-fn ask(ui: &Ui, parting: &CloseGuard, losses: &[Loss], kept: &str) -> Option<ClosingAnswer> {
+fn ask(ui: &Ui, guard: &CloseGuard, losses: &[Loss], kept: &str) -> Option<ClosingAnswer> {
     let can_save = losses.iter().any(|loss| !matches!(loss, Loss::Work(_)));
     let save = can_save.then_some(("Save…", ClosingAnswer::Save));
-    let without = without_saving(parting, losses);
+    let without = without_saving(guard, losses);
     let others = [(without.as_str(), ClosingAnswer::Close), ("Back", ClosingAnswer::Back)];
     let mut answer = None;
     let shown = Modal::new(Id::unique("parting")).show(ui.ctx(), |ui| {
@@ -390,9 +376,9 @@ fn ask(ui: &Ui, parting: &CloseGuard, losses: &[Loss], kept: &str) -> Option<Clo
 }
 
 /// Returns the words for closing without saving.
-fn without_saving(parting: &CloseGuard, losses: &[Loss]) -> String {
+fn without_saving(guard: &CloseGuard, losses: &[Loss]) -> String {
     let is_stopped = losses.iter().any(|loss| matches!(loss, Loss::Work(_)));
-    let verb = match parting {
+    let verb = match guard {
         CloseGuard::Text(_) => return "Discard the changes".into(),
         CloseGuard::Arrival => "open",
         CloseGuard::Solve(_) => "solve",

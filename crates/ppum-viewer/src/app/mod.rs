@@ -11,19 +11,18 @@ use std::sync::Arc;
 use egui::{CentralPanel, Panel, Rect, Ui, UiBuilder, vec2};
 use ppum::dataset::Dataset;
 
-use crate::actions;
+use crate::actions::{self, Action};
 use crate::fonts::fonts;
 use crate::frames::{Backend, SubtractedImage};
-use crate::page::PageOrder;
 use crate::panel_context::PanelContext;
 use crate::panels::export::Exporter;
 use crate::panels::palette::CommandPalette;
 use crate::panels::{self, help, top};
 use crate::player::Player;
 use crate::session::{DrawerPage, Session, VisibleRegion, WindowTheme};
-use crate::stage::difference::PairRole;
-use crate::stage::{OpenDataset, ViewPane};
 use crate::undo::{RestDetector, Undo};
+use crate::viewport::difference::PairRole;
+use crate::viewport::{OpenDataset, ViewState};
 use crate::widgets::make_readable;
 
 /// The window.
@@ -31,7 +30,7 @@ pub struct Viewer {
     /// The session.
     pub session: Session,
     /// The views of the session.
-    pub stages: Vec<ViewPane>,
+    pub viewports: Vec<ViewState>,
     rest: RestDetector<Session>,
     pub(crate) settings: Undo<Session>,
     /// The player of the steps of a series.
@@ -39,13 +38,11 @@ pub struct Viewer {
     /// Files that are open, read and written.
     pub files: crate::files::WindowFiles,
     /// The problem that is written and solved.
-    pub solving: crate::solving::SolverPane,
+    pub solving: crate::solving::SolverState,
     /// The state of closing a solution that is not saved.
-    parting: closing::ClosingQuestion,
+    closing: closing::ClosingQuestion,
     /// The dataset that is to make place for the solution that is computed.
     replaced: Option<Arc<Dataset>>,
-    /// The page that is written once its name is chosen.
-    page: Option<PageOrder>,
     /// Files that were read and are not shown yet.
     waiting: std::collections::VecDeque<crate::files::read::ReadFile>,
     pub(crate) palette: Option<CommandPalette>,
@@ -76,18 +73,17 @@ impl Viewer {
             ctx.style_mut_of(theme, |style| make_readable(&mut style.visuals));
         }
         session.repair();
-        let stages = session.panes.iter().map(|_| ViewPane::new(ctx, backend)).collect();
+        let viewports = session.panes.iter().map(|_| ViewState::new(ctx, backend)).collect();
         Self {
             settings: Undo::new(session.settings()),
             rest: RestDetector::new(session.settings()),
             session,
-            stages,
+            viewports,
             player: Player::default(),
             files: crate::files::WindowFiles::new(ctx, None),
-            solving: crate::solving::SolverPane::new(ctx),
-            parting: closing::ClosingQuestion::default(),
+            solving: crate::solving::SolverState::new(ctx),
+            closing: closing::ClosingQuestion::default(),
             replaced: None,
-            page: None,
             waiting: std::collections::VecDeque::new(),
             palette: None,
             exporter: None,
@@ -102,7 +98,7 @@ impl Viewer {
     pub fn open(&mut self, path: Option<PathBuf>, dataset: Arc<Dataset>) {
         let active = self.session.active;
         self.session.panes[active].file.clone_from(&path);
-        self.stages[active].opened = Some(OpenDataset::new(path, dataset));
+        self.viewports[active].opened = Some(OpenDataset::new(path, dataset));
     }
 
     /// Shows the window once.
@@ -111,41 +107,38 @@ impl Viewer {
         if self.session.drawer == Some(DrawerPage::Problem) {
             self.follow_dataset();
         }
+        for (viewport, pane) in self.viewports.iter_mut().zip(&mut self.session.panes) {
+            viewport.poll(ui.ctx(), pane);
+        }
         let mut actions = actions::pressed(ui.ctx());
         help::take(ui.ctx(), &mut self.has_help, &mut actions);
         let active = self.session.active;
-        self.player.advance(ui.ctx(), &mut self.session.panes[active], &self.stages[active]);
-        let mut desk = PanelContext {
-            session: &mut self.session,
-            stages: &mut self.stages,
-            player: &mut self.player,
-            files: &mut self.files,
-            solving: &mut self.solving,
-            actions: &mut actions,
-        };
-        Panel::top("top").show(ui, |ui| top::show(ui, &mut desk));
-        panels::drawer::show(ui, &mut desk);
-        let has_plate = desk.stages.iter().any(|stage| stage.opened.is_some());
+        self.player.advance(ui.ctx(), &mut self.session.panes[active], &self.viewports[active]);
+        let mut context = self.context(&mut actions);
+        Panel::top("top").show(ui, |ui| top::show(ui, &mut context));
+        panels::drawer::show(ui, &mut context);
+        let has_plate = context.viewports.iter().any(|viewport| viewport.opened.is_some());
         let has_room = ui.available_width() > LEAST;
-        if desk.session.panels && has_plate && has_room {
+        if context.session.panels && has_plate && has_room {
             let side = Panel::right("side").default_size(300.0);
-            side.show(ui, |ui| panels::side(ui, &mut desk));
+            side.show(ui, |ui| panels::side(ui, &mut context));
         }
-        CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| plates(ui, &mut desk));
-        panels::files::notes(ui, &mut desk);
+        CentralPanel::default().frame(egui::Frame::NONE).show(ui, |ui| plates(ui, &mut context));
+        panels::files::notes(ui, &mut context);
         help::show(ui, &mut self.has_help);
         if let Some(mut palette) = self.palette.take() {
-            let (is_done, chosen) = palette.show(ui, |action| self.is_possible(action));
+            let context = self.context(&mut actions);
+            let (is_done, chosen) = palette.show(ui, |action| context.is_possible(action));
             actions.extend(chosen);
             self.palette = (!is_done).then_some(palette);
         }
         let active = self.session.active;
         if let Some(exporter) = &mut self.exporter
-            && !exporter.show(ui, &self.session.panes[active], &mut self.stages[active])
+            && !exporter.show(ui, &self.session.panes[active], &mut self.viewports[active])
         {
             self.exporter = None;
         }
-        self.ask_before_parting(ui);
+        self.ask_before_closing(ui);
         focus_ring(ui.ctx());
         self.copy(ui.ctx());
         for action in actions {
@@ -155,9 +148,21 @@ impl Viewer {
         self.note(ui);
     }
 
+    fn context<'a>(&'a mut self, actions: &'a mut Vec<Action>) -> PanelContext<'a> {
+        PanelContext {
+            session: &mut self.session,
+            viewports: &mut self.viewports,
+            player: &mut self.player,
+            files: &mut self.files,
+            solving: &mut self.solving,
+            actions,
+        }
+    }
+
     /// Names the window by the files that it shows, so that two of them can be told apart.
     fn name_window(&mut self, ctx: &egui::Context) {
-        let paths = self.stages.iter().filter_map(|stage| stage.opened.as_ref()?.path.as_deref());
+        let paths =
+            self.viewports.iter().filter_map(|viewport| viewport.opened.as_ref()?.path.as_deref());
         let mut names: Vec<_> = paths.map(crate::files::name).collect();
         names.dedup();
         names.push("ppum".into());
@@ -185,10 +190,10 @@ impl Viewer {
     fn copy(&mut self, ctx: &egui::Context) {
         let is_asked = ctx.input(|input| input.events.contains(&egui::Event::Copy));
         if is_asked && !ctx.egui_wants_keyboard_input() {
-            let stage = &mut self.stages[self.session.active];
-            if let Some(text) = stage.copied() {
+            let viewport = &mut self.viewports[self.session.active];
+            if let Some(text) = viewport.copied() {
                 ctx.copy_text(text);
-                stage.tell("Copied: what is read here, with all digits");
+                viewport.tell("Copied: what is read here, with all digits");
             }
         }
     }
@@ -196,12 +201,12 @@ impl Viewer {
     /// One view, or two side by side.
     pub(crate) fn split(&mut self, ctx: &egui::Context) {
         if self.session.panes.len() == 2 {
-            self.part(ctx, closing::CloseGuard::Pane(1));
+            self.request_close(ctx, closing::CloseGuard::Pane(1));
         } else {
             self.session.panes.push(self.session.panes[0].clone());
-            let mut stage = ViewPane::new(ctx, self.backend);
-            stage.opened.clone_from(&self.stages[0].opened);
-            self.stages.push(stage);
+            let mut viewport = ViewState::new(ctx, self.backend);
+            viewport.opened.clone_from(&self.viewports[0].opened);
+            self.viewports.push(viewport);
         }
     }
 
@@ -209,7 +214,7 @@ impl Viewer {
     pub(crate) fn merge(&mut self, pane: usize) {
         self.session.subtract(false);
         self.session.panes.remove(pane);
-        self.stages.remove(pane);
+        self.viewports.remove(pane);
         self.session.active = 0;
     }
 
@@ -232,7 +237,7 @@ impl Viewer {
         // a change that is not yet at rest is a step too
         self.settings.note(&self.session.settings());
         if self.takes_view(back) {
-            return self.part(ctx, closing::CloseGuard::View(back));
+            return self.request_close(ctx, closing::CloseGuard::View(back));
         }
         self.take_settings(ctx, back);
     }
@@ -245,8 +250,7 @@ impl Viewer {
 
     /// Goes a step back or forward in the settings; places stay where they are.
     pub(crate) fn take_settings(&mut self, ctx: &egui::Context, back: bool) {
-        let state = if back { self.settings.back() } else { self.settings.forward() };
-        let Some(mut state) = state.cloned() else { return };
+        let Some(mut state) = self.settings.go(back).cloned() else { return };
         state.take_places(&self.session);
         match state.panes.len() {
             count if count < self.session.panes.len() => self.merge(1),
@@ -295,61 +299,61 @@ fn focus_ring(ctx: &egui::Context) {
 const LEAST: f32 = 240.0;
 
 /// The panes side by side.
-fn plates(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let count = desk.session.panes.len();
-    pair(desk);
-    caption(desk);
-    let before: Vec<_> = desk.session.panes.iter().map(|pane| pane.place).collect();
+fn plates(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let count = context.session.panes.len();
+    pair(context);
+    caption(context);
+    let before: Vec<_> = context.session.panes.iter().map(|pane| pane.place).collect();
     let room = ui.available_rect_before_wrap();
     for number in 0..count {
         let rect = part(room, number, count);
         let is_pressed = ui.rect_contains_pointer(rect) && ui.input(|i| i.pointer.any_pressed());
         if is_pressed {
-            desk.session.active = number;
+            context.session.active = number;
         }
         let ui = &mut ui.new_child(UiBuilder::new().max_rect(rect).id_salt(number));
-        show_pane(ui, desk, number);
-        if count > 1 && desk.session.active == number {
+        show_pane(ui, context, number);
+        if count > 1 && context.session.active == number {
             let stroke = ui.visuals().selection.stroke;
             ui.painter().rect_stroke(rect, 0.0, stroke, egui::StrokeKind::Inside);
         }
     }
-    link(desk.session, &before);
+    link(context.session, &before);
 }
 
 /// Tells the views whether one is subtracted from the other.
-fn pair(desk: &mut PanelContext<'_>) {
-    let is_shown = desk.session.minus.is_shown;
-    let pane = &desk.session.panes[0];
-    match &mut desk.stages[..] {
+fn pair(context: &mut PanelContext<'_>) {
+    let is_shown = context.session.minus.is_shown;
+    let pane = &context.session.panes[0];
+    match &mut context.viewports[..] {
         [left, right] if is_shown => {
             right.pair = PairRole::Right(left.opened.as_ref().map(|opened| SubtractedImage {
-                dataset: Arc::clone(&opened.dataset),
+                dataset: (&opened.dataset).into(),
                 subject: pane.scene.subject.clone(),
                 quantity: pane.scene.quantity.clone(),
             }));
             left.pair = PairRole::Left;
         }
-        stages => stages.iter_mut().for_each(|stage| stage.pair = PairRole::Alone),
+        viewports => viewports.iter_mut().for_each(|viewport| viewport.pair = PairRole::Alone),
     }
 }
 
 /// Names what each of two views shows: the file, of a series the step, and the quantity.
-fn caption(desk: &mut PanelContext<'_>) {
-    let are_two = desk.session.panes.len() > 1;
-    for (pane, stage) in desk.session.panes.iter().zip(desk.stages.iter_mut()) {
-        stage.caption = if are_two { stage.named(pane) } else { None };
+fn caption(context: &mut PanelContext<'_>) {
+    let are_two = context.session.panes.len() > 1;
+    for (pane, viewport) in context.session.panes.iter().zip(context.viewports.iter_mut()) {
+        viewport.caption = if are_two { viewport.named(pane) } else { None };
     }
 }
 
-fn show_pane(ui: &mut Ui, desk: &mut PanelContext<'_>, number: usize) {
-    if desk.stages[number].opened.is_none() {
-        panels::start::show(ui, desk);
+fn show_pane(ui: &mut Ui, context: &mut PanelContext<'_>, number: usize) {
+    if context.viewports[number].opened.is_none() {
+        panels::start::show(ui, context);
         return;
     }
-    desk.stages[number].show(ui, &mut desk.session.panes[number]);
-    if std::mem::take(&mut desk.stages[number].reading.wants_plot) {
-        desk.session.drawer = Some(DrawerPage::Plot);
+    context.viewports[number].show(ui, &mut context.session.panes[number]);
+    if std::mem::take(&mut context.viewports[number].tools.wants_plot) {
+        context.session.drawer = Some(DrawerPage::Plot);
     }
 }
 

@@ -7,18 +7,12 @@ use std::sync::Arc;
 use ppum::dataset::Dataset;
 
 use crate::app::Viewer;
-use crate::files::dialog::Purpose;
 use crate::files::examples::{self, Example};
 use crate::files::read::Why;
 use crate::files::{SavedFile, name};
 use crate::session::{DrawerPage, ProblemDraft};
 
 impl Viewer {
-    pub(super) fn ask_problem(&mut self, draft: ProblemDraft) {
-        let near = draft.path.clone();
-        self.files.ask(Purpose::SaveProblem(draft), near.as_deref());
-    }
-
     pub(super) fn save_problem(&mut self) {
         if let Some(draft) = self.session.draft.clone() {
             self.save_text(draft);
@@ -28,8 +22,8 @@ impl Viewer {
     /// Writes a text into its file, or asks for the name of one.
     pub(super) fn save_text(&mut self, draft: ProblemDraft) {
         match draft.path.clone() {
-            Some(path) => self.write_problem(path, draft),
-            None => self.ask_problem(draft),
+            Some(path) => self.files.save(path, SavedFile::Problem(draft), &self.session),
+            None => self.ask(SavedFile::Problem(draft)),
         }
     }
 
@@ -121,14 +115,9 @@ impl Viewer {
         }
     }
 
-    pub(super) fn write_problem(&mut self, path: PathBuf, draft: ProblemDraft) {
-        let text = draft.text.clone();
-        self.files.write_text(path, SavedFile::Problem(draft), text);
-    }
-
     /// The text of a problem is in a file now: that which is written, or one that was put aside.
     pub(super) fn note_problem_file(&mut self, written: &ProblemDraft, path: &Path) {
-        for opened in self.stages.iter_mut().filter_map(|stage| stage.opened.as_mut()) {
+        for opened in self.viewports.iter_mut().filter_map(|viewport| viewport.opened.as_mut()) {
             opened.note_problem_file(written, path);
         }
         let was_aside = self.files.texts().contains(written);

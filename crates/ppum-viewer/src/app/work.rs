@@ -7,29 +7,24 @@ use std::sync::Arc;
 use egui::{Align2, Color32, TextStyle, Ui};
 use ppum::dataset::Dataset;
 
-use crate::actions::Action;
 use crate::app::Viewer;
-use crate::app::closing::CloseGuard;
+use crate::camera;
 use crate::files::dialog::Purpose;
 use crate::files::read::{FileContent, ReadFile, Why};
 use crate::files::watch::{Stamp, stamp};
-use crate::files::{SavedFile, WrittenFile, name, session_file};
+use crate::files::{SavedFile, name, session_file};
 use crate::page::PageOrder;
-use crate::plate;
 use crate::player;
 use crate::session::{Pane, Session};
-use crate::solving::{ComputedDataset, editor_id};
-use crate::stage::{OpenDataset, ViewPane};
+use crate::solving::ComputedDataset;
 use crate::undo::Undo;
+use crate::viewport::{OpenDataset, ViewState};
 
 impl Viewer {
     /// Takes what has been read, written, dropped, chosen and solved since.
     pub(crate) fn work(&mut self, ui: &mut Ui) {
         let ctx = ui.ctx().clone();
         self.take_dropped(ui);
-        if !self.files.is_saving() {
-            self.page = None;
-        }
         if let Some(rect) = ctx.input(|input| input.viewport().inner_rect) {
             self.files.kept.size = Some(rect.size().into());
         }
@@ -46,11 +41,13 @@ impl Viewer {
         if let Some(solved) = self.solving.poll() {
             self.show_solved(&ctx, solved);
         }
-        for written in self.files.written() {
-            self.wrote(written);
+        for (path, what) in self.files.written() {
+            self.wrote(&path, &what);
         }
-        if let Some((purpose, path)) = self.files.show(ui) {
-            self.chosen(&ctx, purpose, path);
+        match self.files.show(ui) {
+            Some((Purpose::Open(pane), path)) => self.open_file(&ctx, &path, pane),
+            Some((Purpose::Save(what), path)) => self.files.save(path, what, &self.session),
+            None => {}
         }
         self.tell_fallbacks();
         self.leave_when_saved(&ctx);
@@ -58,11 +55,11 @@ impl Viewer {
 
     /// Reports the choices that the views had to replace.
     fn tell_fallbacks(&mut self) {
-        for stage in &mut self.stages {
-            let path = stage.opened.as_ref().and_then(|opened| opened.path.clone());
+        for viewport in &mut self.viewports {
+            let path = viewport.opened.as_ref().and_then(|opened| opened.path.clone());
             let path = path.unwrap_or_default();
-            for text in stage.told.drain(..) {
-                let name = stage.opened.as_ref().map_or_else(String::new, OpenDataset::name);
+            for text in viewport.told.drain(..) {
+                let name = viewport.opened.as_ref().map_or_else(String::new, OpenDataset::name);
                 self.files.tell_too(&path, &format!("{name}: {text}"));
             }
         }
@@ -71,7 +68,7 @@ impl Viewer {
     /// True while something is read, written, solved or drawn.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        let is_drawing = self.stages.iter().any(ViewPane::is_drawing);
+        let is_drawing = self.viewports.iter().any(ViewState::is_drawing);
         is_drawing || self.files.is_working() || self.solving.is_working()
     }
 
@@ -80,7 +77,7 @@ impl Viewer {
         let pane = pane.min(1);
         if pane == self.session.panes.len() {
             self.session.panes.push(Pane::default());
-            self.stages.push(ViewPane::new(ctx, self.backend));
+            self.viewports.push(ViewState::new(ctx, self.backend));
         }
         self.files.open(path, pane, Why::Opened);
     }
@@ -90,7 +87,8 @@ impl Viewer {
         self.shelve();
         self.session = session;
         self.session.repair();
-        self.stages = self.session.panes.iter().map(|_| ViewPane::new(ctx, self.backend)).collect();
+        self.viewports =
+            self.session.panes.iter().map(|_| ViewState::new(ctx, self.backend)).collect();
         self.settings = Undo::new(self.session.settings());
         self.show_theme(ctx);
         for (number, pane) in self.session.panes.iter().enumerate() {
@@ -113,89 +111,49 @@ impl Viewer {
         self.files.finish(&self.session);
     }
 
-    /// Does what was asked for with files and problems.
-    pub(crate) fn act_on_files(&mut self, ctx: &egui::Context, action: Action) {
-        let active = self.session.active;
-        let file = self.session.panes[active].file.clone();
-        match action {
-            Action::Open => self.files.ask(Purpose::Open(active), file.as_deref()),
-            Action::OpenBeside => self.files.ask(Purpose::Open(1), file.as_deref()),
-            Action::Close => self.part(ctx, CloseGuard::Pane(active)),
-            Action::SaveDataset => self.ask_dataset_of(active),
-            Action::SaveDatasetOf(pane) => self.ask_dataset_of(pane),
-            Action::ExportPage => self.ask_page(active),
-            // who writes the problem means the problem
-            Action::SaveSession if ctx.memory(|m| m.has_focus(editor_id())) => self.save_problem(),
-            Action::SaveSession => match self.files.session.clone() {
-                Some(path) => self.write_session(path),
-                None => self.ask_session(),
-            },
-            Action::SaveSessionAs => self.ask_session(),
-            Action::Solve => {
-                self.follow_dataset();
-                self.part(ctx, CloseGuard::Solve(None));
-            }
-            Action::Example(number) => self.part(ctx, CloseGuard::Solve(Some(number))),
-            Action::CancelSolving => self.solving.cancel(),
-            Action::SaveProblem => self.save_problem(),
-            Action::SaveProblemAs => {
-                if let Some(draft) = self.session.draft.clone() {
-                    self.ask_problem(draft);
-                }
-            }
-            Action::CloseProblem => {
-                self.shelve();
-                self.session.drawer = None;
-            }
-            Action::TakeText(number) => self.take_text(number),
-            Action::DiscardText(number) => {
-                if let Some(draft) = self.files.texts().get(number).cloned() {
-                    self.part(ctx, CloseGuard::Text(draft));
-                }
-            }
-            Action::ShowText => self.show_text_of(active),
-            _ => {}
-        }
-    }
-
     /// Asks for the name of the file of what a view shows.
-    fn ask_dataset_of(&mut self, pane: usize) {
+    pub(super) fn ask_dataset_of(&mut self, pane: usize) {
         match self.opened(pane).map(|opened| Arc::clone(&opened.dataset)) {
-            Some(dataset) => self.ask_dataset(&dataset),
+            Some(dataset) => self.ask(SavedFile::Dataset(dataset)),
             None => self.files.tell(Path::new(""), NOTHING_TO_SAVE, true),
         }
     }
 
-    /// Asks for the name of a dataset's file: its own, or that of its problem.
-    pub(super) fn ask_dataset(&mut self, dataset: &Arc<Dataset>) {
-        let mut all = self.stages.iter().filter_map(|stage| stage.opened.as_ref());
-        let opened = all.find(|opened| Arc::ptr_eq(&opened.dataset, dataset));
-        let folder = self.files.folder_near(None);
-        let near = opened.and_then(|opened| opened.proposed_name(&folder));
-        self.files.ask(Purpose::SaveDataset(Arc::clone(dataset)), near.as_deref());
-    }
-
     /// Asks for the name of a page of what is seen now; what keeps it from being written is told.
-    fn ask_page(&mut self, pane: usize) {
-        match PageOrder::new(&self.session.panes[pane], &self.stages[pane]) {
-            Ok(order) => self.page = Some(order),
+    pub(super) fn ask_page(&mut self) {
+        let (pane, viewport) = (self.session.pane(), &self.viewports[self.session.active]);
+        let view = viewport.camera.view.filter(|_| pane.place.is_some());
+        let file = viewport.opened.as_ref().and_then(|opened| opened.path.as_deref());
+        match PageOrder::new(viewport.frame(), pane.scene.clone(), view, file) {
+            Ok(order) => self.ask(SavedFile::Page(Arc::new(order))),
             Err(reason) => {
                 let told = format!("no page is exported: {reason}");
-                return self.files.tell(Path::new(""), told, true);
+                self.files.tell(Path::new(""), told, true);
             }
         }
-        let folder = self.files.folder_near(None);
-        let near = self.opened(pane).and_then(|opened| opened.proposed_name(&folder));
-        let near = near.map(|near| near.with_extension("html"));
-        self.files.ask(Purpose::ExportPage, near.as_deref());
     }
 
-    fn ask_session(&mut self) {
-        let near = self.files.session.clone().or_else(|| {
-            let file = self.session.pane().file.as_ref()?;
-            Some(file.with_extension(session_file::EXTENSION))
-        });
-        self.files.ask(Purpose::SaveSession, near.as_deref());
+    /// Asks for the name of a file, and proposes one: that which it has, or one beside the dataset
+    /// or the problem that it belongs to.
+    pub(super) fn ask(&mut self, what: SavedFile) {
+        let folder = self.files.folder_near(None);
+        let mut all = self.viewports.iter().filter_map(|viewport| viewport.opened.as_ref());
+        let near = match &what {
+            SavedFile::Dataset(dataset) => {
+                let opened = all.find(|opened| Arc::ptr_eq(&opened.dataset, dataset));
+                opened.and_then(|opened| opened.proposed_name(&folder))
+            }
+            SavedFile::Page(_) => {
+                let opened = self.opened(self.session.active);
+                let near = opened.and_then(|opened| opened.proposed_name(&folder));
+                near.map(|near| near.with_extension("html"))
+            }
+            SavedFile::Session => self.files.session.clone().or_else(|| {
+                Some(self.session.pane().file.as_ref()?.with_extension(session_file::EXTENSION))
+            }),
+            SavedFile::Problem(draft) => draft.path.clone(),
+        };
+        self.files.ask(Purpose::Save(what), near.as_deref());
     }
 
     /// Closes a dataset; of two panes the one.
@@ -205,50 +163,27 @@ impl Viewer {
             self.merge(pane);
         } else {
             self.session.panes[pane] = Pane::default();
-            self.stages[pane].opened = None;
-        }
-    }
-
-    fn write_session(&mut self, path: PathBuf) {
-        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        match session_file::text(&self.session, &folder) {
-            Ok(text) => self.files.write_text(path, SavedFile::Session, text),
-            Err(error) => self.files.tell(&path, error.to_string(), true),
-        }
-    }
-
-    /// Opens or writes the file that was chosen.
-    fn chosen(&mut self, ctx: &egui::Context, purpose: Purpose, path: PathBuf) {
-        match purpose {
-            Purpose::Open(pane) => self.open_file(ctx, &path, pane),
-            Purpose::SaveSession => self.write_session(path),
-            Purpose::SaveProblem(draft) => self.write_problem(path, draft),
-            Purpose::ExportPage => {
-                if let Some(page) = self.page.take() {
-                    self.files.write(path, SavedFile::Page, move |path| page.write(path));
-                }
-            }
-            Purpose::SaveDataset(dataset) => self.files.write_dataset(path, dataset),
+            self.viewports[pane].opened = None;
         }
     }
 
     /// Something was written: it has a file now.
-    fn wrote(&mut self, WrittenFile { path, what }: WrittenFile) {
+    fn wrote(&mut self, path: &Path, what: &SavedFile) {
         match what {
-            SavedFile::Dataset(dataset) => self.note_dataset_file(&dataset, &path),
-            SavedFile::Session => self.files.session = Some(path.clone()),
-            SavedFile::Page => return,
-            SavedFile::Problem(written) => self.note_problem_file(&written, &path),
+            SavedFile::Dataset(dataset) => self.note_dataset_file(dataset, path),
+            SavedFile::Session => self.files.session = Some(path.to_owned()),
+            SavedFile::Page(_) => return,
+            SavedFile::Problem(written) => self.note_problem_file(written, path),
         }
-        self.files.remember(&path);
+        self.files.remember(path);
     }
 
     /// A dataset is in a file now: the views that show it are of that file; one that showed what
     /// was there before reads it again.
     fn note_dataset_file(&mut self, dataset: &Arc<Dataset>, path: &Path) {
-        let panes = self.session.panes.iter_mut().zip(&mut self.stages);
-        for (number, (pane, stage)) in panes.enumerate() {
-            let Some(opened) = &mut stage.opened else { continue };
+        let panes = self.session.panes.iter_mut().zip(&mut self.viewports);
+        for (number, (pane, viewport)) in panes.enumerate() {
+            let Some(opened) = &mut viewport.opened else { continue };
             if Arc::ptr_eq(&opened.dataset, dataset) {
                 (pane.file, opened.path) = (Some(path.to_owned()), Some(path.to_owned()));
             } else if pane.file.as_deref() == Some(path) {
@@ -339,15 +274,15 @@ impl Viewer {
             self.session.panes[pane] = Pane::default();
         }
         let is_linked = self.session.linked && self.session.panes.len() > 1;
-        let (pane, stage) = (&mut self.session.panes[pane], &mut self.stages[pane]);
+        let (pane, viewport) = (&mut self.session.panes[pane], &mut self.viewports[pane]);
         pane.file = Some(path.clone());
         // linked views show a place that may be one of the other body alone
-        let is_elsewhere = |place| !is_linked && !plate::is_of(place, &dataset.domain.bounds);
-        if stage.opened.is_none() && pane.place.is_some_and(is_elsewhere) {
-            stage.show_whole(pane);
+        let is_elsewhere = |place| !is_linked && !camera::is_of(place, &dataset.domain.bounds);
+        if viewport.opened.is_none() && pane.place.is_some_and(is_elsewhere) {
+            viewport.show_whole(pane);
         }
-        stage.told.extend(player::mend(pane, &dataset));
-        stage.take(pane, OpenDataset::new(Some(path), dataset));
+        viewport.told.extend(player::mend(pane, &dataset));
+        viewport.take(pane, OpenDataset::new(Some(path), dataset));
     }
 
     /// Reads a file again that has changed; of one that vanished the last state stays.
@@ -371,11 +306,12 @@ impl Viewer {
     fn show_solved(&mut self, ctx: &egui::Context, solved: ComputedDataset) {
         let ComputedDataset { pane, dataset, solution } = solved;
         let number = self.free_pane(ctx, pane, solution.is_complete());
-        let (pane, stage) = (&mut self.session.panes[number], &mut self.stages[number]);
+        let (pane, viewport) = (&mut self.session.panes[number], &mut self.viewports[number]);
         pane.file = None;
         // what was a series may be one step now
         let _ = player::mend(pane, &dataset);
-        stage.take(pane, OpenDataset { path: None, dataset, solution: Some(Arc::new(solution)) });
+        viewport
+            .take(pane, OpenDataset { path: None, dataset, solution: Some(Arc::new(solution)) });
     }
 
     /// Files that were dropped: the first in the active pane, another one beside it.

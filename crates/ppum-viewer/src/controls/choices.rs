@@ -38,8 +38,7 @@ impl FieldChoices {
     }
 
     /// The field.
-    #[must_use]
-    pub fn field(&self) -> Option<&Arc<OwnedField>> {
+    pub(crate) fn field(&self) -> Option<&Arc<OwnedField>> {
         self.of.as_ref()
     }
 }

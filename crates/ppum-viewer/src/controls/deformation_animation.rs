@@ -35,8 +35,7 @@ impl DeformationAnimation {
     }
 
     /// The factor that is shown of a whole one.
-    #[must_use]
-    pub fn of(&self, whole: f64) -> Magnification {
+    pub(crate) fn of(&self, whole: f64) -> Magnification {
         Magnification::Given(self.part * whole)
     }
 }

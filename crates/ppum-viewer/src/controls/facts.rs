@@ -12,10 +12,12 @@ use ppum_scene::facts::{Tip, all_tips};
 use ppum_scene::overlays::Overlay;
 use ppum_scene::range::places;
 
+use crate::same_arc::SameArc;
+
 /// The content of a dataset at a step.
 #[derive(Default)]
 pub struct Facts {
-    of: Option<(Arc<Dataset>, usize)>,
+    of: Option<(SameArc<Dataset>, usize)>,
     /// The kinds of blocks.
     pub parts: Vec<FieldPart>,
     /// The functions, each once for all its places.
@@ -54,12 +56,11 @@ pub struct Stem {
 impl Facts {
     /// Looks up what is not known yet.
     pub fn look_up(&mut self, dataset: &Arc<Dataset>, step: usize) {
-        let is_known =
-            |(known, at): &(Arc<Dataset>, usize)| Arc::ptr_eq(known, dataset) && *at == step;
-        if self.of.as_ref().is_some_and(is_known) {
+        let key = Some((dataset.into(), step));
+        if self.of == key {
             return;
         }
-        *self = Self { of: Some((Arc::clone(dataset), step)), ..Self::default() };
+        *self = Self { of: key, ..Self::default() };
         self.places = Some(places(dataset));
         let index = step;
         let Some(step) = dataset.steps.get(index) else { return };

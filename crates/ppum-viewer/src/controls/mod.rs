@@ -3,32 +3,32 @@
 
 pub mod choices;
 pub mod deformation_animation;
-pub mod draft;
 pub mod facts;
 pub mod range;
 pub mod whole;
 
 use std::collections::BTreeMap;
-use std::sync::{Arc, Weak};
+use std::sync::Weak;
 
 use ppum::dataset::Dataset;
 use ppum_figure::plot::Plot;
 use ppum_scene::deformed::Magnification;
-use ppum_scene::overlays::{Overlay, Overlays};
+use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays};
 use ppum_scene::scene::SceneRequest;
 
 use crate::frames::{PaneFrames, RenderedFrame};
+use crate::memo::Memo;
+use crate::same_arc::SameArc;
 use crate::session::Pane;
 use crate::widgets::chooser::Chooser;
 use crate::widgets::editor::Editor;
 use choices::FieldChoices;
 use deformation_animation::DeformationAnimation;
-use draft::LevelsDraft;
 use facts::Facts;
 use whole::{RangeSearch, Whole};
 
 /// Plots over the steps, with their names.
-type Courses = Vec<(&'static str, Plot)>;
+type StepPlots = Vec<(&'static str, Plot)>;
 
 /// The state of the panels of one view.
 #[derive(Default)]
@@ -56,13 +56,21 @@ pub struct Controls {
     /// True while the next click on the view chooses a patch.
     pub is_picking: bool,
     /// The panel that is to be opened.
-    pub wants: Option<&'static str>,
+    pub panel_to_open: Option<&'static str>,
     /// The description of the colours of an image.
-    pub colors_told: Option<(Weak<RenderedFrame>, String)>,
+    pub color_note: Option<(Weak<RenderedFrame>, String)>,
     /// Values over the steps of a dataset, with the names of their plots.
-    pub courses: Option<(Arc<Dataset>, Courses)>,
+    pub histories: Memo<SameArc<Dataset>, StepPlots>,
     /// The automatic factor of the deformation, once it is known.
     pub factor: Option<f64>,
+}
+
+/// Levels of isolines while they are written, and perhaps not yet understood.
+#[derive(Clone, Debug, Default)]
+pub struct LevelsDraft {
+    pub(crate) text: String,
+    pub(crate) base: Option<IsolineLevels>,
+    pub(crate) mistake: Option<String>,
 }
 
 impl Controls {
@@ -71,7 +79,7 @@ impl Controls {
     pub fn advance(&mut self, ctx: &egui::Context, pane: &mut Pane, frames: &PaneFrames) {
         if let Some(frame) = frames.newest() {
             self.known.look_up(&frame.field);
-            if frame.wanted.scene.deformed == Some(Magnification::Auto) {
+            if frame.request.scene.deformed == Some(Magnification::Auto) {
                 self.factor = frame.factor;
             }
         }
@@ -84,7 +92,7 @@ impl Controls {
         }
         // the next factor is for when this one has been seen
         let wanted = self.drawn(&pane.scene).deformed;
-        let is_seen = frames.newest().is_some_and(|frame| frame.wanted.scene.deformed == wanted);
+        let is_seen = frames.newest().is_some_and(|frame| frame.request.scene.deformed == wanted);
         if let Some(swing) = self.swing.as_mut().filter(|_| is_seen) {
             swing.go_on(ctx.input(|input| input.time));
             ctx.request_repaint();
@@ -120,9 +128,6 @@ impl Controls {
 
     /// The text that is written of something.
     pub fn editor(&mut self, of: &str) -> &mut Editor {
-        if !self.editors.contains_key(of) {
-            self.editors.insert(of.to_owned(), Editor::default());
-        }
-        self.editors.get_mut(of).expect("it has just been made")
+        self.editors.entry(of.to_owned()).or_default()
     }
 }

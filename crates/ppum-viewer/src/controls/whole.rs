@@ -9,8 +9,8 @@ use ppum_render::range::RangeChoice;
 use ppum_scene::overlays::Overlays;
 use ppum_scene::scene::SceneRequest;
 
+use crate::camera;
 use crate::frames::{FrameRequest, PaneFrames, SubtractedImage};
-use crate::plate;
 
 /// A range that is looked for.
 pub struct Whole {
@@ -63,14 +63,12 @@ impl Whole {
     }
 
     /// True if it is the range of so many steps.
-    #[must_use]
-    pub fn is_of(&self, steps: &Steps<usize>) -> bool {
+    pub(crate) fn is_of(&self, steps: &Steps<usize>) -> bool {
         self.total == steps.len()
     }
 
     /// The progress of the search as text.
-    #[must_use]
-    pub fn progress_text(&self) -> String {
+    pub(crate) fn progress_text(&self) -> String {
         format!("{} of {} steps are done", self.total - self.steps.len(), self.total)
     }
 
@@ -85,7 +83,7 @@ impl Whole {
         let Some(&step) = self.steps.front() else { return self.end() };
         let mut scene = self.scene.clone();
         scene.subject.step = Some(step);
-        let Some(view) = plate::view(None, self.dataset.domain.bounds, PIXELS, 0) else {
+        let Some(view) = camera::view(None, self.dataset.domain.bounds, PIXELS, 0) else {
             return RangeSearch::Failed("the plate has no size".into());
         };
         let dataset = Arc::clone(&self.dataset);
@@ -98,7 +96,7 @@ impl Whole {
     fn take(&mut self) {
         let Some(frame) = self.frames.newest() else { return };
         if self.frames.is_working()
-            || frame.wanted.scene.subject.step != self.steps.front().copied()
+            || frame.request.scene.subject.step != self.steps.front().copied()
         {
             return;
         }

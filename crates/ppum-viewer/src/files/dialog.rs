@@ -3,18 +3,33 @@
 
 use std::env;
 use std::fs;
-use std::path::{MAIN_SEPARATOR, Path, PathBuf};
+use std::path::{MAIN_SEPARATOR, MAIN_SEPARATOR_STR, Path, PathBuf};
 use std::sync::Arc;
 
-use egui::{Align2, Key, Modifiers, ScrollArea, TextEdit, Ui, Window};
+use egui::{Align2, Key, Modifiers, TextEdit, Ui, Window};
 use ppum::dataset::Dataset;
 
-use super::read::has_extension;
 use super::session_file;
 use crate::job::BackgroundJob;
-use crate::replaced_file::{self, ReplacedFile};
+use crate::page::PageOrder;
+use crate::query::BackgroundQuery;
+use crate::save_target::{SaveTarget, has_extension};
 use crate::session::ProblemDraft;
+use crate::widgets::chooser::RowList;
 use crate::widgets::note_folder;
+
+/// The contents of a file that is saved.
+#[derive(Clone, Debug)]
+pub enum SavedFile {
+    /// A dataset.
+    Dataset(Arc<Dataset>),
+    /// The session.
+    Session,
+    /// The text of a problem.
+    Problem(ProblemDraft),
+    /// A page.
+    Page(Arc<PageOrder>),
+}
 
 /// The purpose of a file. The content to be written is held: whatever is shown when the name is
 /// given, this is what gets the name.
@@ -22,39 +37,20 @@ use crate::widgets::note_folder;
 pub enum Purpose {
     /// To open it in a pane.
     Open(usize),
-    /// To write the session.
-    SaveSession,
-    /// To write a dataset.
-    SaveDataset(Arc<Dataset>),
-    /// To write the text of a problem.
-    SaveProblem(ProblemDraft),
-    /// To write a page.
-    ExportPage,
+    /// To write something.
+    Save(SavedFile),
 }
 
 impl Purpose {
-    /// The heading.
-    #[must_use]
-    pub fn title(&self) -> &'static str {
+    /// The heading, and the ends of the names of files that fit, the usual one first.
+    fn words(&self) -> (&'static str, &'static [&'static str]) {
         match self {
-            Self::Open(0) => "Open a file",
-            Self::Open(_) => "Open a file on the right",
-            Self::SaveSession => "Save the session",
-            Self::SaveDataset(_) => "Save the dataset",
-            Self::SaveProblem(_) => "Save the problem",
-            Self::ExportPage => "Export a page for browsers",
-        }
-    }
-
-    /// The ends of the names of files that fit, the usual one first.
-    #[must_use]
-    pub fn extensions(&self) -> &'static [&'static str] {
-        match self {
-            Self::Open(_) => &["h5", "toml", session_file::EXTENSION, "hdf5"],
-            Self::SaveSession => &[session_file::EXTENSION],
-            Self::SaveDataset(_) => &["h5"],
-            Self::SaveProblem(_) => &["toml"],
-            Self::ExportPage => &["html"],
+            Self::Open(0) => ("Open a file", OPENED),
+            Self::Open(_) => ("Open a file on the right", OPENED),
+            Self::Save(SavedFile::Session) => ("Save the session", &[session_file::EXTENSION]),
+            Self::Save(SavedFile::Dataset(_)) => ("Save the dataset", &["h5"]),
+            Self::Save(SavedFile::Problem(_)) => ("Save the problem", &["toml"]),
+            Self::Save(SavedFile::Page(_)) => ("Export a page for browsers", &["html"]),
         }
     }
 
@@ -63,19 +59,18 @@ impl Purpose {
     }
 }
 
+const OPENED: &[&str] = &["h5", "toml", session_file::EXTENSION, "hdf5"];
+
 /// The field while it is open.
 #[derive(Debug)]
 pub struct Dialog {
     purpose: Purpose,
     /// The folder of names without one.
     folder: PathBuf,
-    text: String,
+    target: SaveTarget,
     chosen: Option<usize>,
-    listed: Option<(PathBuf, Vec<FolderEntry>)>,
-    listing: Option<(PathBuf, BackgroundJob<Vec<FolderEntry>>)>,
+    listed: BackgroundQuery<PathBuf, Vec<FolderEntry>>,
     system: Option<BackgroundJob<Option<PathBuf>>>,
-    error: Option<String>,
-    replacing: ReplacedFile,
 }
 
 /// Something in a folder: its name, and whether it is a folder too.
@@ -92,16 +87,14 @@ impl Dialog {
         if start.is_dir() && !text.ends_with(MAIN_SEPARATOR) {
             text.push(MAIN_SEPARATOR);
         }
-        let (listed, listing, system, error) = (None, None, None, None);
-        let replacing = ReplacedFile::default();
         let folder = if start.is_dir() { Some(start) } else { start.parent() };
         let folder = folder.unwrap_or(Path::new("")).to_owned();
-        Self { purpose, folder, text, chosen: None, listed, listing, system, error, replacing }
+        let (target, listed) = (SaveTarget::new(text), BackgroundQuery::default());
+        Self { purpose, folder, target, chosen: None, listed, system: None }
     }
 
     /// Returns the purpose of the file.
-    #[must_use]
-    pub fn purpose(&self) -> &Purpose {
+    pub(crate) fn purpose(&self) -> &Purpose {
         &self.purpose
     }
 
@@ -110,7 +103,7 @@ impl Dialog {
         self.poll(ui);
         let mut is_open = true;
         let mut done = None;
-        let window = Window::new(self.purpose.title()).anchor(Align2::CENTER_TOP, [0.0, 60.0]);
+        let window = Window::new(self.purpose.words().0).anchor(Align2::CENTER_TOP, [0.0, 60.0]);
         let window = window.open(&mut is_open).collapsible(false).resizable(false);
         window.show(ui.ctx(), |ui| done = self.fields(ui));
         let escape = ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Escape));
@@ -124,31 +117,34 @@ impl Dialog {
         let keys = [Key::Tab, Key::ArrowDown, Key::ArrowUp];
         let [tab, down, up] = ui.input_mut(|i| keys.map(|key| i.consume_key(Modifiers::NONE, key)));
         let enter = ui.input(|i| i.key_pressed(Key::Enter));
-        let fitting = self.fitting();
-        self.walk(fitting.len(), down, up);
+        let count = self.fitting().len();
+        self.walk(count, down, up);
         let label = ui.label("Name of the file, with its folder");
         let width = ui.available_width().clamp(200.0, 460.0);
-        let edit = ui.add(TextEdit::singleline(&mut self.text).desired_width(width).code_editor());
-        let edit = edit.labelled_by(label.id);
+        let edit = TextEdit::singleline(&mut self.target.name).desired_width(width).code_editor();
+        let edit = ui.add(edit).labelled_by(label.id);
         edit.request_focus();
         if edit.changed() {
-            (self.chosen, self.error) = (None, None);
-            self.replacing.forget();
+            self.chosen = None;
+            self.target.forget();
         }
-        if !self.purpose.is_open() && !self.text.trim().is_empty() {
+        if !self.purpose.is_open() && !self.target.name.trim().is_empty() {
             note_folder(ui, &self.path());
         }
         // what is written now decides, not what stood there before
         let fitting = self.fitting();
-        let mut taken = self.list(ui, &fitting);
+        let row = |ui: &mut Ui, (name, is_folder): &FolderEntry, is_chosen: bool| {
+            let end = if *is_folder { MAIN_SEPARATOR_STR } else { "" };
+            ui.selectable_label(is_chosen, format!("{name}{end}"))
+        };
+        let list = RowList { name: "folder", height: 220.0, at: self.chosen, is_followed: true };
+        let mut taken = list.show(ui, fitting.iter(), row).cloned();
         if tab || (enter && self.chosen.is_some()) {
             taken = taken.or_else(|| fitting.get(self.chosen.unwrap_or(0)).cloned());
         }
         let is_named = enter && self.chosen.is_none();
         let mut done = taken.and_then(|entry| self.take(ui, entry, !tab));
-        if let Some(error) = &self.error {
-            ui.colored_label(ui.visuals().error_fg_color, error);
-        }
+        self.target.show_result(ui);
         if (self.buttons(ui) || is_named) && done.is_none() {
             done = self.confirm(&self.path());
         }
@@ -165,35 +161,16 @@ impl Dialog {
         };
     }
 
-    fn list(&self, ui: &mut Ui, fitting: &[FolderEntry]) -> Option<FolderEntry> {
-        let mut taken = None;
-        ScrollArea::vertical().max_height(220.0).auto_shrink([false, true]).show(ui, |ui| {
-            for (k, entry) in fitting.iter().enumerate() {
-                let is_chosen = self.chosen == Some(k);
-                let name =
-                    if entry.1 { format!("{}{MAIN_SEPARATOR}", entry.0) } else { entry.0.clone() };
-                let button = ui.selectable_label(is_chosen, name);
-                if is_chosen {
-                    button.scroll_to_me(None);
-                }
-                if button.clicked() {
-                    taken = Some(entry.clone());
-                }
-            }
-        });
-        taken
-    }
-
     /// True if the button is pressed.
     fn buttons(&mut self, ui: &mut Ui) -> bool {
         ui.horizontal(|ui| {
             if ui.button("Browse…").on_hover_text("The dialog of the system").clicked() {
                 self.browse(ui);
             }
-            let word = match (self.error.as_deref(), self.purpose.is_open()) {
-                (Some(replaced_file::ASK), _) => "Replace it",
-                (_, true) => "Open",
-                (_, false) => "Save",
+            let word = match self.purpose.is_open() {
+                _ if self.target.is_asking() => "Replace it",
+                true => "Open",
+                false => "Save",
             };
             ui.button(word).clicked()
         })
@@ -203,19 +180,19 @@ impl Dialog {
     /// Goes into a folder, or completes a name; a file that was meant is done with.
     fn take(&mut self, ui: &Ui, (name, is_folder): FolderEntry, is_meant: bool) -> Option<PathBuf> {
         let path = self.shown_folder().join(&name);
-        self.text = path.display().to_string();
+        self.target.name = path.display().to_string();
         self.chosen = None;
         if is_folder {
-            self.text.push(MAIN_SEPARATOR);
+            self.target.name.push(MAIN_SEPARATOR);
         }
         ui.ctx().request_repaint();
         (is_meant && !is_folder).then(|| self.confirm(&path)).flatten()
     }
 
     fn path(&self) -> PathBuf {
-        let path = self.folder.join(home(self.text.trim()));
+        let path = self.folder.join(home(self.target.name.trim()));
         let has_end = path.extension().is_some() || self.purpose.is_open();
-        match self.purpose.extensions().first() {
+        match self.purpose.words().1.first() {
             Some(end) if !has_end => path.with_extension(end),
             _ => path,
         }
@@ -224,32 +201,27 @@ impl Dialog {
     /// The file, if it fits; else the reason why not stands below the field.
     fn confirm(&mut self, path: &Path) -> Option<PathBuf> {
         let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
-        let [is_dir, is_there] = [path.is_dir(), path.exists()];
-        let ends = self.purpose.extensions();
         let error = match self.purpose.is_open() {
-            _ if is_dir => Some("this is a folder: choose a file in it".to_owned()),
-            true => (!is_there).then(|| "there is no such file".to_owned()),
-            false if !has_extension(&path, ends) => {
-                Some(format!("the name of this file ends with .{}", ends.join(" or .")))
-            }
-            false if !self.replacing.allows(&path) => Some(replaced_file::ASK.to_owned()),
-            false => ppum_file::check(&path).err().map(|e| format!("it cannot be written: {e}")),
+            _ if path.is_dir() => Some("this is a folder: choose a file in it".to_owned()),
+            true => (!path.exists()).then(|| "there is no such file".to_owned()),
+            false => self.target.refuses(&path, self.purpose.words().1, None).or_else(|| {
+                ppum_file::check(&path).err().map(|e| format!("it cannot be written: {e}"))
+            }),
         };
-        self.error = error;
-        self.error.is_none().then_some(path)
+        self.target.result = error.clone().map(Err);
+        error.is_none().then_some(path)
     }
 
     /// Returns the entries of the folder that begin with the text; files only if they fit.
-    fn fitting(&self) -> Vec<FolderEntry> {
-        let name =
-            Path::new(&self.text).file_name().filter(|_| !self.text.ends_with(MAIN_SEPARATOR));
+    fn fitting(&mut self) -> Vec<FolderEntry> {
+        let text = &self.target.name;
+        let name = Path::new(text).file_name().filter(|_| !text.ends_with(MAIN_SEPARATOR));
         let name = name.and_then(|name| name.to_str()).unwrap_or_default().to_lowercase();
         let here = self.shown_folder();
-        let Some((_, entries)) = self.listed.as_ref().filter(|(listed, _)| *listed == here) else {
-            return Vec::new();
-        };
+        let known = self.listed.newest().filter(|(listed, _)| *listed == here);
+        let Some(Ok(entries)) = known.map(|(_, entries)| &**entries) else { return Vec::new() };
         let is_fit = |(entry, is_folder): &&FolderEntry| {
-            let fits = *is_folder || has_extension(Path::new(entry), self.purpose.extensions());
+            let fits = *is_folder || has_extension(Path::new(entry), self.purpose.words().1);
             let is_shown = !entry.starts_with('.') || name.starts_with('.');
             fits && is_shown && entry.to_lowercase().starts_with(&name)
         };
@@ -258,8 +230,8 @@ impl Dialog {
 
     /// The folder that the text leads to.
     fn shown_folder(&self) -> PathBuf {
-        let path = home(&self.text);
-        let folder = match self.text.ends_with(['/', MAIN_SEPARATOR]) {
+        let path = home(&self.target.name);
+        let folder = match self.target.name.ends_with(['/', MAIN_SEPARATOR]) {
             true => Some(&*path),
             false => path.parent(),
         };
@@ -269,23 +241,14 @@ impl Dialog {
 
     /// Takes what was listed and chosen, and lists the folder of the text.
     fn poll(&mut self, ui: &Ui) {
-        if let Some((folder, job)) = &self.listing
-            && let Some(entries) = job.poll()
-        {
-            self.listed = Some((folder.clone(), entries.unwrap_or_default()));
-            self.listing = None;
-        }
         let here = self.shown_folder();
-        if self.listing.is_none() && self.listed.as_ref().is_none_or(|(listed, _)| *listed != here)
-        {
-            let folder = here.clone();
-            self.listing = Some((here, BackgroundJob::start(ui.ctx(), move |_| entries(&folder))));
-        }
+        let folder = here.clone();
+        self.listed.ask(&here, false, ui.ctx(), move |_| Some(Ok(entries(&folder))));
         if let Some(outcome) = self.system.as_ref().and_then(BackgroundJob::poll) {
             self.system = None;
             match outcome {
-                Ok(Some(path)) => self.text = path.display().to_string(),
-                _ => self.error = Some("nothing was chosen; a name can be written here".into()),
+                Ok(Some(path)) => self.target.name = path.display().to_string(),
+                _ => self.target.result = Some(Err(NOTHING_CHOSEN.into())),
             }
         }
     }
@@ -295,8 +258,8 @@ impl Dialog {
         if self.system.is_some() {
             return;
         }
-        let (title, is_open) = (self.purpose.title(), self.purpose.is_open());
-        let (ends, folder) = (self.purpose.extensions(), self.shown_folder());
+        let ((title, ends), is_open) = (self.purpose.words(), self.purpose.is_open());
+        let folder = self.shown_folder();
         self.system = Some(BackgroundJob::start(ui.ctx(), move |_| {
             let dialog = rfd::FileDialog::new().set_title(title).set_directory(folder);
             let dialog = dialog.add_filter(ends.join(", "), ends);
@@ -304,6 +267,8 @@ impl Dialog {
         }));
     }
 }
+
+const NOTHING_CHOSEN: &str = "nothing was chosen; a name can be written here";
 
 /// `~` is the folder of the person, as shells have it.
 fn home(text: &str) -> PathBuf {

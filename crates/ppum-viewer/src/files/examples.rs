@@ -3,9 +3,11 @@
 use std::io;
 use std::path::{Path, PathBuf};
 
+use ppum::progress::Watcher;
 use ppum_problem::Problem;
 
-use crate::job::BackgroundJob;
+use crate::query::BackgroundQuery;
+use crate::save_target::replace;
 use crate::solving::preview::Preview;
 
 /// An example.
@@ -99,8 +101,7 @@ impl Example {
 
     /// Returns the geometry of its problem: body, holes, cracks, supports and loads. A file of
     /// numbers is put into `own`, the window's folder; none where it cannot be.
-    #[must_use]
-    pub fn preview(&self, own: Option<&Path>) -> Option<Preview> {
+    pub(crate) fn preview(&self, own: Option<&Path>) -> Option<Preview> {
         let folder = match own {
             Some(own) => self.folder(own).ok()?.unwrap_or_default(),
             None => PathBuf::new(),
@@ -117,35 +118,30 @@ impl Example {
         let Some((name, text)) = self.numbers else { return Ok(None) };
         let folder = folder.join("examples");
         std::fs::create_dir_all(&folder)?;
-        super::window_state::replace(&folder.join(name), text)?;
+        replace(&folder.join(name), text.as_bytes())?;
         Ok(Some(folder))
     }
 }
 
 /// The geometries of the problems of all examples, found in the background.
 #[derive(Debug, Default)]
-pub struct Previews {
-    job: Option<BackgroundJob<Vec<Option<Preview>>>>,
-    known: Vec<Option<Preview>>,
-}
+pub struct Previews(BackgroundQuery<(), Vec<Option<Preview>>>);
 
 impl Previews {
     /// Begins to find them, if they are not known yet, with the window's folder.
     pub fn find(&mut self, ctx: &egui::Context, own: Option<&Path>) {
-        if let Some(found) = self.job.as_ref().and_then(BackgroundJob::poll) {
-            self.job = None;
-            self.known = found.unwrap_or_else(|_| vec![None; ALL.len()]);
-        } else if self.job.is_none() && self.known.is_empty() {
-            let own = own.map(Path::to_owned);
-            let all = move |_: &_| ALL.iter().map(|one| one.preview(own.as_deref())).collect();
-            self.job = Some(BackgroundJob::start(ctx, all));
-        }
+        let own = own.map(Path::to_owned);
+        let all = move |_: &dyn Watcher| {
+            Some(Ok(ALL.iter().map(|one| one.preview(own.as_deref())).collect::<Vec<_>>()))
+        };
+        self.0.ask(&(), false, ctx, all);
     }
 
     /// That of an example, by its number, once it is known.
     #[must_use]
     pub fn of(&self, number: usize) -> Option<&Preview> {
-        self.known.get(number)?.as_ref()
+        let known = self.0.known()?.as_ref().ok()?;
+        known.get(number)?.as_ref()
     }
 }
 

@@ -9,14 +9,14 @@ pub mod watch;
 pub mod window_state;
 
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::Ui;
-use ppum::dataset::Dataset;
 
 use crate::job::BackgroundJob;
+use crate::save_target::replace;
 use crate::session::{ProblemDraft, Session};
+pub use dialog::SavedFile;
 use dialog::{Dialog, Purpose};
 use read::{FileRead, ReadFile, Why};
 use texts::StoredTexts;
@@ -71,28 +71,6 @@ struct FileWrite {
     path: PathBuf,
     what: SavedFile,
     job: BackgroundJob<Result<Stamp, String>>,
-}
-
-/// The contents of a file that is saved.
-#[derive(Clone, Debug)]
-pub enum SavedFile {
-    /// A dataset.
-    Dataset(Arc<Dataset>),
-    /// The session.
-    Session,
-    /// The text of a problem.
-    Problem(ProblemDraft),
-    /// A page.
-    Page,
-}
-
-/// A file that was written.
-#[derive(Clone, Debug)]
-pub struct WrittenFile {
-    /// The file.
-    pub path: PathBuf,
-    /// The content of the file.
-    pub what: SavedFile,
 }
 
 /// The least time between two writings of a session that changes.
@@ -151,8 +129,7 @@ impl WindowFiles {
     }
 
     /// True if all that is remembered outlasts the window.
-    #[must_use]
-    pub fn can_keep(&self) -> bool {
+    pub(crate) fn can_keep(&self) -> bool {
         self.folder.is_some() && !self.is_forgetful
     }
 
@@ -166,19 +143,17 @@ impl WindowFiles {
     /// Returns the files that were read since.
     pub fn arrived(&mut self) -> Vec<ReadFile> {
         let mut arrived = Vec::new();
-        self.readings.retain(|reading| match reading.poll() {
-            Some(news) => {
-                arrived.push(news);
-                false
-            }
-            None => true,
+        self.readings.retain(|reading| {
+            let news = reading.poll();
+            let is_running = news.is_none();
+            arrived.extend(news);
+            is_running
         });
         arrived
     }
 
     /// The files that are being read.
-    #[must_use]
-    pub fn readings(&self) -> &[FileRead] {
+    pub(crate) fn readings(&self) -> &[FileRead] {
         &self.readings
     }
 
@@ -257,17 +232,11 @@ impl WindowFiles {
     /// Waits until everything is written, and all that is remembered too: the window is about
     /// to close.
     pub fn finish(&mut self, session: &Session) {
-        let is_busy = |files: &Self| !files.writings.is_empty() || files.keeping.is_some();
-        while is_busy(self) {
-            self.written();
-            self.keep(session);
-            std::thread::sleep(Duration::from_millis(5));
-        }
+        self.writings.drain(..).for_each(|writing| drop(writing.job.wait()));
+        // what is being kept is older than what is kept then
+        self.keeping.take().into_iter().for_each(|job| drop(job.wait()));
         self.keep_now(session);
-        while self.keeping.as_ref().is_some_and(|job| job.poll().is_none()) {
-            std::thread::sleep(Duration::from_millis(5));
-        }
-        self.keeping = None;
+        self.keeping.take().into_iter().for_each(|job| drop(job.wait()));
     }
 
     /// Begins to find what the examples are problems of.
@@ -326,16 +295,14 @@ impl WindowFiles {
 
     /// The folder of a file, or of the last one that was opened; the one that the program was
     /// started in if that is gone.
-    #[must_use]
-    pub fn folder_near(&self, near: Option<&Path>) -> PathBuf {
+    pub(crate) fn folder_near(&self, near: Option<&Path>) -> PathBuf {
         let recent = self.kept.recent.first().map(PathBuf::as_path);
         let folder = near.or(recent).and_then(Path::parent).filter(|folder| folder.is_dir());
         folder.map_or_else(|| std::env::current_dir().unwrap_or_default(), Path::to_owned)
     }
 
     /// True while a file is chosen or written.
-    #[must_use]
-    pub fn is_saving(&self) -> bool {
+    pub(crate) fn is_saving(&self) -> bool {
         self.dialog.is_some() || !self.writings.is_empty()
     }
 
@@ -349,55 +316,45 @@ impl WindowFiles {
         Some((purpose, done?))
     }
 
-    /// Writes something in the background.
-    pub fn write(
-        &mut self,
-        path: PathBuf,
-        what: SavedFile,
-        write: impl FnOnce(&Path) -> Result<(), String> + Send + 'static,
-    ) {
-        let target = path.clone();
+    /// Writes a file in the background; a session is that of now.
+    pub fn save(&mut self, path: PathBuf, what: SavedFile, session: &Session) {
+        let text = match &what {
+            SavedFile::Session => {
+                let folder = path.parent().unwrap_or(Path::new(""));
+                session_file::text(session, folder).map_err(|error| error.to_string())
+            }
+            SavedFile::Problem(draft) => Ok(draft.text.clone()),
+            SavedFile::Dataset(_) | SavedFile::Page(_) => Ok(String::new()),
+        };
+        let (target, content) = (path.clone(), what.clone());
         let job = BackgroundJob::start(&self.ctx, move |_| {
-            write(&target)?;
+            match content {
+                SavedFile::Dataset(dataset) => {
+                    ppum_format::write(&dataset, &target).map_err(|error| error.to_string())
+                }
+                SavedFile::Page(page) => page.write(&target),
+                SavedFile::Session | SavedFile::Problem(_) => {
+                    replace(&target, text?.as_bytes()).map_err(|error| error.to_string())
+                }
+            }?;
             Ok(watch::stamp(&target))
         });
         self.writings.push(FileWrite { path, what, job });
     }
 
-    /// Writes a text in the background.
-    pub fn write_text(&mut self, path: PathBuf, what: SavedFile, text: String) {
-        self.write(path, what, move |path| {
-            window_state::replace(path, &text).map_err(|e| e.to_string())
-        });
-    }
-
-    /// Writes a dataset in the background.
-    pub fn write_dataset(&mut self, path: PathBuf, dataset: Arc<Dataset>) {
-        self.write(path, SavedFile::Dataset(Arc::clone(&dataset)), move |path| {
-            ppum_format::write(&dataset, path).map_err(|error| error.to_string())
-        });
-    }
-
     /// Returns the files that were written since; what could not be written is told.
-    pub fn written(&mut self) -> Vec<WrittenFile> {
-        let mut done = Vec::new();
-        self.writings.retain(|writing| match writing.job.poll() {
-            Some(outcome) => {
-                done.push((writing.path.clone(), writing.what.clone(), outcome.flatten()));
-                false
-            }
-            None => true,
-        });
+    pub fn written(&mut self) -> Vec<(PathBuf, SavedFile)> {
         let mut written = Vec::new();
-        for (path, what, outcome) in done {
-            match outcome {
-                Ok(stamp) => {
+        for FileWrite { path, what, job } in std::mem::take(&mut self.writings) {
+            match job.poll().map(Result::flatten) {
+                None => self.writings.push(FileWrite { path, what, job }),
+                Some(Ok(stamp)) => {
                     // what the window itself has written is no news to it
                     self.follow(&path, stamp);
                     self.tell(&path, format!("{} is written", path.display()), false);
-                    written.push(WrittenFile { path, what });
+                    written.push((path, what));
                 }
-                Err(error) => {
+                Some(Err(error)) => {
                     self.tell(&path, format!("{} cannot be written: {error}", name(&path)), true);
                 }
             }

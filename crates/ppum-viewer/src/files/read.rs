@@ -13,6 +13,7 @@ use ppum_problem::MAX_LENGTH as MAX_PROBLEM;
 use super::session_file;
 use super::watch::{Stamp, stamp};
 use crate::job::{BackgroundJob, CancelToken};
+use crate::save_target::has_extension;
 use crate::session::Session;
 
 /// The content of a file.
@@ -118,13 +119,6 @@ fn is_text(path: &Path) -> io::Result<bool> {
     let mut head = Vec::new();
     ppum_file::open(path, u64::MAX)?.take(HDF5.len() as u64).read_to_end(&mut head)?;
     Ok(head != HDF5 && std::str::from_utf8(&head).is_ok())
-}
-
-/// True if the name of a file ends so.
-#[must_use]
-pub fn has_extension(path: &Path, known: &[&str]) -> bool {
-    let extension = path.extension().and_then(|end| end.to_str()).unwrap_or_default();
-    known.iter().any(|end| end.eq_ignore_ascii_case(extension))
 }
 
 /// A session or a problem.

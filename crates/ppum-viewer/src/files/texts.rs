@@ -3,7 +3,8 @@
 
 use std::path::Path;
 
-use super::window_state::{read_kept, replace};
+use super::window_state::read_kept;
+use crate::save_target::replace;
 use crate::session::ProblemDraft;
 
 const FILE: &str = "texts.json";
@@ -51,7 +52,7 @@ impl TextsUpdate {
         let mut all: Vec<_> = foreign.filter(|text| !self.all.contains(text)).collect();
         all.extend(self.all);
         let text = serde_json::to_string_pretty(&all).map_err(std::io::Error::other)?;
-        replace(&folder.join(FILE), &text)
+        replace(&folder.join(FILE), text.as_bytes())
     }
 }
 

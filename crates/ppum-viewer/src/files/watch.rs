@@ -10,8 +10,7 @@ use std::time::{Duration, SystemTime};
 pub type Stamp = Option<(u64, SystemTime)>;
 
 /// The stamp of a file now.
-#[must_use]
-pub fn stamp(path: &Path) -> Stamp {
+pub(crate) fn stamp(path: &Path) -> Stamp {
     let data = fs::metadata(path).ok()?;
     Some((data.len(), data.modified().unwrap_or(SystemTime::UNIX_EPOCH)))
 }

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::session_file;
+use crate::save_target::replace;
 use crate::session::Session;
 
 /// The window's state between two sessions.
@@ -43,7 +44,7 @@ impl WindowState {
     pub fn write(&self, folder: &Path) -> std::io::Result<()> {
         std::fs::create_dir_all(folder)?;
         let text = serde_json::to_string_pretty(self).map_err(std::io::Error::other)?;
-        replace(&folder.join(KEPT), &text)
+        replace(&folder.join(KEPT), text.as_bytes())
     }
 
     /// Puts a file in front of the recent ones.
@@ -91,12 +92,7 @@ fn set_aside(folder: &Path, name: &str) -> String {
 pub fn keep_session(session: &Session, folder: &Path) -> std::io::Result<()> {
     std::fs::create_dir_all(folder)?;
     let text = session_file::text(session, folder).map_err(std::io::Error::other)?;
-    replace(&folder.join(LAST), &text)
-}
-
-/// Writes a text, completely or not at all.
-pub(crate) fn replace(path: &Path, text: &str) -> std::io::Result<()> {
-    ppum_file::replace(path, |out| out.write_all(text.as_bytes()))
+    replace(&folder.join(LAST), text.as_bytes())
 }
 
 /// The folder of these files: `PPUM_CONFIG`, or where the system has the settings of programs.

@@ -52,14 +52,10 @@ impl<K: PartialEq> EasedRange<K> {
         to: ColorRange,
         now: Instant,
     ) -> (ColorRange, bool) {
-        let Some(shown) = self.shown(&about) else {
+        let Some(shown) = self.shown(&about).filter(|shown| !is_near(shown, &to)) else {
             self.set(about, to.clone());
             return (to, true);
         };
-        if is_near(shown, &to) {
-            self.set(about, to.clone());
-            return (to, true);
-        }
         let from = [shown.min, shown.max];
         let glide = match self.glide.take() {
             Some(glide) if glide.to == to => glide,

@@ -40,7 +40,7 @@ pub struct ImageFailure {
 }
 
 impl ImageFailure {
-    /// A failure of a stage, in words.
+    /// A failure of a viewport, in words.
     pub(super) fn new(fault: FaultOrigin, message: impl Into<String>) -> Self {
         Self { fault, message: message.into() }
     }

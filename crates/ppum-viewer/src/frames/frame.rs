@@ -1,43 +1,39 @@
 //! Images with what they were made of.
 
+use std::ops::Deref;
 use std::sync::Arc;
 
+use ppum_render::resample::norms::DifferenceNorms;
 use ppum_render::view::View;
-use ppum_scene::difference::{self, DifferenceSide};
-use ppum_scene::drawing::{DisplayedQuantity, PixelValues};
-use ppum_scene::mirror::MirrorLines;
+use ppum_scene::colors::ColorOptions;
+use ppum_scene::difference::{self, FieldDifference};
+use ppum_scene::drawing::PixelValues;
 
 use super::fault::ImageFailure;
 use super::overlay_shapes::OverlayShapes;
 use super::paint::ColoredImage;
+use super::request::FrameRequest;
 use super::resampled::ResampledView;
-use super::subtrahend::SubtractedValues;
-use super::wanted::FrameRequest;
-use crate::field::OwnedField;
+use super::subject::FrameSubject;
 
 /// An image with all that it was made of.
 #[derive(Clone, Debug)]
 pub struct RenderedFrame {
     /// The request.
-    pub wanted: FrameRequest,
-    /// The field, with what is replaced in it.
-    pub field: Arc<OwnedField>,
-    /// The displayed quantity.
-    pub shown: Arc<DisplayedQuantity>,
-    /// The subtrahend.
-    pub subtracted: Option<SubtractedValues>,
+    pub request: FrameRequest,
+    /// The field and the quantity that are shown.
+    pub subject: FrameSubject,
     /// Its values; of a rough image those of its own view.
     pub drawn: Arc<PixelValues>,
+    /// How far the two sides of a difference are from each other, in the view that was last drawn
+    /// whole.
+    pub norms: Option<DifferenceNorms>,
     /// Their colours, and the view that they are of.
     pub picture: Arc<ColoredImage>,
-    /// The layers over them; of an older view until it is drawn again.
+    /// The layers over them; of an older view until they are drawn again.
     pub layers: Arc<OverlayShapes>,
     /// The view in whose pixels the layers are.
     pub layers_view: View,
-    /// How many times its displacement the body is drawn with, if it is deformed.
-    pub factor: Option<f64>,
-    /// The lines at which it is mirrored.
-    pub lines: MirrorLines,
     /// The resampled image, if that was requested; of an older view until it is there.
     pub other: Option<Arc<ResampledView>>,
     /// True if nothing better will come.
@@ -51,38 +47,39 @@ pub struct RenderedFrame {
 /// An image, or why there is none.
 pub(super) type FrameResult = Result<Arc<RenderedFrame>, ImageFailure>;
 
+impl Deref for RenderedFrame {
+    type Target = FrameSubject;
+
+    fn deref(&self) -> &FrameSubject {
+        &self.subject
+    }
+}
+
 impl RenderedFrame {
     /// The two sides of a difference, if it is one.
-    #[must_use]
-    pub fn minus(&self) -> Option<difference::FieldDifference<'_>> {
-        let left = self.subtracted.as_ref()?;
-        let right = DifferenceSide { field: self.field.field(), shown: &self.shown };
-        Some(difference::FieldDifference {
-            right,
-            left: DifferenceSide { field: left.field.field(), shown: &left.shown },
-        })
+    pub(crate) fn minus(&self) -> Option<FieldDifference<'_>> {
+        self.source().minus(&self.shown)
     }
 
-    /// Returns the subtrahend: a field, and what is shown of it.
+    /// The ends of the range of its colours.
     #[must_use]
-    pub fn left(&self) -> Option<(Arc<OwnedField>, Arc<DisplayedQuantity>)> {
-        let left = self.subtracted.as_ref()?;
-        Some((Arc::clone(&left.field), Arc::clone(&left.shown)))
+    pub fn ends(&self) -> [f64; 2] {
+        let norm = &self.picture.normalization;
+        [norm.min(), norm.max()]
     }
 
     /// The symbol of what its colours mean, or the words for it, and the unit.
     #[must_use]
     pub fn words(&self) -> [String; 2] {
-        let minus = self.minus();
-        minus.map_or_else(|| self.shown.words(self.field.field()), |minus| minus.words())
+        self.source().words(&self.shown)
     }
 
     /// The map of its colours where none is chosen.
     #[must_use]
     pub fn default_map(&self) -> &'static str {
-        match self.subtracted {
+        match self.left {
             Some(_) => difference::MAP,
-            None => ppum_scene::colors::ColorOptions::default_map(self.shown.quantity()),
+            None => ColorOptions::default_map(self.shown.quantity()),
         }
     }
 }

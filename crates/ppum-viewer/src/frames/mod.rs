@@ -12,20 +12,16 @@ mod ease;
 mod fault;
 mod frame;
 mod maker;
-mod memo;
-mod over;
 mod overlay_shapes;
 mod paint;
 mod renderer;
+mod request;
 mod resampled;
-mod stop;
 mod strips;
 mod subject;
-mod subtrahend;
 #[cfg(test)]
 mod tests;
 mod values;
-mod wanted;
 mod worker;
 
 use std::sync::Arc;
@@ -34,13 +30,13 @@ use std::time::{Duration, Instant};
 pub use fault::{FaultOrigin, ImageFailure};
 use frame::FrameResult;
 pub use frame::RenderedFrame;
-use maker::LatestRequest;
 pub use overlay_shapes::OverlayShapes;
 pub use paint::ColoredImage;
 pub use renderer::Backend;
+use request::LatestRequest;
+pub use request::{FrameRequest, SubtractedImage};
 pub use resampled::ResampledView;
-pub use subtrahend::{SubtractedImage, SubtractedValues};
-pub use wanted::FrameRequest;
+pub use subject::{FrameSubject, Subtrahend};
 use worker::Worker;
 
 /// The images of one pane.
@@ -64,29 +60,28 @@ impl PaneFrames {
     }
 
     /// Begins to make images with a given backend.
-    #[must_use]
-    pub fn with_backend(backend: Backend, wake: impl Fn() + Send + 'static) -> Self {
+    pub(crate) fn with_backend(backend: Backend, wake: impl Fn() + Send + 'static) -> Self {
         let worker = Worker::new(backend, Box::new(wake));
         Self { worker, asked: None, newest: None, failure: None }
     }
 
     /// Sets the present request. The previous one is stopped, unless it is nearly done.
-    pub fn want(&mut self, wanted: FrameRequest) {
+    pub fn want(&mut self, request: FrameRequest) {
         let (at, mut rests_at) = (Instant::now(), None);
         if let Some((before, then)) = &self.asked {
-            if *before == wanted {
+            if *before == request {
                 return;
             }
             let since = at.duration_since(*then);
-            let is_moving = since < MOVING && wanted.differs_in_place(before);
+            let is_moving = since < MOVING && request.differs_in_place(before);
             rests_at = is_moving.then(|| at + REST.max(since * 3 / 2));
-            if !wanted.is_of_same(before) {
+            if !request.is_of_same(before) {
                 self.failure = None;
             }
         }
-        self.asked = Some((wanted.clone(), at));
+        self.asked = Some((request.clone(), at));
         self.drop_foreign();
-        self.worker.want(LatestRequest { wanted, rests_at });
+        self.worker.want(LatestRequest { request, rests_at });
     }
 
     /// Takes what has been made since; true if that is something new.
@@ -113,8 +108,8 @@ impl PaneFrames {
         let (Some((asked, _)), Some(newest)) = (&self.asked, &self.newest) else { return };
         let is_without =
             self.failure.as_ref().is_some_and(|failure| !failure.fault.leaves_picture());
-        let is_near = !is_without && newest.wanted.is_alike(asked);
-        if !newest.wanted.is_of_same(asked) && !is_near {
+        let is_near = !is_without && newest.request.is_alike(asked);
+        if !newest.request.is_of_same(asked) && !is_near {
             self.newest = None;
         }
     }

@@ -13,10 +13,11 @@ use ppum_render::view::View;
 use ppum_scene::compare::{Compare, ResampledImage, signed};
 use ppum_scene::drawing::{PixelValues, RasterValues};
 
-use super::memo::{Memo, SameArc};
 use super::paint::ColoredImage;
 use super::subject::{FrameSubject, SubjectView};
 use super::{FaultOrigin, ImageFailure};
+use crate::memo::Memo;
+use crate::same_arc::SameArc;
 
 /// The resampled image in a view, beside the direct one.
 #[derive(Debug)]
@@ -42,7 +43,6 @@ pub struct ResampledView {
 pub(super) struct Resampler {
     pub(super) samples: Memo<(FrameSubject, u32), SamplesInTime>,
     found: Memo<(SameArc<PixelValues>, Compare), ResampledFrame>,
-    pub(super) others: Memo<(SameArc<ColoredImage>, Compare), Arc<ResampledView>>,
 }
 
 type SamplesInTime = (Arc<GridSamples>, f64);
@@ -59,26 +59,19 @@ impl Resampler {
         (drawn, picture, style): (&Arc<PixelValues>, &Arc<ColoredImage>, &Style),
         watcher: &dyn Watcher,
     ) -> Result<Arc<ResampledView>, ImageFailure> {
-        let key = (SameArc::of(picture), compare);
-        if let Some(known) = self.others.get(&key) {
-            return Ok(known);
-        }
         let (samples, sampling) = self.sample(compare, &target.subject, watcher)?;
         let found = || find(compare, &samples, drawn);
-        let (resampled, apart, drawing) =
-            self.found.get_or((SameArc::of(drawn), compare), found)?;
+        let (resampled, apart, drawing) = self.found.get_or((drawn.into(), compare), found)?;
         let painted = in_colors_of(picture, style, &resampled.raster, &drawn.view)?;
-        let other = Arc::new(ResampledView {
+        Ok(Arc::new(ResampledView {
             compare,
             picture: Arc::new(painted),
             difference: apart,
             norms: resampled.norms,
             bytes: resampled.bytes,
-            direct_bytes: representation_bytes(target.subject.field.0.field()),
+            direct_bytes: representation_bytes(target.subject.field.field()),
             seconds: [sampling, drawing],
-        });
-        self.others.set(key, Arc::clone(&other));
-        Ok(other)
+        }))
     }
 
     /// Samples over the whole body, which serve any view and method.
@@ -88,14 +81,14 @@ impl Resampler {
         subject: &FrameSubject,
         watcher: &dyn Watcher,
     ) -> Result<SamplesInTime, ImageFailure> {
-        let Some(quantity) = subject.shown.0.quantity() else { return Err(refused(OF_CELLS)) };
+        let Some(quantity) = subject.shown.quantity() else { return Err(refused(OF_CELLS)) };
         if subject.factor.is_some() {
             return Err(refused(DEFORMED));
         }
-        if subject.minus.is_some() {
+        if subject.left.is_some() {
             return Err(refused(MINUS));
         }
-        let field = subject.field.0.field();
+        let field = subject.field.field();
         self.samples.get_or((subject.clone(), compare.grid), || {
             let start = Instant::now();
             let grid = compare.grid_over(field).map_err(ImageFailure::at(FaultOrigin::Compare))?;

@@ -52,8 +52,8 @@ impl Shift {
         View { center: view.center + by, ..*view }
     }
 
-    /// The rectangles of pixels that were not in view before.
-    fn uncovered(self, [nx, ny]: [u32; 2]) -> [PixelRect; 2] {
+    /// The rectangle of pixels that was in view before, and those that were not.
+    fn split(self, [nx, ny]: [u32; 2]) -> (PixelRect, [PixelRect; 2]) {
         let edge = |by: i64, n: u32| match by {
             ..0 => [0, by.unsigned_abs() as u32],
             _ => [n - by as u32, n],
@@ -62,11 +62,10 @@ impl Shift {
             ..0 => [by.unsigned_abs() as u32, n],
             _ => [0, n - by as u32],
         };
-        let (rows, rest) = (edge(self.rows, ny), rest(self.rows, ny));
-        [
-            PixelRect { columns: [0, nx], rows },
-            PixelRect { columns: edge(self.columns, nx), rows: rest },
-        ]
+        let (columns, rows) = (rest(self.columns, nx), rest(self.rows, ny));
+        let across = PixelRect { columns: [0, nx], rows: edge(self.rows, ny) };
+        let beside = PixelRect { columns: edge(self.columns, nx), rows };
+        (PixelRect { columns, rows }, [across, beside])
     }
 }
 
@@ -101,9 +100,13 @@ pub(super) fn moved<E>(
     mut draw: impl FnMut(&View) -> Result<PixelValues, E>,
 ) -> Result<PixelValues, E> {
     let view = shift.of(&old.view);
-    let mut new = ShiftedImage::new(old, view, shift);
-    for rect in shift.uncovered(view.pixels).into_iter().filter(|rect| !rect.is_empty()) {
-        new.put(rect, &draw(&rect.view(&view))?);
+    let [nx, ny] = view.pixels.map(|n| n as usize);
+    let mut new =
+        ShiftedImage { columns: nx, values: vec![f32::NAN; nx * ny], without: Vec::new() };
+    let (kept, strips) = shift.split(view.pixels);
+    new.put(kept, old, [shift.columns, shift.rows].map(|by| by.max(0) as u32));
+    for strip in strips.into_iter().filter(|strip| !strip.is_empty()) {
+        new.put(strip, &draw(&strip.view(&view))?, [0, 0]);
     }
     let values = RasterValues::from(Raster::new(view.pixels, new.values));
     let by = format!("{}, moved", old.by);
@@ -126,36 +129,19 @@ struct ShiftedImage {
 }
 
 impl ShiftedImage {
-    /// Copies the part that both views share.
-    fn new(old: &PixelValues, view: View, Shift { columns, rows }: Shift) -> Self {
-        let [nx, ny] = view.pixels.map(i64::from);
-        let mut new = Self {
-            columns: nx as usize,
-            values: vec![f32::NAN; (nx * ny) as usize],
-            without: Vec::new(),
-        };
-        let (first, last) = ((-columns).max(0), (nx - columns).min(nx));
-        for row in (-rows).max(0)..(ny - rows).min(ny) {
-            let from = ((row + rows) * nx + first + columns) as usize;
-            new.put_row((row * nx + first) as usize, old, from..from + (last - first) as usize);
+    /// Copies a rectangle from another image, in which it begins at a pixel.
+    fn put(&mut self, rect: PixelRect, from: &PixelValues, [x, y]: [u32; 2]) {
+        let ([width, height], columns) = (rect.size(), from.view.pixels[0]);
+        let [left, top] = [rect.columns[0], rect.rows[0]];
+        for row in 0..height {
+            let start = (y + row) as usize * columns as usize + x as usize;
+            let to = (top + row) as usize * self.columns + left as usize;
+            self.put_row(to, from, start..start + width as usize);
         }
-        let places =
-            old.without.iter().map(|&k| (i64::from(k) % nx - columns, i64::from(k) / nx - rows));
-        let seen = places.filter(|(i, j)| (0..nx).contains(i) && (0..ny).contains(j));
-        new.without = seen.map(|(i, j)| (j * nx + i) as u32).collect();
-        new
-    }
-
-    /// A strip.
-    fn put(&mut self, rect: PixelRect, strip: &PixelValues) {
-        let [nx, ny] = rect.size().map(|n| n as usize);
-        let [x, y] = [rect.columns[0] as usize, rect.rows[0] as usize];
-        for row in 0..ny {
-            self.put_row((y + row) * self.columns + x, strip, row * nx..(row + 1) * nx);
-        }
-        let (nx, columns) = (nx as u32, self.columns as u32);
-        let place = |k: u32| (rect.rows[0] + k / nx) * columns + rect.columns[0] + k % nx;
-        self.without.extend(strip.without.iter().map(|&k| place(k)));
+        let is_kept = |[i, j]: &[u32; 2]| (x..x + width).contains(i) && (y..y + height).contains(j);
+        let kept = from.without.iter().map(|&k| [k % columns, k / columns]).filter(is_kept);
+        let place = |[i, j]: [u32; 2]| (top + j - y) * self.columns as u32 + left + i - x;
+        self.without.extend(kept.map(place));
     }
 
     fn put_row(&mut self, to: usize, from: &PixelValues, range: std::ops::Range<usize>) {

@@ -4,47 +4,55 @@ use std::sync::Arc;
 
 use ppum::dataset::Dataset;
 use ppum::progress::Watcher;
-use ppum_render::deform::{DeformError, Deformation};
+use ppum_render::deform::Deformation;
 use ppum_render::view::View;
 use ppum_scene::body::BodyView;
 use ppum_scene::deformed::Magnification;
 use ppum_scene::difference::DifferenceSide;
-use ppum_scene::drawing::{DisplayedQuantity, single_precision_error};
+use ppum_scene::drawing::DisplayedQuantity;
 use ppum_scene::mirror::{Mirror, MirrorError, MirrorLines};
 use ppum_scene::scene::{self, default_quantity, shown};
 use ppum_scene::shot::{FieldSource, ImageInput};
 use self_cell::self_cell;
 
-use super::memo::{Memo, SameArc};
 use super::{FaultOrigin, FrameRequest, ImageFailure, SubtractedImage};
 use crate::field::OwnedField;
+use crate::memo::Memo;
+use crate::same_arc::SameArc;
 
 /// The field and the quantity that are shown, whatever the view.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct FrameSubject {
-    pub(super) field: SameArc<OwnedField>,
-    pub(super) shown: SameArc<DisplayedQuantity>,
-    /// How many times its displacement the body is drawn with.
-    pub(super) factor: Option<f64>,
+pub struct FrameSubject {
+    /// The field, with what is replaced in it.
+    pub field: SameArc<OwnedField>,
+    /// The displayed quantity.
+    pub shown: SameArc<DisplayedQuantity>,
+    /// How many times its displacement the body is drawn with, if it is deformed.
+    pub factor: Option<f64>,
     /// The lines at which the body is mirrored.
-    pub(super) lines: MirrorLines,
+    pub lines: MirrorLines,
     /// The subtrahend.
-    pub(super) minus: Option<SubtrahendSubject>,
+    pub left: Option<Subtrahend>,
 }
 
 /// The displayed quantity of another field.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct SubtrahendSubject {
-    pub(super) field: SameArc<OwnedField>,
-    pub(super) shown: SameArc<DisplayedQuantity>,
+pub struct Subtrahend {
+    /// The field.
+    pub field: SameArc<OwnedField>,
+    /// The displayed quantity.
+    pub shown: SameArc<DisplayedQuantity>,
+}
+
+impl Subtrahend {
+    /// The side of the difference.
+    #[must_use]
+    pub fn side(&self) -> DifferenceSide<'_> {
+        DifferenceSide { field: self.field.field(), shown: &self.shown }
+    }
 }
 
 impl FrameSubject {
-    /// True if single precision shows the field.
-    pub(super) fn bears_single(&self) -> bool {
-        single_precision_error(self.field.0.field().step).is_none()
-    }
-
     /// True for the whole of a half.
     pub(super) fn is_mirrored(&self) -> bool {
         self.lines != MirrorLines::default()
@@ -52,21 +60,20 @@ impl FrameSubject {
 
     /// The field, and what is subtracted from what is shown of it.
     pub(super) fn source(&self) -> FieldSource<'_> {
-        let left = self.minus.as_ref();
-        let left =
-            left.map(|left| DifferenceSide { field: left.field.0.field(), shown: &left.shown.0 });
-        FieldSource { dataset: self.field.0.dataset(), field: self.field.0.field(), left }
+        let left = self.left.as_ref().map(Subtrahend::side);
+        FieldSource { left, ..FieldSource::of(self.field.dataset(), self.field.field()) }
     }
 
     /// The data that images of it are made of.
-    pub(super) fn input<'a>(&'a self, seen: &'a BodyView<'a>) -> ImageInput<'a> {
-        ImageInput { source: self.source(), shown: &self.shown.0, name: "", seen }
+    pub(super) fn input<'a>(&'a self, body: &'a OwnedBody) -> ImageInput<'a> {
+        let seen = body.borrow_dependent();
+        ImageInput { source: self.source(), shown: &self.shown, name: "", seen }
     }
 
     /// Where an error lies that keeps its values from being drawn.
     pub(super) fn fault(&self) -> FaultOrigin {
         match self {
-            Self { minus: Some(_), .. } => FaultOrigin::Minus,
+            Self { left: Some(_), .. } => FaultOrigin::Minus,
             Self { factor: Some(_), .. } => FaultOrigin::Deformed,
             _ if self.is_mirrored() => FaultOrigin::Mirror,
             _ => FaultOrigin::Quantity,
@@ -95,7 +102,7 @@ impl SubjectFields {
         field: &Arc<OwnedField>,
         quantity: Option<&String>,
     ) -> Result<Arc<DisplayedQuantity>, ImageFailure> {
-        self.shown.get_or((SameArc::of(field), quantity.cloned()), || {
+        self.shown.get_or((field.into(), quantity.cloned()), || {
             let field = field.field();
             let text = quantity.map_or(default_quantity(field), String::as_str);
             shown(text, field).map(Arc::new).map_err(ImageFailure::at(FaultOrigin::Quantity))
@@ -116,60 +123,47 @@ pub(super) struct Subjects {
 const DEFORMED: &str = "of the deformed plate there is no difference; press d";
 
 impl Subjects {
-    /// The subject of what is wanted.
-    pub(super) fn find(&mut self, wanted: &FrameRequest) -> Result<FrameSubject, ImageFailure> {
-        let scene = &wanted.scene;
-        let key = (SameArc::of(&wanted.dataset), scene.subject.clone());
-        let field = self.own.fields.get_or(key, || field(&wanted.dataset, &scene.subject))?;
-        let shown = self.own.shown(&field, scene.quantity.as_ref())?;
-        if wanted.minus.is_some() && scene.deformed.is_some() {
+    /// The subject of what is requested.
+    pub(super) fn find(&mut self, request: &FrameRequest) -> Result<FrameSubject, ImageFailure> {
+        let scene = &request.scene;
+        let key = (request.dataset.clone(), scene.subject.clone());
+        let field = self.own.fields.get_or(key, || field(&request.dataset, &scene.subject))?;
+        let shown = self.own.shown(&field, scene.quantity.as_ref())?.into();
+        if request.minus.is_some() && scene.deformed.is_some() {
             return Err(ImageFailure::new(FaultOrigin::Minus, DEFORMED));
         }
         let number = || scene.deformed.map(|factor| factor.number(&[field.field()])).transpose();
-        let key = (SameArc::of(&field), scene.deformed);
-        let factor = self
-            .factors
-            .get_or(key, || number().map_err(ImageFailure::at(FaultOrigin::Deformed)))?;
-        let lines = self.lines(&field, wanted)?;
-        if wanted.minus.is_none() {
+        let factor = self.factors.get_or(((&field).into(), scene.deformed), || {
+            number().map_err(ImageFailure::at(FaultOrigin::Deformed))
+        })?;
+        if request.minus.is_some() && scene.mirror.is_some() {
+            let difference = MirrorError::Difference.to_string();
+            return Err(ImageFailure::new(FaultOrigin::Mirror, difference));
+        }
+        let lines = self.lines.get_or(((&field).into(), scene.mirror.clone()), || {
+            let lines = FieldSource::of(field.dataset(), field.field()).lines(scene);
+            lines.map_err(ImageFailure::at(FaultOrigin::Mirror))
+        })?;
+        if request.minus.is_none() {
             // what was subtracted before may have been closed
             self.minus = SubjectFields::default();
         }
-        let other = wanted.minus.as_ref().map(|minus| self.other(minus)).transpose();
-        let of_left =
-            |ImageFailure { message, .. }: ImageFailure| format!("on the left: {message}");
-        let minus =
-            other.map_err(|failure| ImageFailure::new(FaultOrigin::Minus, of_left(failure)))?;
-        Ok(FrameSubject { field: SameArc(field), shown: SameArc(shown), factor, lines, minus })
-    }
-
-    /// The lines at which a field is mirrored.
-    fn lines(
-        &mut self,
-        field: &Arc<OwnedField>,
-        wanted: &FrameRequest,
-    ) -> Result<MirrorLines, ImageFailure> {
-        let scene = &wanted.scene;
-        let failed = |error: MirrorError| ImageFailure::new(FaultOrigin::Mirror, error.to_string());
-        match &scene.mirror {
-            None => return Ok(MirrorLines::default()),
-            Some(_) if wanted.minus.is_some() => return Err(failed(MirrorError::Difference)),
-            Some(_) => {}
-        }
-        let lines = || FieldSource::of(field.dataset(), field.field()).lines(scene);
-        let key = (SameArc::of(field), scene.mirror.clone());
-        self.lines.get_or(key, || lines().map_err(failed))
+        let left = request.minus.as_ref().map(|minus| self.other(minus)).transpose();
+        let on_left = |failure: ImageFailure| {
+            ImageFailure::new(FaultOrigin::Minus, format!("on the left: {}", failure.message))
+        };
+        Ok(FrameSubject { field: field.into(), shown, factor, lines, left: left.map_err(on_left)? })
     }
 
     /// Returns the subtrahend; a field that is looked at anyway is not made twice.
-    fn other(&mut self, wanted: &SubtractedImage) -> Result<SubtrahendSubject, ImageFailure> {
-        let key = (SameArc::of(&wanted.dataset), wanted.subject.clone());
+    fn other(&mut self, image: &SubtractedImage) -> Result<Subtrahend, ImageFailure> {
+        let key = (image.dataset.clone(), image.subject.clone());
         let field = match self.own.fields.get(&key) {
             Some(field) => field,
-            None => self.minus.fields.get_or(key, || field(&wanted.dataset, &wanted.subject))?,
+            None => self.minus.fields.get_or(key, || field(&image.dataset, &image.subject))?,
         };
-        let shown = self.minus.shown(&field, wanted.quantity.as_ref())?;
-        Ok(SubtrahendSubject { field: SameArc(field), shown: SameArc(shown) })
+        let shown = self.minus.shown(&field, image.quantity.as_ref())?;
+        Ok(Subtrahend { field: field.into(), shown: shown.into() })
     }
 }
 
@@ -191,32 +185,25 @@ fn field(
 }
 
 self_cell!(
-    struct SubjectField {
+    /// The part of a body that is seen, with its field.
+    pub(super) struct OwnedBody {
         owner: Arc<OwnedField>,
         #[covariant]
         dependent: BodyView,
     }
 );
 
-/// The visible part of a field, with the field.
-pub(super) struct OwnedSubjectView(SubjectField);
-
-impl OwnedSubjectView {
-    /// Computes the visible part of a subject in a view.
-    pub(super) fn new(target: &SubjectView, watcher: &dyn Watcher) -> Result<Self, DeformError> {
-        let SubjectView { subject, view } = target;
-        SubjectField::try_new(Arc::clone(&subject.field.0), |field| match subject.factor {
-            None => Ok(BodyView::new(field.field(), *view, subject.lines)),
-            Some(factor) => {
-                let seen = Deformation::new(field.field(), factor)?.seen(view);
-                BodyView::deformed(&seen, subject.lines, watcher)
-            }
-        })
-        .map(Self)
-    }
-
-    /// Returns the visible part.
-    pub(super) fn seen(&self) -> &BodyView<'_> {
-        self.0.borrow_dependent()
-    }
+/// Computes the part of a subject that is seen in a view.
+pub(super) fn visible_body(
+    SubjectView { subject, view }: &SubjectView,
+    watcher: &dyn Watcher,
+) -> Result<Arc<OwnedBody>, ImageFailure> {
+    let body = OwnedBody::try_new(Arc::clone(&subject.field), |field| match subject.factor {
+        None => Ok(BodyView::new(field.field(), *view, subject.lines)),
+        Some(factor) => {
+            let seen = Deformation::new(field.field(), factor)?.seen(view);
+            BodyView::deformed(&seen, subject.lines, watcher)
+        }
+    });
+    body.map(Arc::new).map_err(ImageFailure::at(FaultOrigin::Deformed))
 }

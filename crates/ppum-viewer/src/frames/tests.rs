@@ -23,8 +23,8 @@ use ppum_scene::scene::SceneRequest;
 use ppum_scene::shot::{FieldSource, shot};
 use ppum_testkit::synthetic::Recipe;
 
-use super::maker::{FrameMaker, LatestRequest, NextStep, Patience};
-use super::stop::{Ask, FrameClaim, FrameStop};
+use super::maker::{FrameMaker, FrameStop, NextStep, Patience};
+use super::request::{AskStatus, LatestRequest, RequestStatus};
 use super::worker;
 use super::{Backend, FrameRequest, PaneFrames, RenderedFrame, SubtractedImage};
 
@@ -52,10 +52,10 @@ fn maker() -> FrameMaker {
 /// All frames up to the final one; time passes from step to step.
 fn finished(maker: &mut FrameMaker, wanted: &FrameRequest) -> Vec<Arc<RenderedFrame>> {
     let (wish, mut now) =
-        (LatestRequest { wanted: wanted.clone(), rests_at: None }, Instant::now());
+        (LatestRequest { request: wanted.clone(), rests_at: None }, Instant::now());
     let mut frames = Vec::new();
     loop {
-        let step = maker.step(&wish, now, &|| FrameClaim::Wanted).unwrap();
+        let step = maker.step(&wish, now, &|| RequestStatus::Current).unwrap();
         frames.extend(step.frame);
         match step.next {
             NextStep::More => {}
@@ -69,8 +69,12 @@ fn finished(maker: &mut FrameMaker, wanted: &FrameRequest) -> Vec<Arc<RenderedFr
 fn moving(maker: &mut FrameMaker, wanted: &FrameRequest) -> Arc<RenderedFrame> {
     let now = Instant::now();
     let wish =
-        LatestRequest { wanted: wanted.clone(), rests_at: Some(now + Duration::from_secs(60)) };
-    maker.step(&wish, now, &|| FrameClaim::Wanted).unwrap().frame.expect("a frame comes at once")
+        LatestRequest { request: wanted.clone(), rests_at: Some(now + Duration::from_secs(60)) };
+    maker
+        .step(&wish, now, &|| RequestStatus::Current)
+        .unwrap()
+        .frame
+        .expect("a frame comes at once")
 }
 
 fn values(drawn: &PixelValues) -> Raster {
@@ -104,7 +108,7 @@ fn the_final_picture_is_that_of_ppum_render() {
     moving(&mut maker, &wanted);
     let frames = finished(&mut maker, &wanted);
     let last = frames.last().unwrap();
-    assert!(last.is_final && last.wanted == wanted);
+    assert!(last.is_final && last.request == wanted);
     let (field, view) = (last.field.field(), &wanted.view);
     let raster = render::<f64>(field, view, &Quantity::VonMises, unwatched()).unwrap();
     let drawn = PixelValues::new(raster, field, view, "cpu f64");
@@ -146,8 +150,8 @@ fn only_what_has_changed_is_made_anew() {
     let mut wanted = wanted(&dataset);
     finished(&mut maker, &wanted);
     let made = |maker: &FrameMaker| {
-        let FrameMaker { subjects, values, ranges, painted, over, .. } = maker;
-        [subjects.own.fields.made, values.whole.made, ranges.made, painted.made, over.layers.made]
+        let FrameMaker { subjects, values, ranges, painted, layers, .. } = maker;
+        [subjects.own.fields.made, values.whole.made, ranges.made, painted.made, layers.made]
     };
     let first = made(&maker);
     assert_eq!([first[0], first[1], first[2], first[4]], [1; 4]);
@@ -214,7 +218,7 @@ fn who_moves_sees_strips_of_differences() {
     let (dataset, mut maker) = (dataset(), maker());
     let other = Arc::new(Recipe { seed: 7, level: 3, ..Recipe::default() }.dataset());
     let subtracted = |quantity: Option<&str>| SubtractedImage {
-        dataset: Arc::clone(&other),
+        dataset: Arc::clone(&other).into(),
         subject: ppum_scene::scene::Subject::default(),
         quantity: quantity.map(str::to_owned),
     };
@@ -228,7 +232,7 @@ fn who_moves_sees_strips_of_differences() {
     let apart = exact(last, &wanted.view);
     let is_same = |(a, b): (&f64, &f64)| a == b || a.is_nan() && b.is_nan();
     assert!(values(&last.drawn).values.iter().zip(&values(&apart).values).all(is_same));
-    assert_eq!(last.subtracted.as_ref().unwrap().norms, apart.norms);
+    assert_eq!(last.norms, apart.norms);
     assert!(last.is_final && apart.norms.unwrap().absolute[2] > 0.0);
 
     wanted = beside(&wanted, 5.0, -3.0);
@@ -249,7 +253,7 @@ fn who_moves_sees_strips_of_differences() {
     let last = finished(&mut maker, &wanted).pop().unwrap();
     assert!(last.minus().is_some() && maker.subjects.own.fields.made == fields);
     wanted.minus = None;
-    assert!(finished(&mut maker, &wanted).pop().unwrap().subtracted.is_none());
+    assert!(finished(&mut maker, &wanted).pop().unwrap().left.is_none());
     // nothing holds what was subtracted any more
     drop((whole, moved, far, last));
     assert_eq!(Arc::strong_count(&other), 1);
@@ -306,21 +310,21 @@ fn ranges_stay_while_one_moves_and_glide_to_the_true_one() {
 #[test]
 fn what_is_nearly_there_is_finished_and_the_rest_is_stopped() {
     let (dataset, mut maker) = (dataset(), maker());
-    let wish = LatestRequest { wanted: wanted(&dataset), rests_at: None };
+    let wish = LatestRequest { request: wanted(&dataset), rests_at: None };
     // a machine that is busy may take long even for a rough picture
     maker.patience = Patience(Duration::MAX);
-    let gone = maker.step(&wish, Instant::now(), &|| FrameClaim::Gone);
+    let gone = maker.step(&wish, Instant::now(), &|| RequestStatus::Closed);
     assert!(matches!(gone, Err(FrameStop::Cancelled)), "nobody waits for a rough picture either");
     let rough = maker
-        .step(&wish, Instant::now(), &|| FrameClaim::Replaced)
+        .step(&wish, Instant::now(), &|| RequestStatus::Replaced)
         .unwrap()
         .frame
         .expect("a rough picture");
     assert!(rough.drawn.view.pixels[0] < PIXELS[0]);
-    let stopped = maker.step(&wish, Instant::now(), &|| FrameClaim::Replaced);
+    let stopped = maker.step(&wish, Instant::now(), &|| RequestStatus::Replaced);
     assert!(matches!(stopped, Err(FrameStop::Cancelled)));
     assert_eq!(maker.values.whole.made, 0);
-    assert!(finished(&mut maker, &wish.wanted).last().unwrap().is_final);
+    assert!(finished(&mut maker, &wish.request).last().unwrap().is_final);
 }
 
 #[test]
@@ -330,10 +334,10 @@ fn mistakes_are_told_where_they_are() {
     let fault = |maker: &mut FrameMaker, change: &dyn Fn(&mut FrameRequest)| {
         let mut wanted = wanted(&dataset);
         change(&mut wanted);
-        let (wish, mut now) = (LatestRequest { wanted, rests_at: None }, Instant::now());
+        let (wish, mut now) = (LatestRequest { request: wanted, rests_at: None }, Instant::now());
         loop {
             now += Duration::from_millis(16);
-            match maker.step(&wish, now, &|| FrameClaim::Wanted) {
+            match maker.step(&wish, now, &|| RequestStatus::Current) {
                 Ok(step) if step.next == NextStep::Rest => return None,
                 Ok(_) => {}
                 Err(FrameStop::Failed(failure)) => return Some(failure.fault),
@@ -455,8 +459,8 @@ fn a_graphics_device_draws_what_the_processor_draws() {
 #[test]
 fn a_panic_is_told_and_does_no_harm() {
     let (dataset, mut maker) = (dataset(), maker());
-    let wish = LatestRequest { wanted: wanted(&dataset), rests_at: None };
-    let run = |maker: &mut FrameMaker, claim: Ask<'_>| loop {
+    let wish = LatestRequest { request: wanted(&dataset), rests_at: None };
+    let run = |maker: &mut FrameMaker, claim: AskStatus<'_>| loop {
         match worker::step(maker, Backend::Cpu, &wish, claim) {
             (Some(Err(failure)), next) => return (Some(failure.fault), next),
             (_, NextStep::Rest) => return (None, NextStep::Rest),
@@ -465,6 +469,6 @@ fn a_panic_is_told_and_does_no_harm() {
     };
     let broken = || panic!("a mistake of the program, made by a test");
     assert_eq!(run(&mut maker, &broken), (Some(super::FaultOrigin::Program), NextStep::Rest));
-    assert_eq!(run(&mut maker, &|| FrameClaim::Wanted), (None, NextStep::Rest));
+    assert_eq!(run(&mut maker, &|| RequestStatus::Current), (None, NextStep::Rest));
     assert_eq!(maker.values.whole.made, 1);
 }

@@ -6,15 +6,16 @@ use std::time::Instant;
 use ppum::progress::Watcher;
 use ppum_render::resample::norms::DifferenceNorms;
 use ppum_render::samples::Samples;
+use ppum_render::scatter::render;
 use ppum_render::view::View;
-use ppum_scene::drawing::{DrawingInput, PixelValues};
+use ppum_scene::drawing::{DrawingInput, PROCESSOR, PixelValues, single_precision_error};
 use ppum_scene::engine::{Backend, Engine, Precision};
 
-use super::memo::Memo;
-use super::renderer::ValueRenderer;
+use super::renderer::GraphicsCard;
 use super::strips::{Shift, moved};
-use super::subject::{FrameSubject, OwnedSubjectView, SubjectView};
+use super::subject::{FrameSubject, OwnedBody, SubjectView, visible_body};
 use super::{FaultOrigin, ImageFailure};
+use crate::memo::Memo;
 
 /// Time above which values are drawn roughly first \[s\].
 const QUICK: f64 = 0.02;
@@ -23,43 +24,49 @@ const COARSE: u32 = 4;
 
 /// Draws values, and keeps those of the last place.
 pub(super) struct ValueCache {
-    pub(super) renderer: ValueRenderer,
+    pub(super) card: GraphicsCard,
     pub(super) whole: Memo<SubjectView, Arc<PixelValues>>,
     pub(super) rough: Memo<SubjectView, Arc<PixelValues>>,
     /// Pixels of rough images that were drawn.
     pub(super) pixels: usize,
-    seen: Memo<SubjectView, Arc<OwnedSubjectView>>,
-    pace: Pace,
+    bodies: Memo<SubjectView, Arc<OwnedBody>>,
+    pace: (Option<FrameSubject>, Pace),
 }
 
 /// Seconds a pixel, as the last images of a subject took.
 #[derive(Debug, Default)]
 struct Pace {
-    subject: Option<FrameSubject>,
     whole: Option<f64>,
     single: Option<f64>,
 }
 
 impl ValueCache {
-    pub(super) fn new(renderer: ValueRenderer) -> Self {
+    pub(super) fn new(backend: Backend) -> Self {
         Self {
-            renderer,
+            card: GraphicsCard::new(backend),
             whole: Memo::default(),
             rough: Memo::default(),
             pixels: 0,
-            seen: Memo::default(),
-            pace: Pace::default(),
+            bodies: Memo::default(),
+            pace: Default::default(),
         }
+    }
+
+    /// How fast images of a subject are drawn.
+    fn pace(&mut self, subject: &FrameSubject) -> &mut Pace {
+        if self.pace.0.as_ref() != Some(subject) {
+            self.pace = (Some(subject.clone()), Pace::default());
+        }
+        &mut self.pace.1
     }
 
     /// True if a place needs a rough image: it may take long, or one moves on before it could be
     /// done.
-    pub(super) fn needs_rough(&self, target: &SubjectView, is_moving: bool) -> bool {
-        let is_quick =
-            self.pace.of(&target.subject).whole.is_some_and(|pace| is_quick(pace, &target.view));
+    pub(super) fn needs_rough(&mut self, target: &SubjectView, is_moving: bool) -> bool {
+        let subject = &target.subject;
+        let is_quick = self.pace(subject).whole.is_some_and(|pace| is_quick(pace, &target.view));
         // differences and mirrored bodies are the processor's
-        let is_for_card = target.subject.minus.is_none() && !target.subject.is_mirrored();
-        let has_card = self.renderer.has_card() && is_for_card;
+        let has_card = self.card.is_open() && subject.left.is_none() && !subject.is_mirrored();
         !is_quick || is_moving && !has_card
     }
 
@@ -70,12 +77,19 @@ impl ValueCache {
         watcher: &dyn Watcher,
     ) -> Result<Arc<PixelValues>, ImageFailure> {
         let (start, subject) = (Instant::now(), &target.subject);
-        let seen = self.seen(target, watcher)?;
-        let renderer = &mut self.renderer;
-        let draw = &mut |job: DrawingInput<'_>, _| Ok(renderer.draw(subject, job, watcher)?);
-        let drawn = subject.input(seen.seen()).values_by(Samples::CENTER, draw, watcher);
+        let body = self.body(target, watcher)?;
+        let card = &mut self.card;
+        let draw = &mut |job: DrawingInput<'_>, _| match card.draw(subject, job) {
+            Some(drawn) => Ok(drawn),
+            None => {
+                let DrawingInput { field, view, quantity } = job;
+                let raster = render::<f64>(field, view, quantity, watcher)?;
+                Ok(PixelValues::new(raster, field, view, PROCESSOR))
+            }
+        };
+        let drawn = subject.input(&body).values_by(Samples::CENTER, draw, watcher);
         let drawn = Arc::new(drawn.map_err(ImageFailure::at(subject.fault()))?);
-        self.pace.of_mut(subject).whole = Some(per_pixel(start, &target.view));
+        self.pace(subject).whole = Some(per_pixel(start, &target.view));
         self.whole.set(target.clone(), Arc::clone(&drawn));
         Ok(drawn)
     }
@@ -96,7 +110,7 @@ impl ValueCache {
     ) -> Result<Arc<PixelValues>, ImageFailure> {
         let subject = &target.subject;
         let is_whole = subject.factor.is_some() || subject.is_mirrored();
-        let is_of_cells = subject.minus.is_none() && subject.shown.0.quantity().is_none();
+        let is_of_cells = subject.left.is_none() && subject.shown.quantity().is_none();
         let drawn = match is_whole || is_of_cells {
             true => soon(subject, &coarse(&target.view), watcher)?,
             false => self.draw_soon(target, watcher)?,
@@ -126,7 +140,7 @@ impl ValueCache {
         let drawn = drawn?;
         self.pixels += pixels;
         if !is_beside {
-            self.pace.of_mut(&target.subject).single = Some(per_pixel(start, &view));
+            self.pace(&target.subject).single = Some(per_pixel(start, &view));
         }
         Ok(drawn)
     }
@@ -143,38 +157,21 @@ impl ValueCache {
     }
 
     /// The view itself if it is soon drawn in single precision, else a coarse one.
-    fn affordable(&self, target: &SubjectView) -> View {
-        let Pace { whole, single, .. } = self.pace.of(&target.subject);
+    fn affordable(&mut self, target: &SubjectView) -> View {
+        let Pace { whole, single } = *self.pace(&target.subject);
         // double precision takes longer; coarse images take longer for each of their pixels
         let pace = [whole, single].into_iter().flatten().reduce(f64::min);
         let is_quick = pace.is_some_and(|pace| is_quick(pace, &target.view));
         if is_quick { target.view } else { coarse(&target.view) }
     }
 
-    /// Returns the visible part of a place that was drawn.
-    pub(super) fn seen(
+    /// Returns the visible part of the body at a place.
+    pub(super) fn body(
         &mut self,
         target: &SubjectView,
         watcher: &dyn Watcher,
-    ) -> Result<Arc<OwnedSubjectView>, ImageFailure> {
-        let make = || OwnedSubjectView::new(target, watcher).map(Arc::new);
-        self.seen.get_or(target.clone(), || make().map_err(ImageFailure::at(FaultOrigin::Deformed)))
-    }
-}
-
-impl Pace {
-    fn of(&self, subject: &FrameSubject) -> Self {
-        match self.subject.as_ref() == Some(subject) {
-            true => Self { subject: None, ..*self },
-            false => Self::default(),
-        }
-    }
-
-    fn of_mut(&mut self, subject: &FrameSubject) -> &mut Self {
-        if self.subject.as_ref() != Some(subject) {
-            *self = Self { subject: Some(subject.clone()), ..Self::default() };
-        }
-        self
+    ) -> Result<Arc<OwnedBody>, ImageFailure> {
+        self.bodies.get_or(target.clone(), || visible_body(target, watcher))
     }
 }
 
@@ -184,13 +181,11 @@ fn soon(
     view: &View,
     watcher: &dyn Watcher,
 ) -> Result<PixelValues, ImageFailure> {
-    let target = SubjectView { subject: subject.clone(), view: *view };
-    let seen =
-        OwnedSubjectView::new(&target, watcher).map_err(ImageFailure::at(FaultOrigin::Deformed))?;
-    let precision = subject.bears_single().then_some(Precision::F32);
-    let engine = Engine::new(Backend::Cpu, precision, None, watcher);
+    let body = visible_body(&SubjectView { subject: subject.clone(), view: *view }, watcher)?;
+    let is_single = single_precision_error(subject.field.field().step).is_none();
+    let engine = Engine::new(Backend::Cpu, is_single.then_some(Precision::F32), None, watcher);
     let engine = engine.map_err(ImageFailure::at(FaultOrigin::Quantity))?;
-    let drawn = subject.input(seen.seen()).values(Samples::CENTER, &engine);
+    let drawn = subject.input(&body).values(Samples::CENTER, &engine);
     drawn.map_err(ImageFailure::at(subject.fault()))
 }
 

@@ -3,11 +3,11 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
-use super::maker::{FrameMaker, LatestRequest, NextStep, StepResult};
+use super::maker::{FrameMaker, FrameStop, NextStep, StepResult};
 use super::renderer::Backend;
-use super::stop::{Ask, FrameClaim, FrameStop};
+use super::request::{AskStatus, LatestRequest, RequestStatus};
 use super::{FaultOrigin, FrameResult, ImageFailure};
 
 /// Calls whoever shows the images.
@@ -18,23 +18,22 @@ pub(super) type Wake = Box<dyn Fn() + Send>;
 pub(super) fn step(
     maker: &mut FrameMaker,
     backend: Backend,
-    wish: &LatestRequest,
-    claim: Ask<'_>,
+    latest: &LatestRequest,
+    status: AskStatus<'_>,
 ) -> (Option<FrameResult>, NextStep) {
-    let made = catch_unwind(AssertUnwindSafe(|| maker.step(wish, Instant::now(), claim)));
+    let made = catch_unwind(AssertUnwindSafe(|| maker.step(latest, Instant::now(), status)));
     match made {
         Ok(Ok(StepResult { frame, next })) => (frame.map(Ok), next),
         Ok(Err(FrameStop::Cancelled)) => (None, NextStep::More),
         Ok(Err(FrameStop::Failed(failure))) => (Some(Err(failure)), NextStep::Rest),
         Err(_) => {
             *maker = FrameMaker::new(backend);
-            let message = PANIC.to_owned();
-            (Some(Err(ImageFailure { fault: FaultOrigin::Program, message })), NextStep::Rest)
+            (Some(Err(ImageFailure::new(FaultOrigin::Program, PANIC))), NextStep::Rest)
         }
     }
 }
 
-const PANIC: &str = "a mistake of the program keeps it from drawing this; choose something else, and please report it";
+const PANIC: &str = "internal error, please report it: this cannot be drawn; choose something else";
 
 /// Adds an outcome; of frames that nobody has taken the last one is enough.
 fn add(outcomes: &mut Vec<FrameResult>, outcome: Option<FrameResult>) {
@@ -56,9 +55,9 @@ struct WorkerChannel {
 
 #[derive(Default)]
 struct WorkerState {
-    wish: Option<LatestRequest>,
-    /// Wishes so far, and the last one that is fulfilled.
-    wishes: usize,
+    latest: Option<LatestRequest>,
+    /// Requests so far, and the number of the last one that is fulfilled.
+    count: usize,
     fulfilled: usize,
     is_closed: bool,
     outcomes: Vec<FrameResult>,
@@ -69,32 +68,27 @@ impl WorkerChannel {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// The wish to work for, with its number, when something is to be done for it; none if nobody
-    /// wants anything any more.
+    /// The request to work for, with its number, when something is to be done for it; none if the
+    /// pane is closed.
     fn next(&self, number: usize, next: NextStep) -> Option<(LatestRequest, usize)> {
-        let is_waiting = |state: &mut WorkerState| state.wishes == number && !state.is_closed;
-        let mut state = self.state();
-        state = match next {
-            NextStep::More => state,
-            NextStep::After(time) => {
-                let waited = self.changed.wait_timeout_while(state, time, is_waiting);
-                waited.unwrap_or_else(PoisonError::into_inner).0
-            }
-            NextStep::Rest => {
-                let waited = self.changed.wait_while(state, is_waiting);
-                waited.unwrap_or_else(PoisonError::into_inner)
-            }
+        let time = match next {
+            NextStep::More => Duration::ZERO,
+            NextStep::After(time) => time,
+            NextStep::Rest => Duration::MAX,
         };
-        let wish = state.wish.clone().filter(|_| !state.is_closed)?;
-        Some((wish, state.wishes))
+        let is_waiting = |state: &mut WorkerState| state.count == number && !state.is_closed;
+        let waited = self.changed.wait_timeout_while(self.state(), time, is_waiting);
+        let (state, _) = waited.unwrap_or_else(PoisonError::into_inner);
+        let latest = state.latest.clone().filter(|_| !state.is_closed)?;
+        Some((latest, state.count))
     }
 
-    fn claim(&self, number: usize) -> FrameClaim {
+    fn status(&self, number: usize) -> RequestStatus {
         let state = self.state();
         match () {
-            () if state.is_closed => FrameClaim::Gone,
-            () if state.wishes != number => FrameClaim::Replaced,
-            () => FrameClaim::Wanted,
+            () if state.is_closed => RequestStatus::Closed,
+            () if state.count != number => RequestStatus::Replaced,
+            () => RequestStatus::Current,
         }
     }
 }
@@ -107,10 +101,10 @@ impl Worker {
         Self(shared)
     }
 
-    pub(super) fn want(&self, wish: LatestRequest) {
+    pub(super) fn want(&self, latest: LatestRequest) {
         let mut state = self.0.state();
-        state.wish = Some(wish);
-        state.wishes += 1;
+        state.latest = Some(latest);
+        state.count += 1;
         // why something else had no image is no news
         state.outcomes.retain(Result::is_ok);
         drop(state);
@@ -123,7 +117,7 @@ impl Worker {
 
     pub(super) fn is_working(&self) -> bool {
         let state = self.0.state();
-        state.wishes != state.fulfilled || !state.outcomes.is_empty()
+        state.count != state.fulfilled || !state.outcomes.is_empty()
     }
 }
 
@@ -138,12 +132,12 @@ impl Drop for Worker {
 fn serve(shared: &WorkerChannel, backend: Backend, wake: &Wake) {
     let mut maker = FrameMaker::new(backend);
     let (mut number, mut next) = (0, NextStep::Rest);
-    while let Some((wish, newest)) = shared.next(number, next) {
+    while let Some((latest, newest)) = shared.next(number, next) {
         number = newest;
         let outcome;
-        (outcome, next) = step(&mut maker, backend, &wish, &|| shared.claim(number));
+        (outcome, next) = step(&mut maker, backend, &latest, &|| shared.status(number));
         let mut state = shared.state();
-        let is_stale = state.wishes != number;
+        let is_stale = state.count != number;
         let outcome = outcome.filter(|outcome| outcome.is_ok() || !is_stale);
         let has_news = outcome.is_some();
         add(&mut state.outcomes, outcome);

@@ -11,34 +11,34 @@ use ppum_scene::range::RangeLocations;
 use super::{failure, note, wrong};
 use crate::actions::Action;
 use crate::frames::{FaultOrigin, RenderedFrame, ResampledView};
+use crate::measure::words::value;
 use crate::panel_context::PanelContext;
-use crate::reading::words::value;
 use crate::session::Pane;
-use crate::stage::difference::rounded;
+use crate::viewport::difference::rounded;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    against_left(ui, desk);
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    against_left(ui, context);
     ui.separator();
-    against_resampled(ui, desk);
+    against_resampled(ui, context);
 }
 
 /// The difference of the two views, how large it is, and where.
-fn against_left(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let mut is_on = desk.session.minus.is_shown;
+fn against_left(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let mut is_on = context.session.minus.is_shown;
     let text =
         "On the right, the values minus those of the left: of two files, steps or quantities";
     if ui.checkbox(&mut is_on, "right − left").on_hover_text(text).changed() {
-        desk.actions.push(Action::Minus);
+        context.actions.push(Action::Minus);
     }
-    if !desk.session.minus.is_shown {
+    if !context.session.minus.is_shown {
         return;
     }
-    let Some(stage) = desk.stages.get(1) else { return };
-    let Some(frame) = stage.frames.newest() else { return };
-    if let (Some(minus), Some(left)) = (frame.minus(), &frame.subtracted) {
+    let Some(viewport) = context.viewports.get(1) else { return };
+    let Some(frame) = viewport.frames.newest() else { return };
+    if let Some(minus) = frame.minus() {
         let [_, unit] = minus.words();
-        if let Some(norms) = &left.norms {
+        if let Some(norms) = &frame.norms {
             sizes(ui, norms, &unit);
         }
         extrema(ui, frame, &unit);
@@ -46,7 +46,7 @@ fn against_left(ui: &mut Ui, desk: &mut PanelContext<'_>) {
             ui.label(RichText::new(warning).color(wrong(ui)));
         }
     }
-    failure(ui, stage, FaultOrigin::Minus);
+    failure(ui, viewport, FaultOrigin::Minus);
 }
 
 /// The norms of a difference, and what part of the left they are.
@@ -75,18 +75,18 @@ fn extrema(ui: &mut Ui, frame: &RenderedFrame, unit: &str) {
     ui.label(note(ui, text));
 }
 
-fn against_resampled(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
+fn against_resampled(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let (pane, viewport) = context.active();
     let mut is_on = pane.compare.is_some();
-    let text = "What a picture looks like that is interpolated between the points of a grid";
+    let text = "The image that is interpolated between the points of a grid";
     if ui.checkbox(&mut is_on, "against resampled").on_hover_text(text).changed() {
         pane.compare = is_on.then(Compare::default);
     }
     if pane.compare.is_some() {
         chosen(ui, pane);
-        let other = stage.frames.newest().and_then(|frame| frame.other.as_ref());
+        let other = viewport.frames.newest().and_then(|frame| frame.other.as_ref());
         match other {
-            _ if stage.pair.minus().is_some() => {
+            _ if viewport.pair.minus().is_some() => {
                 ui.label(note(ui, "A difference is not resampled: compare one of its sides"));
             }
             _ if pane.scene.deformed.is_some() => {
@@ -102,7 +102,7 @@ fn against_resampled(ui: &mut Ui, desk: &mut PanelContext<'_>) {
             None => {}
         }
     }
-    failure(ui, stage, FaultOrigin::Compare);
+    failure(ui, viewport, FaultOrigin::Compare);
 }
 
 /// Method, grid, and what stands on the right of the divider.

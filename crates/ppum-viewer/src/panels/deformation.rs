@@ -12,27 +12,27 @@ use crate::controls::deformation_animation::DeformationAnimation;
 use crate::frames::FaultOrigin;
 use crate::panel_context::PanelContext;
 use crate::session::Pane;
-use crate::stage::ViewPane;
+use crate::viewport::ViewState;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
-    let is_elastic = stage.controls.facts.is_elastic;
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let (pane, viewport) = context.active();
+    let is_elastic = viewport.controls.facts.is_elastic;
     let is_off = pane.scene.deformed.is_none();
     ui.add_enabled_ui(is_elastic || !is_off, |ui| {
-        kinds(ui, pane, &stage.controls);
+        kinds(ui, pane, &viewport.controls);
         if pane.scene.deformed.is_some() {
-            factor(ui, pane, &stage.controls);
-            motion(ui, pane, &mut stage.controls);
+            factor(ui, pane, &viewport.controls);
+            motion(ui, pane, &mut viewport.controls);
         }
     });
     if !is_elastic && is_off {
         ui.weak("A potential has no displacements");
     }
     mirror(ui, pane);
-    factor_note(ui, stage);
-    failure(ui, stage, FaultOrigin::Deformed);
-    failure(ui, stage, FaultOrigin::Mirror);
+    factor_note(ui, viewport);
+    failure(ui, viewport, FaultOrigin::Deformed);
+    failure(ui, viewport, FaultOrigin::Mirror);
 }
 
 /// The whole of a half or quarter model.
@@ -105,11 +105,11 @@ fn motion(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls) {
 }
 
 /// The factor of the image.
-fn factor_note(ui: &mut Ui, stage: &ViewPane) {
-    let factor = stage.frames.newest().and_then(|frame| frame.factor);
+fn factor_note(ui: &mut Ui, viewport: &ViewState) {
+    let factor = viewport.frames.newest().and_then(|frame| frame.factor);
     if let Some(factor) = factor {
         // a factor in motion has no digits that one could read
-        let shown = if stage.controls.swing.is_some() { rounded(factor) } else { factor };
+        let shown = if viewport.controls.swing.is_some() { rounded(factor) } else { factor };
         ui.label(note(ui, words(shown)));
     }
 }

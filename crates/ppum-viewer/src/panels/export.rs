@@ -7,33 +7,26 @@ use std::time::Duration;
 
 use egui::{ComboBox, DragValue, Grid, Key, Modifiers, TextEdit, Ui, Window};
 use ppum_scene::help::tooltip;
-use ppum_scene::moving::MotionKind;
 
-use crate::export::{ExportChoice, ExportKind, ImageExport, LengthUnit, PageSize};
-use crate::field::OwnedField;
+use crate::export::{ExportChoice, ImageExport, LengthUnit, Motion, PageSize};
 use crate::frames::RenderedFrame;
 use crate::job::BackgroundJob;
-use crate::replaced_file::{ASK, ReplacedFile};
+use crate::save_target::{SaveTarget, replace};
 use crate::session::Pane;
-use crate::stage::ViewPane;
+use crate::viewport::{OpenDataset, ViewState};
 use crate::widgets::note_folder;
 
 /// The export dialog, while it is open and while the file is made.
 pub struct Exporter {
     what: ExportChoice,
-    path: String,
+    target: SaveTarget,
     page: PageSize,
     /// The page of the other kinds.
     other: PageSize,
-    /// Images a second.
-    rate: f64,
-    /// Images of the deformation's coming and going.
-    count: usize,
+    motion: Motion,
     job: Option<BackgroundJob<Result<String, String>>>,
     /// Images of an animation that were worked on, in both passes.
     done: Arc<AtomicUsize>,
-    told: Option<Result<String, String>>,
-    replacing: ReplacedFile,
     /// The name is written next.
     is_new: bool,
 }
@@ -42,56 +35,42 @@ pub struct Exporter {
 const MOST: f64 = 16_384.0;
 
 impl Exporter {
-    /// Begins with a kind, and the size and name that suit what is seen.
+    /// Begins with a kind, and the size and name that suit what is seen; the steps move as fast as
+    /// the player shows them \[images a second\].
     #[must_use]
-    pub fn new(what: ExportChoice, stage: &ViewPane) -> Self {
-        let pixels = PageSize::pixels(stage.view.map_or([1024, 768], |view| view.pixels));
+    pub fn new(what: ExportChoice, viewport: &ViewState, player: f64) -> Self {
+        let pixels = PageSize::pixels(viewport.camera.view.map_or([1024, 768], |view| view.pixels));
         let (page, other) = match what {
             ExportChoice::Figure => (PageSize::COLUMN, pixels),
             _ => (pixels, PageSize::COLUMN),
         };
-        let path = match &stage.opened {
-            Some(opened) => beside(opened.path.as_deref(), what.ends()[0]),
-            None => String::new(),
+        let mut motion = Motion::default();
+        if what == ExportChoice::Steps {
+            motion.rate = player;
+        }
+        let beside = |opened: &OpenDataset| {
+            let path = opened.path.as_deref().unwrap_or(Path::new("picture"));
+            path.with_extension(what.ends()[0]).to_string_lossy().into_owned()
         };
-        Self {
-            what,
-            path,
-            page,
-            other,
-            rate: 12.0,
-            count: 36,
-            job: None,
-            done: Arc::default(),
-            told: None,
-            replacing: ReplacedFile::default(),
-            is_new: true,
-        }
-    }
-
-    /// Moves as fast as the player shows the steps \[images a second\].
-    #[must_use]
-    pub fn as_fast_as(mut self, player: f64) -> Self {
-        if self.what == ExportChoice::Steps {
-            self.rate = player;
-        }
-        self
+        let target = SaveTarget::new(viewport.opened.as_ref().map_or(String::new(), beside));
+        let done = Arc::default();
+        Self { what, target, page, other, motion, job: None, done, is_new: true }
     }
 
     /// Shows the choice; false once it is closed.
-    pub fn show(&mut self, ui: &Ui, pane: &Pane, stage: &mut ViewPane) -> bool {
-        self.finish();
+    pub fn show(&mut self, ui: &Ui, pane: &Pane, viewport: &mut ViewState) -> bool {
+        if let Some(outcome) = self.job.as_ref().and_then(BackgroundJob::poll) {
+            self.job = None;
+            self.target.result = Some(outcome.flatten());
+        }
         let mut is_open = true;
         let has_list = egui::Popup::is_any_open(ui.ctx());
         let window = Window::new("Save").open(&mut is_open).collapsible(false).resizable(false);
-        let window = window.pivot(egui::Align2::CENTER_TOP);
-        let window =
-            window.default_pos(ui.ctx().content_rect().center_top() + egui::vec2(0.0, 60.0));
-        window.show(ui.ctx(), |ui| match stage.frame().cloned() {
-            Some(frame) => self.choose(ui, pane, stage, &frame),
-            None => {
-                ui.label("There is no picture yet.");
-            }
+        let at = ui.ctx().content_rect().center_top() + egui::vec2(0.0, 60.0);
+        let window = window.pivot(egui::Align2::CENTER_TOP).default_pos(at);
+        window.show(ui.ctx(), |ui| match viewport.frame().cloned() {
+            Some(frame) => self.choose(ui, pane, viewport, &frame),
+            None => drop(ui.label("There is no image yet.")),
         });
         // Escape closes a list first
         let is_closed =
@@ -103,28 +82,29 @@ impl Exporter {
         &mut self,
         ui: &mut Ui,
         pane: &Pane,
-        stage: &mut ViewPane,
+        viewport: &mut ViewState,
         frame: &Arc<RenderedFrame>,
     ) {
         let grid = Grid::new("save").num_columns(2);
-        let file = stage.opened.as_ref().and_then(|opened| opened.path.as_deref());
+        let file = viewport.opened.as_ref().and_then(|opened| opened.path.as_deref());
         let is_entered = grid.show(ui, |ui| self.fields(ui, frame, file)).inner;
-        let order = self.order(pane, stage, frame);
+        let kind = (self.what, self.motion);
+        let Some(order) = viewport.export(pane, kind, Some(self.page)) else { return };
         let path = self.path(order.file.as_deref());
-        let refused = self.refused(&path, order.file.as_deref());
+        let refused = SaveTarget::refusal(&path, self.what.ends(), order.file.as_deref());
         ui.horizontal(|ui| {
             let is_ready = refused.is_none() && self.job.is_none();
             let button = ui.add_enabled(is_ready, egui::Button::new("Save file"));
             if button.clicked() || (is_entered && is_ready) {
-                self.save(ui, (order.clone(), frame.factor), path.clone());
+                self.save(ui, order.clone(), path.clone());
             }
             if let Some(job) = &self.job {
                 ui.spinner();
                 if ui.button("Stop").clicked() {
                     job.cancel();
                 }
-                if let ExportKind::Moving(moving, _) = &order.kind {
-                    ui.label(progress(self.done.load(Ordering::Relaxed), count(moving)));
+                if self.what.is_moving() {
+                    ui.label(progress(self.done.load(Ordering::Relaxed), order.count()));
                     ui.ctx().request_repaint_after(Duration::from_millis(200));
                 }
             }
@@ -132,15 +112,7 @@ impl Exporter {
         if let Some(reason) = refused {
             ui.colored_label(ui.visuals().warn_fg_color, reason);
         }
-        match &self.told {
-            Some(Ok(told)) => {
-                ui.label(told);
-            }
-            Some(Err(error)) => {
-                ui.colored_label(ui.visuals().error_fg_color, error);
-            }
-            None => {}
-        }
+        self.target.show_result(ui);
         if self.what != ExportChoice::Deformation {
             ui.separator();
             command(ui, &order.command(&path));
@@ -173,14 +145,14 @@ impl Exporter {
         ui.end_row();
         let label = ui.label("File");
         let width = (ui.ctx().content_rect().width() - 180.0).clamp(120.0, 340.0);
-        let name = ui.add(TextEdit::singleline(&mut self.path).desired_width(width));
-        let name = name.labelled_by(label.id).on_hover_text(&self.path);
+        let name = ui.add(TextEdit::singleline(&mut self.target.name).desired_width(width));
+        let name = name.labelled_by(label.id).on_hover_text(&self.target.name);
         if std::mem::take(&mut self.is_new) {
             name.request_focus();
         }
         let is_entered = name.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         ui.end_row();
-        if !self.path.trim().is_empty() {
+        if !self.target.name.trim().is_empty() {
             ui.label("");
             ui.scope(|ui| {
                 ui.set_max_width(width);
@@ -189,14 +161,14 @@ impl Exporter {
             ui.end_row();
         }
         size(ui, &mut self.page, self.what == ExportChoice::Figure);
-        if matches!(self.what, ExportChoice::Steps | ExportChoice::Deformation) {
+        if self.what.is_moving() {
             ui.label("Images a second");
-            ui.add(DragValue::new(&mut self.rate).range(0.1..=60.0).speed(0.1));
+            ui.add(DragValue::new(&mut self.motion.rate).range(0.1..=60.0).speed(0.1));
             ui.end_row();
         }
         if self.what == ExportChoice::Deformation {
             ui.label("Images");
-            ui.add(DragValue::new(&mut self.count).range(2..=600));
+            ui.add(DragValue::new(&mut self.motion.count).range(2..=600));
             ui.end_row();
         }
         is_entered
@@ -225,85 +197,37 @@ impl Exporter {
     }
 
     fn end(&self) -> String {
-        let end = Path::new(self.path.trim()).extension().unwrap_or_default();
+        let end = Path::new(self.target.name.trim()).extension().unwrap_or_default();
         end.to_string_lossy().to_lowercase()
     }
 
     fn set_end(&mut self, end: &str) {
-        self.path = Path::new(self.path.trim()).with_extension(end).to_string_lossy().into_owned();
-    }
-
-    fn order(&self, pane: &Pane, stage: &mut ViewPane, frame: &Arc<RenderedFrame>) -> ImageExport {
-        let steps = (0..frame.field.dataset().steps.len()).collect();
-        ImageExport {
-            field: Arc::clone(&frame.field),
-            file: stage.opened.as_ref().and_then(|opened| opened.path.clone()),
-            left: frame.left(),
-            scene: pane.scene.drawn(),
-            view: match self.what {
-                ExportChoice::Picture => stage.view.unwrap_or(frame.wanted.view),
-                _ => stage.cropped(pane).unwrap_or(frame.wanted.view),
-            },
-            page: self.page,
-            kind: match self.what {
-                ExportChoice::Picture => ExportKind::Picture,
-                ExportChoice::Figure => ExportKind::Figure,
-                ExportChoice::Steps => ExportKind::Moving(MotionKind::Steps(steps), self.rate),
-                ExportChoice::Deformation => ExportKind::Moving(
-                    MotionKind::Factor(frame.factor.unwrap_or(1.0), self.count),
-                    self.rate,
-                ),
-            },
-        }
+        let name = Path::new(self.target.name.trim()).with_extension(end);
+        self.target.name = name.to_string_lossy().into_owned();
     }
 
     /// The file: beside the dataset where its name has no folder.
     fn path(&self, dataset: Option<&Path>) -> PathBuf {
-        let name = Path::new(self.path.trim());
+        let name = Path::new(self.target.name.trim());
         let folder = dataset.and_then(Path::parent).filter(|_| name.file_name().is_some());
         folder.map_or_else(|| name.to_owned(), |folder| folder.join(name))
     }
 
-    /// The reason why the file cannot be written under its name, if there is one.
-    fn refused(&self, path: &Path, dataset: Option<&Path>) -> Option<String> {
-        if path.as_os_str().is_empty() {
-            return Some("Write the name of a file.".into());
-        }
-        let ends = self.what.ends();
-        let fits = |end: &&&str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(end));
-        if !ends.iter().any(|end| fits(&end)) {
-            return Some(format!("The name must end in .{}.", ends.join(", .")));
-        }
-        let is_input = dataset.is_some_and(|dataset| ppum_file::is_same(dataset, path));
-        is_input.then(|| "This file is the dataset itself; choose another name.".into())
-    }
-
-    /// Begins to write; the factor of a body that is not deformed is looked for then.
-    fn save(&mut self, ui: &Ui, (mut order, factor): (ImageExport, Option<f64>), path: PathBuf) {
-        if !self.replacing.allows(&path) {
-            self.told = Some(Err(format!("{}: {ASK}", path.display())));
+    /// Begins to write.
+    fn save(&mut self, ui: &Ui, order: ImageExport, path: PathBuf) {
+        if let Some(reason) = self.target.refuses(&path, self.what.ends(), order.file.as_deref()) {
+            self.target.result = Some(Err(reason));
             return;
         }
-        self.told = None;
+        self.target.result = None;
         let done = Arc::clone(&self.done);
         done.store(0, Ordering::Relaxed);
         self.job = Some(BackgroundJob::start(ui.ctx(), move |stop| {
-            if let (ExportKind::Moving(MotionKind::Factor(unknown, _), _), None) =
-                (&mut order.kind, factor)
-            {
-                *unknown = automatic(&order.field).unwrap_or(1.0);
-            }
             let (bytes, notices) = order.bytes(&path, stop, &done)?;
-            write(&path, &bytes)?;
+            replace(&path, &bytes).map_err(|error| format!("{}: {error}", path.display()))?;
             let notices = notices.iter().map(|notice| format!("\n{}", notice.line()));
             Ok(format!("Saved {}{}", path.display(), notices.collect::<String>()))
         }));
-    }
-
-    fn finish(&mut self) {
-        let Some(outcome) = self.job.as_ref().and_then(BackgroundJob::poll) else { return };
-        self.job = None;
-        self.told = Some(outcome.and_then(|outcome| outcome));
     }
 }
 
@@ -370,14 +294,6 @@ fn side(ui: &mut Ui, name: &str, value: &mut f64, is_paper: bool) {
     ui.add(field).accessible_name(name);
 }
 
-/// The number of images of an animation.
-fn count(moving: &MotionKind) -> usize {
-    match moving {
-        MotionKind::Steps(steps) => steps.len(),
-        MotionKind::Factor(_, count) => *count,
-    }
-}
-
 /// How far an animation has come: its range is found in a first pass over all images.
 fn progress(done: usize, count: usize) -> String {
     match done.checked_sub(count) {
@@ -407,20 +323,4 @@ pub fn command(ui: &mut Ui, command: &Result<String, String>) {
             ui.colored_label(ui.visuals().error_fg_color, error);
         }
     }
-}
-
-/// The factor that shows the largest displacement as some 5 % of the body.
-fn automatic(field: &OwnedField) -> Option<f64> {
-    ppum_scene::deformed::Magnification::Auto.number(&[field.field()]).ok()
-}
-
-/// A name beside the dataset's.
-fn beside(dataset: Option<&Path>, end: &str) -> String {
-    let path = dataset.map_or_else(|| PathBuf::from("picture"), Path::to_path_buf);
-    path.with_extension(end).to_string_lossy().into_owned()
-}
-
-fn write(path: &Path, bytes: &[u8]) -> Result<(), String> {
-    ppum_file::replace(path, |out| out.write_all(bytes))
-        .map_err(|error: std::io::Error| format!("{}: {error}", path.display()))
 }

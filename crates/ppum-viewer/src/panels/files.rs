@@ -14,29 +14,25 @@ use crate::panel_context::PanelContext;
 use crate::widgets::button;
 
 /// The menu.
-pub fn menu(ui: &mut Ui, desk: &mut PanelContext<'_>) {
+pub fn menu(ui: &mut Ui, context: &mut PanelContext<'_>) {
     ui.menu_button("File", |ui| {
-        let has_dataset = desk.active().1.opened.is_some();
-        for (name, action, is_possible) in [
-            ("Open…", Action::Open, true),
-            ("Open beside…", Action::OpenBeside, has_dataset),
-            ("Save the dataset…", Action::SaveDataset, has_dataset),
-            ("Save the session", Action::SaveSession, true),
-            ("Save the session as…", Action::SaveSessionAs, true),
-            ("Close", Action::Close, has_dataset),
-        ] {
-            if ui.add_enabled(is_possible, egui::Button::new(name)).clicked() {
-                desk.actions.push(action);
-            }
-        }
+        let all = [
+            ("Open…", Action::Open),
+            ("Open beside…", Action::OpenBeside),
+            ("Save the dataset…", Action::SaveDataset),
+            ("Save the session", Action::SaveSession),
+            ("Save the session as…", Action::SaveSessionAs),
+            ("Close", Action::Close),
+        ];
+        items(ui, context, &all);
         ui.separator();
-        exports(ui, desk);
+        exports(ui, context);
         ui.separator();
-        ui.menu_button("Recent files", |ui| recent(ui, desk));
+        ui.menu_button("Recent files", |ui| recent(ui, context));
         ui.menu_button("Examples", |ui| {
             for (k, example) in examples::ALL.iter().enumerate() {
                 if ui.button(example.title()).clicked() {
-                    desk.actions.push(Action::Example(k));
+                    context.actions.push(Action::Example(k));
                 }
             }
         });
@@ -44,47 +40,51 @@ pub fn menu(ui: &mut Ui, desk: &mut PanelContext<'_>) {
 }
 
 /// Shows the exports of the image.
-pub fn exports(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let stage = desk.active().1;
-    let steps = stage.opened.as_ref().map_or(0, |opened| opened.dataset.steps.len());
-    let (has_dataset, is_elastic) = (steps > 0, steps > 0 && !stage.is_rigid());
-    for (name, action, is_possible) in [
-        ("Image…", Action::Save(ExportChoice::Picture), has_dataset),
-        ("Figure for print…", Action::Save(ExportChoice::Figure), has_dataset),
-        ("Animation of the steps…", Action::Save(ExportChoice::Steps), steps > 1),
-        ("Animation of the deformation…", Action::Save(ExportChoice::Deformation), is_elastic),
-        ("Export page…", Action::ExportPage, has_dataset),
-        ("Copy the command", Action::CopyCommand, has_dataset),
-    ] {
-        if ui.add_enabled(is_possible, egui::Button::new(name)).clicked() {
-            desk.actions.push(action);
+pub fn exports(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let all = [
+        ("Image…", Action::Save(ExportChoice::Image)),
+        ("Figure for print…", Action::Save(ExportChoice::Figure)),
+        ("Animation of the steps…", Action::Save(ExportChoice::Steps)),
+        ("Animation of the deformation…", Action::Save(ExportChoice::Deformation)),
+        ("Export page…", Action::ExportPage),
+        ("Copy the command", Action::CopyCommand),
+    ];
+    items(ui, context, &all);
+}
+
+/// Items of a menu.
+fn items(ui: &mut Ui, context: &mut PanelContext<'_>, all: &[(&str, Action)]) {
+    for (name, action) in all {
+        if ui.add_enabled(context.is_possible(*action), egui::Button::new(*name)).clicked() {
+            context.actions.push(*action);
         }
     }
 }
 
 /// Files that were opened, the newest first.
-pub fn recent(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let recent: Vec<PathBuf> = desk.files.kept.recent.clone();
+pub fn recent(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let recent: Vec<PathBuf> = context.files.kept.recent.clone();
     if recent.is_empty() {
         ui.weak("None yet.");
     }
     for path in recent {
         let button = ui.button(name(&path)).on_hover_text(path.display().to_string());
         if button.clicked() {
-            desk.files.open(&path, desk.session.active, Why::Opened);
+            context.files.open(&path, context.session.active, Why::Opened);
         }
     }
 }
 
 /// Shows the files that are being read, and notes about files: over the view's upper edge, so that
 /// nothing moves for them.
-pub fn notes(ui: &Ui, desk: &mut PanelContext<'_>) {
-    let waits = desk.files.readings().iter().filter_map(|r| QUICK.checked_sub(r.since.elapsed()));
+pub fn notes(ui: &Ui, context: &mut PanelContext<'_>) {
+    let waits =
+        context.files.readings().iter().filter_map(|r| QUICK.checked_sub(r.since.elapsed()));
     if let Some(rest) = waits.min() {
         ui.ctx().request_repaint_after(rest);
     }
-    let is_slow = desk.files.readings().iter().any(is_slow);
-    if desk.files.notes.is_empty() && !is_slow {
+    let is_slow = context.files.readings().iter().any(is_slow);
+    if context.files.notes.is_empty() && !is_slow {
         return;
     }
     let area = Area::new(Id::unique("notes")).order(Order::Foreground);
@@ -95,8 +95,8 @@ pub fn notes(ui: &Ui, desk: &mut PanelContext<'_>) {
             ui.set_max_width((room.x - 60.0).clamp(80.0, 640.0));
             let most = (0.5 * room.y).max(40.0);
             ScrollArea::vertical().max_height(most).show(ui, |ui| {
-                readings(ui, desk);
-                notes_panel(ui, desk);
+                readings(ui, context);
+                notes_panel(ui, context);
             });
         });
     });
@@ -109,9 +109,9 @@ fn is_slow(reading: &FileRead) -> bool {
     reading.since.elapsed() > QUICK
 }
 
-fn readings(ui: &mut Ui, desk: &mut PanelContext<'_>) {
+fn readings(ui: &mut Ui, context: &mut PanelContext<'_>) {
     let mut cancelled = None;
-    for reading in desk.files.readings().iter().filter(|reading| is_slow(reading)) {
+    for reading in context.files.readings().iter().filter(|reading| is_slow(reading)) {
         ui.horizontal(|ui| {
             match reading.part().filter(|part| *part < 1.0) {
                 Some(part) => {
@@ -129,13 +129,13 @@ fn readings(ui: &mut Ui, desk: &mut PanelContext<'_>) {
         });
     }
     if let Some(path) = cancelled {
-        desk.files.cancel(&path);
+        context.files.cancel(&path);
     }
 }
 
-fn notes_panel(ui: &mut Ui, desk: &mut PanelContext<'_>) {
+fn notes_panel(ui: &mut Ui, context: &mut PanelContext<'_>) {
     let mut closed = None;
-    for note in &desk.files.notes {
+    for note in &context.files.notes {
         ui.horizontal(|ui| {
             if button(ui, "✗", "Close the note").clicked() {
                 closed = Some(note.path.clone());
@@ -153,7 +153,7 @@ fn notes_panel(ui: &mut Ui, desk: &mut PanelContext<'_>) {
         }
     }
     if let Some(path) = closed {
-        desk.files.settle(&path);
+        context.files.settle(&path);
     }
 }
 

@@ -18,11 +18,11 @@ use crate::session::Pane;
 use crate::widgets::editor::{EditedText, TextDiagnostic};
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
-    let Some(opened) = &stage.opened else { return };
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let (pane, viewport) = context.active();
+    let Some(opened) = &viewport.opened else { return };
     let dataset = Arc::clone(&opened.dataset);
-    let controls = &mut stage.controls;
+    let controls = &mut viewport.controls;
     weight(ui, pane, controls, &dataset);
     for stem in controls.facts.functions.clone() {
         function(ui, pane, controls, &dataset, &stem);
@@ -40,16 +40,63 @@ pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
         subject.weight = None;
         controls.editors.retain(|name, _| name == "quantity");
     }
-    failure(ui, stage, FaultOrigin::Subject);
+    failure(ui, viewport, FaultOrigin::Subject);
+}
+
+/// A text that may replace one of the file's.
+struct Replacement<'a> {
+    /// The name among all editors.
+    key: String,
+    name: &'a str,
+    /// The name for those who do not see it.
+    title: String,
+    /// The text of the file.
+    own: &'a str,
+    /// The one in its place.
+    other: Option<String>,
+    /// Names that may be completed.
+    names: &'a [String],
+    /// Another number whenever the same text may have another meaning.
+    version: usize,
+}
+
+impl Replacement<'_> {
+    /// Shows its name, what `head` adds, a way back to the file's, and the text; returns the new
+    /// text in place of the file's, none for that itself. `head` may choose a text.
+    fn show(
+        &self,
+        ui: &mut Ui,
+        controls: &mut Controls,
+        head: impl FnOnce(&mut Ui) -> Option<String>,
+        check: impl FnOnce(&str) -> Result<(), TextDiagnostic>,
+    ) -> Option<Option<String>> {
+        let editor = controls.editor(&self.key);
+        let head = |ui: &mut Ui| {
+            ui.strong(self.name);
+            let chosen = head(ui);
+            let hint = format!("Back to the file's {}", self.name);
+            let is_back = back(ui, &hint, self.other.is_some());
+            if is_back { Some(self.own.to_owned()) } else { chosen }
+        };
+        let chosen = ui.horizontal(head).inner;
+        if chosen.as_deref() == Some(self.own) {
+            editor.forget();
+        }
+        let current = self.other.as_deref().unwrap_or(self.own);
+        let (names, version) = (self.names, self.version);
+        let text = EditedText { name: &self.title, current, names, version };
+        let text = chosen.or(editor.show(ui, &text, check))?;
+        Some((text != self.own).then_some(text))
+    }
 }
 
 /// The weight: one of the library, or a formula of t.
 fn weight(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, dataset: &Dataset) {
     let own = controls.facts.weight.clone();
-    let current = pane.scene.subject.weight.clone().unwrap_or_else(|| own.clone());
-    let mut chosen = None;
-    ui.horizontal(|ui| {
-        ui.strong("weight");
+    let other = pane.scene.subject.weight.clone();
+    let current = other.clone().unwrap_or_else(|| own.clone());
+    let library = |ui: &mut Ui| {
+        let mut chosen = None;
         let list = ComboBox::from_id_salt("weights").selected_text("library").width(90.0);
         let list = list.show_ui(ui, |ui| {
             for entry in &WEIGHTS {
@@ -60,47 +107,38 @@ fn weight(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, dataset: &Datas
             }
         });
         list.response.accessible_name("Weights of the library");
-        if back(ui, "Back to the file's weight", pane.scene.subject.weight.is_some()) {
-            controls.editor("weight").forget();
-            chosen = Some(own.clone());
-        }
-    });
-    let names = names(["t"].into_iter().chain(WEIGHTS.iter().map(|entry| entry.name)), &[]);
-    let subject =
-        EditedText { name: "Formula of the weight", current: &current, names: &names, version: 0 };
-    let check = |text: &str| match weight_of(text, &dataset.tables) {
-        _ if text.trim().is_empty() => Ok(()),
-        Ok(_) => Ok(()),
-        Err(error) => Err(TextDiagnostic::of_replacement(&error, text)),
+        chosen
     };
-    chosen = chosen.or(controls.editor("weight").show(ui, &subject, check));
-    if let Some(text) = chosen {
-        let is_empty = text.trim().is_empty();
+    let names = names(["t"].into_iter().chain(WEIGHTS.iter().map(|entry| entry.name)), &[]);
+    let (key, title) = ("weight".to_owned(), "Formula of the weight".to_owned());
+    let text =
+        Replacement { key, name: "weight", title, own: &own, other, names: &names, version: 0 };
+    let check = |text: &str| match weight_of(text, &dataset.tables) {
+        Err(error) if !text.trim().is_empty() => Err(TextDiagnostic::of_replacement(&error, text)),
+        _ => Ok(()),
+    };
+    if let Some(text) = text.show(ui, controls, library, check) {
+        let is_empty = text.as_ref().is_some_and(|text| text.trim().is_empty());
         if is_empty {
             controls.editor("weight").stay_empty(&own);
         }
-        pane.scene.subject.weight = (text != own && !is_empty).then_some(text);
+        pane.scene.subject.weight = text.filter(|_| !is_empty);
     }
 }
 
 /// A function at all its places.
 fn function(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, dataset: &Dataset, stem: &Stem) {
-    let name = format!("function {}", stem.name);
-    let replaced = pane.scene.subject.replaced(&stem.name).map(str::to_owned);
-    let mut chosen = None;
-    ui.horizontal(|ui| {
-        ui.strong(&stem.name);
-        ui.label(note(ui, used(stem)));
-        if back(ui, &format!("Back to the file's {}", stem.name), replaced.is_some()) {
-            controls.editor(&name).forget();
-            chosen = Some(stem.text.clone());
-        }
-    });
     let parameters = stem.parameters.iter().map(String::as_str);
     let names = names(["x", "y", "r", "theta"].into_iter().chain(parameters), &dataset.tables);
-    let current = replaced.unwrap_or_else(|| stem.text.clone());
-    let title = format!("Formula of {}", stem.name);
-    let subject = EditedText { name: &title, current: &current, names: &names, version: 0 };
+    let text = Replacement {
+        key: format!("function {}", stem.name),
+        name: &stem.name,
+        title: format!("Formula of {}", stem.name),
+        own: &stem.text,
+        other: pane.scene.subject.replaced(&stem.name).map(str::to_owned),
+        names: &names,
+        version: 0,
+    };
     let step = dataset.steps.get(pane.scene.subject.step_of(dataset));
     let check = |text: &str| match step {
         // the text of the file may be words for what is no formula
@@ -110,9 +148,11 @@ fn function(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls, dataset: &Dat
             .map_err(|error| TextDiagnostic::of_replacement(&error, text)),
         _ => Ok(()),
     };
-    chosen = chosen.or(controls.editor(&name).show(ui, &subject, check));
-    if let Some(text) = chosen {
-        let text = (text != stem.text).then_some(text);
+    let head = |ui: &mut Ui| {
+        ui.label(note(ui, used(stem)));
+        None
+    };
+    if let Some(text) = text.show(ui, controls, head, check) {
         pane.scene.subject.replace(&stem.name, text);
     }
 }
@@ -125,23 +165,17 @@ fn quantity(
     number: usize,
     (name, own): (&str, &str),
 ) {
-    let key = format!("named {name}");
-    let defined = pane.scene.subject.defined(name).map(str::to_owned);
-    let mut chosen = None;
-    ui.horizontal(|ui| {
-        ui.strong(name);
-        ui.label(note(ui, "quantity of the file"));
-        if back(ui, &format!("Back to the file's {name}"), defined.is_some()) {
-            controls.editor(&key).forget();
-            chosen = Some(own.to_owned());
-        }
-    });
     let field = controls.known.field().cloned();
     let names = controls.known.names.clone();
-    let current = defined.unwrap_or_else(|| own.to_owned());
-    let title = format!("Formula of {name}");
-    let version = version(field.as_ref());
-    let subject = EditedText { name: &title, current: &current, names: &names, version };
+    let text = Replacement {
+        key: format!("named {name}"),
+        name,
+        title: format!("Formula of {name}"),
+        own,
+        other: pane.scene.subject.defined(name).map(str::to_owned),
+        names: &names,
+        version: version(field.as_ref()),
+    };
     let check = |text: &str| {
         let Some(field) = &field else { return Ok(()) };
         let all = Vocabulary::of(field.field());
@@ -149,9 +183,12 @@ fn quantity(
         let found = QuantityFormula::new(text, &vocabulary).map(|_| ());
         found.map_err(|error| TextDiagnostic::of_definition(&error, text))
     };
-    chosen = chosen.or(controls.editor(&key).show(ui, &subject, check));
-    if let Some(text) = chosen {
-        pane.scene.subject.define(name, (text != own).then_some(text));
+    let head = |ui: &mut Ui| {
+        ui.label(note(ui, "quantity of the file"));
+        None
+    };
+    if let Some(text) = text.show(ui, controls, head, check) {
+        pane.scene.subject.define(name, text);
     }
 }
 

@@ -2,7 +2,7 @@
 
 use egui::{Grid, Key, KeyboardShortcut, Modifiers, ScrollArea, Ui, Window};
 
-use crate::actions::{ALL, Action, ActionEntry, GESTURES, GROUPS, spelled};
+use crate::actions::{Action, ActionEntry, GESTURES, GROUPS, spelled};
 
 /// Columns of the list, where the window has room for them.
 const COLUMNS: usize = 3;
@@ -30,7 +30,7 @@ pub fn show(ui: &Ui, is_open: &mut bool) {
         ScrollArea::vertical().max_height(room.y - 110.0).show(ui, |ui| {
             ui.horizontal_top(|ui| {
                 for groups in columns_of(columns) {
-                    ui.vertical(|ui| groups.iter().for_each(|group| list(ui, group)));
+                    ui.vertical(|ui| groups.into_iter().for_each(|group| list(ui, group)));
                     ui.add_space(12.0);
                 }
             });
@@ -38,16 +38,19 @@ pub fn show(ui: &Ui, is_open: &mut bool) {
     });
 }
 
+/// A heading and the actions below it.
+type Group = (&'static str, &'static [ActionEntry]);
+
 /// Distributes the headings over the columns, with about the same number of keys in each.
-fn columns_of(columns: usize) -> Vec<Vec<&'static str>> {
-    let keys = |group: &str| {
+fn columns_of(columns: usize) -> Vec<Vec<Group>> {
+    let keys = |(group, entries): Group| {
         let by_hand = GESTURES.iter().filter(|(.., of)| *of == group);
-        by_key(group).count() + by_hand.count() + 2
+        by_key(entries).count() + by_hand.count() + 2
     };
-    let all: usize = GROUPS.iter().map(|group| keys(group)).sum();
+    let all: usize = GROUPS.iter().map(|group| keys(*group)).sum();
     let mut found = vec![Vec::new(); columns];
     let mut before = 0;
-    for group in GROUPS {
+    for group in GROUPS.iter().copied() {
         // the middle of a heading's keys determines its column
         let middle = before + keys(group) / 2;
         found[(middle * columns / all).min(columns - 1)].push(group);
@@ -56,19 +59,20 @@ fn columns_of(columns: usize) -> Vec<Vec<&'static str>> {
     found
 }
 
-/// The actions under a heading that have keys; the nine tips share one line.
-fn by_key(group: &str) -> impl Iterator<Item = (&'static ActionEntry, &'static KeyboardShortcut)> {
+/// The actions that have keys; the nine tips share one line.
+fn by_key(
+    entries: &'static [ActionEntry],
+) -> impl Iterator<Item = (&'static ActionEntry, KeyboardShortcut)> {
     let is_one = |entry: &&ActionEntry| !matches!(entry.action, Action::Tip(1..));
-    let of = ALL.iter().filter(move |entry| entry.group == group).filter(is_one);
-    of.filter_map(|entry| Some((entry, entry.key.as_ref()?)))
+    entries.iter().filter(is_one).filter_map(|entry| Some((entry, entry.shortcut()?)))
 }
 
-fn list(ui: &mut Ui, group: &str) {
+fn list(ui: &mut Ui, (group, entries): Group) {
     ui.strong(group);
     Grid::new(group).num_columns(2).show(ui, |ui| {
-        for (entry, key) in by_key(group) {
+        for (entry, key) in by_key(entries) {
             let is_first = entry.action == Action::Tip(0);
-            let key = spelled(ui.ctx(), key);
+            let key = spelled(ui.ctx(), &key);
             ui.monospace(if is_first { "1 … 9".into() } else { key });
             ui.label(if is_first { "Fly to tip 0 … 8" } else { entry.name });
             ui.end_row();
@@ -90,8 +94,9 @@ mod tests {
     fn every_heading_stands_in_one_column() {
         for columns in 1..=COLUMNS {
             let found = columns_of(columns);
-            assert_eq!(found.concat(), GROUPS);
-            assert!(found.iter().all(|groups| !groups.is_empty()), "{found:?}");
+            let headings = |all: &[Group]| all.iter().map(|(name, _)| *name).collect::<Vec<_>>();
+            assert_eq!(headings(&found.concat()), headings(GROUPS));
+            assert!(found.iter().all(|groups| !groups.is_empty()), "{columns}");
         }
     }
 }

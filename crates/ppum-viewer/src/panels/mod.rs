@@ -21,11 +21,11 @@ use egui::{CollapsingHeader, RichText, ScrollArea, Ui};
 
 use crate::frames::FaultOrigin;
 use crate::panel_context::PanelContext;
-use crate::stage::ViewPane;
+use crate::viewport::ViewState;
 pub(crate) use crate::widgets::{button, note, wrong};
 
 /// The panels on the right, one below the other, each of which folds.
-pub fn side(ui: &mut Ui, desk: &mut PanelContext<'_>) {
+pub fn side(ui: &mut Ui, context: &mut PanelContext<'_>) {
     type Show = fn(&mut Ui, &mut PanelContext<'_>);
     const ALL: [(&str, Show, bool); 8] = [
         ("Quantity", quantity::show, true),
@@ -37,19 +37,19 @@ pub fn side(ui: &mut Ui, desk: &mut PanelContext<'_>) {
         ("Compare", compare::show, false),
         ("Functions", functions::show, false),
     ];
-    let wanted = desk.active().1.controls.wants.take();
+    let wanted = context.active().1.controls.panel_to_open.take();
     ScrollArea::vertical().show(ui, |ui| {
         for (name, show, is_open) in ALL {
             let opened = (wanted == Some(name)).then_some(true);
             let header = CollapsingHeader::new(name).default_open(is_open).open(opened);
-            header.show_unindented(ui, |ui| show(ui, desk));
+            header.show_unindented(ui, |ui| show(ui, context));
         }
     });
 }
 
 /// The reason why there is no image of what is wanted, where it arose.
-fn failure(ui: &mut Ui, stage: &ViewPane, fault: FaultOrigin) {
-    if let Some(failure) = stage.frames.failure().filter(|failure| failure.fault == fault) {
+fn failure(ui: &mut Ui, viewport: &ViewState, fault: FaultOrigin) {
+    if let Some(failure) = viewport.frames.failure().filter(|failure| failure.fault == fault) {
         ui.label(RichText::new(&failure.message).color(wrong(ui)));
     }
 }

@@ -6,37 +6,36 @@ use ppum_scene::help::tooltip;
 use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays, SPACING};
 
 use super::{failure, note, wrong};
-use crate::controls::Controls;
-use crate::controls::draft::LevelsDraft;
+use crate::controls::{Controls, LevelsDraft};
 use crate::frames::FaultOrigin;
 use crate::panel_context::PanelContext;
 use crate::session::Pane;
 use crate::shapes::color;
-use crate::stage::ViewPane;
+use crate::viewport::ViewState;
 
 /// Distances of arrows and crosses \[pixels\].
 const SPACINGS: std::ops::RangeInclusive<f64> = 8.0..=400.0;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let (pane, viewport) = context.active();
     ui.columns(2, |columns| {
         for (number, overlay) in Overlay::ALL.into_iter().enumerate() {
-            switch(&mut columns[number % 2], pane, &stage.controls, overlay);
+            switch(&mut columns[number % 2], pane, &viewport.controls, overlay);
         }
     });
-    let is_elastic = stage.controls.facts.is_elastic;
+    let is_elastic = viewport.controls.facts.is_elastic;
     let overlays = &mut pane.scene.overlays;
-    isolines(ui, overlays, &mut stage.controls);
+    isolines(ui, overlays, &mut viewport.controls);
     let arrows = if is_elastic { "arrows of the displacement" } else { "arrows of the gradient" };
     glyphs(ui, &mut overlays.arrows, arrows, None);
     let why = (!is_elastic).then_some("A potential has no stresses; arrows show its gradient");
     glyphs(ui, &mut overlays.crosses, "crosses of principal stresses", why);
-    if stage.pair.minus().is_some() && overlays.isolines.is_some() {
+    if viewport.pair.minus().is_some() && overlays.isolines.is_some() {
         ui.label(note(ui, "A difference has no isolines: they are found of one field"));
     }
-    legend(ui, stage);
-    failure(ui, stage, FaultOrigin::Overlays);
+    legend(ui, viewport);
+    failure(ui, viewport, FaultOrigin::Overlays);
 }
 
 /// An overlay, with the reason why there is none of it.
@@ -125,8 +124,8 @@ fn glyphs(ui: &mut Ui, spacing: &mut Option<f64>, name: &str, why: Option<&str>)
 
 /// Shows the legend entries that have no room on the image, and notices about overlays that are not
 /// visible.
-fn legend(ui: &mut Ui, stage: &ViewPane) {
-    let Some(frame) = stage.frames.newest() else { return };
+fn legend(ui: &mut Ui, viewport: &ViewState) {
+    let Some(frame) = viewport.frames.newest() else { return };
     for entry in &frame.layers.legend {
         line(ui, entry);
     }

@@ -1,14 +1,20 @@
 //! Actions found by their names.
 
-use egui::{Align2, Key, ScrollArea, TextEdit, Ui, Window};
+use egui::{Align2, Button, Ui, Window};
 
-use crate::actions::{ALL, Action, ActionEntry, spelled, synonyms};
+use crate::actions::{Action, ActionEntry, all, spelled};
+use crate::widgets::chooser::{Chooser, ChooserItem};
 
-/// The search text.
-#[derive(Clone, Debug, Default)]
-pub struct CommandPalette {
-    text: String,
-    chosen: usize,
+/// The list of the actions that fit a text.
+#[derive(Clone, Debug)]
+pub struct CommandPalette(Chooser);
+
+impl Default for CommandPalette {
+    fn default() -> Self {
+        let mut list = Chooser::default();
+        list.open_alone();
+        Self(list)
+    }
 }
 
 impl CommandPalette {
@@ -19,38 +25,31 @@ impl CommandPalette {
         ui: &Ui,
         is_possible: impl Fn(Action) -> bool,
     ) -> (bool, Option<Action>) {
-        let mut found = matching_actions(&self.text);
-        found.retain(|entry| is_possible(entry.action));
-        let keys = [Key::Escape, Key::Enter, Key::ArrowDown, Key::ArrowUp];
-        let [escape, enter, down, up] =
-            ui.input_mut(|input| keys.map(|key| input.consume_key(egui::Modifiers::NONE, key)));
-        let last = found.len().saturating_sub(1);
-        self.chosen = (self.chosen + usize::from(down)).min(last).saturating_sub(usize::from(up));
-        let mut action = found.get(self.chosen).filter(|_| enter).map(|entry| entry.action);
-        let window = Window::new("Find an action").anchor(Align2::CENTER_TOP, [0.0, 60.0]);
-        window.collapsible(false).resizable(false).show(ui.ctx(), |ui| {
-            let edit = ui.add(TextEdit::singleline(&mut self.text).desired_width(360.0));
-            edit.request_focus();
-            if edit.changed() {
-                self.chosen = 0;
-            }
-            if found.is_empty() {
-                ui.weak("Nothing of this name can be done now.");
-            }
-            ScrollArea::vertical().max_height(280.0).show(ui, |ui| {
-                for (number, entry) in found.iter().enumerate() {
-                    let is_chosen = number == self.chosen;
-                    let key = entry.key.map(|key| spelled(ui.ctx(), &key)).unwrap_or_default();
-                    let button = egui::Button::selectable(is_chosen, entry.name).shortcut_text(key);
-                    if ui.add(button).clicked() {
-                        action = Some(entry.action);
-                    }
-                }
-            });
+        let found = matching_actions(self.0.text());
+        let item = |entry: &&ActionEntry| ChooserItem {
+            value: entry.name.to_owned(),
+            about: entry.shortcut().map(|key| spelled(ui.ctx(), &key)).unwrap_or_default(),
+            group: "",
+        };
+        let possible = found.iter().filter(|entry| is_possible(entry.action));
+        let items: Vec<ChooserItem> = possible.map(item).collect();
+        let items: Vec<&ChooserItem> = items.iter().collect();
+        let row = |ui: &mut Ui, item: &ChooserItem, is_at: bool| {
+            ui.add(Button::selectable(is_at, &item.value).shortcut_text(&item.about))
+        };
+        let words = [TITLE, "Nothing of this name can be done now."];
+        let window = Window::new(TITLE).anchor(Align2::CENTER_TOP, [0.0, 60.0]);
+        let shown = window.collapsible(false).resizable(false).show(ui.ctx(), |ui| {
+            ui.set_width(360.0);
+            self.0.show_found(ui, words, "", &items, row)
         });
-        (escape || enter || action.is_some(), action)
+        let chosen = shown.and_then(|shown| shown.inner?);
+        let entry = chosen.and_then(|name| all().find(|entry| entry.name == name));
+        (!self.0.is_open(), entry.map(|entry| entry.action))
     }
 }
+
+const TITLE: &str = "Find an action";
 
 /// The actions whose names, or other words for them, have all words of a text; those of that
 /// name first.
@@ -59,9 +58,9 @@ fn matching_actions(text: &str) -> Vec<&'static ActionEntry> {
     let has_all = |words: &str| text.split_whitespace().all(|word| words.contains(word));
     let is_named = |entry: &&ActionEntry| has_all(&entry.name.to_lowercase());
     let is_meant = |entry: &&ActionEntry| {
-        has_all(&format!("{} {}", entry.name.to_lowercase(), synonyms(entry.action)))
+        has_all(&format!("{} {}", entry.name.to_lowercase(), entry.synonyms))
     };
-    let (mut all, others): (Vec<_>, Vec<_>) = ALL.iter().filter(is_meant).partition(is_named);
+    let (mut all, others): (Vec<_>, Vec<_>) = all().filter(is_meant).partition(is_named);
     all.extend(others);
     all
 }
@@ -80,7 +79,7 @@ mod tests {
             ("stress intensity", Action::Drawer(DrawerPage::Tips)),
             ("K1", Action::Drawer(DrawerPage::Tips)),
             ("pdf", Action::Save(ExportChoice::Figure)),
-            ("export", Action::Save(ExportChoice::Picture)),
+            ("export", Action::Save(ExportChoice::Image)),
             ("gif", Action::Save(ExportChoice::Steps)),
             ("film", Action::Save(ExportChoice::Deformation)),
             ("opening", Action::Drawer(DrawerPage::Plot)),

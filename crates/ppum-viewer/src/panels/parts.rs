@@ -10,8 +10,8 @@ use crate::panel_context::PanelContext;
 use crate::session::Pane;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let (pane, viewport) = context.active();
     let part = pane.scene.subject.part.as_deref().and_then(|part| part.parse().ok());
     ui.horizontal_wrapped(|ui| {
         let all = Button::selectable(part.is_none(), "all");
@@ -19,11 +19,11 @@ pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
             pane.scene.subject.part = None;
         }
         for kind in KINDS {
-            kind_button(ui, pane, &stage.controls, kind, part);
+            kind_button(ui, pane, &viewport.controls, kind, part);
         }
     });
-    patch(ui, pane, &mut stage.controls, part);
-    failure(ui, stage, FaultOrigin::Subject);
+    patch(ui, pane, &mut viewport.controls, part);
+    failure(ui, viewport, FaultOrigin::Subject);
 }
 
 fn kind_button(

@@ -11,23 +11,23 @@ use crate::player::SPEEDS;
 use crate::widgets::button;
 
 /// Shows the player if the dataset is a series, in a row of its own, which is never broken.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let opened = desk.active().1.opened.as_ref();
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let opened = context.active().1.opened.as_ref();
     if opened.is_some_and(|opened| opened.dataset.steps.len() > 1) {
-        ui.horizontal(|ui| row(ui, desk));
+        ui.horizontal(|ui| row(ui, context));
     }
 }
 
-fn row(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let active = desk.session.active;
-    let Some(opened) = &desk.stages[active].opened else { return };
+fn row(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let active = context.session.active;
+    let Some(opened) = &context.viewports[active].opened else { return };
     let steps = &opened.dataset.steps;
-    let subject = &mut desk.session.panes[active].scene.subject;
+    let subject = &mut context.session.panes[active].scene.subject;
     let last = steps.len() - 1;
     let stop = steps[last].growth.as_ref().and_then(|growth| growth.stop);
     let mut step = subject.step_of(&opened.dataset).min(last);
     if button(ui, "◀", "Step before").clicked() {
-        desk.actions.push(Action::Step(-1));
+        context.actions.push(Action::Step(-1));
     }
     let rest = if stop.is_some() { REST + REASON } else { REST };
     ui.spacing_mut().slider_width = (ui.available_width() - rest).clamp(60.0, 600.0);
@@ -40,23 +40,24 @@ fn row(ui: &mut Ui, desk: &mut PanelContext<'_>) {
         subject.step = Some(step);
     }
     if button(ui, "▶", "Step after").clicked() {
-        desk.actions.push(Action::Step(1));
+        context.actions.push(Action::Step(1));
     }
     let load = trimmed(steps[step].load);
     ui.label(format!("step {step} of {last}, load {load}"));
     let (sign, name) =
-        if desk.player.is_playing { ("■", "Stop") } else { ("▷", "Play the steps") };
+        if context.player.is_playing { ("■", "Stop") } else { ("▷", "Play the steps") };
     if button(ui, sign, name).clicked() {
-        desk.actions.push(Action::Play);
+        context.actions.push(Action::Play);
     }
-    let speed = DragValue::new(&mut desk.player.speed).range(SPEEDS).speed(0.1).suffix(" /s");
+    let speed = DragValue::new(&mut context.player.speed).range(SPEEDS).speed(0.1).suffix(" /s");
     ui.add(speed.max_decimals(1)).on_hover_text("Speed: steps in a second");
-    let looping = ui.selectable_label(desk.player.is_looping, "↻").on_hover_text("Again and again");
+    let looping =
+        ui.selectable_label(context.player.is_looping, "↻").on_hover_text("Again and again");
     looping.widget_info(|| {
-        egui::WidgetInfo::selected(egui::Role::Button, true, desk.player.is_looping, "Loop")
+        egui::WidgetInfo::selected(egui::Role::Button, true, context.player.is_looping, "Loop")
     });
     if looping.clicked() {
-        desk.player.is_looping = !desk.player.is_looping;
+        context.player.is_looping = !context.player.is_looping;
     }
     if let Some(stop) = stop.filter(|_| step == last) {
         let text = RichText::new(format!("Growth ends: {}", stop.words()));

@@ -4,35 +4,35 @@ use egui::{RichText, Ui};
 use ppum_scene::table::{Column, NumberTable};
 
 use crate::actions::Action;
+use crate::measure::probe::ProbeReading;
+use crate::measure::words;
 use crate::panel_context::PanelContext;
 use crate::panels::drawer::plot::outputs;
-use crate::reading::probe::ProbeReading;
-use crate::reading::words;
 use crate::session::VisibleRegion;
-use crate::stage::ViewPane;
+use crate::viewport::ViewState;
 use crate::widgets::button;
 use crate::widgets::entry::entry;
 
 /// The list, what is read at each, and what can be done with it.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let mut extrema = desk.session.pane().extrema;
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let mut extrema = context.session.pane().extrema;
     if ui.checkbox(&mut extrema, "Mark the extrema of the view").changed() {
-        desk.actions.push(Action::Extrema);
+        context.actions.push(Action::Extrema);
     }
-    let (pane, stage) = desk.active();
+    let (pane, viewport) = context.active();
     if pane.probes.is_empty() {
         ui.weak("Press p at the pointer, or choose Probe at the top and click the plate.");
         return;
     }
-    let Some(names) = names(stage) else { return };
+    let Some(names) = names(viewport) else { return };
     let mut removed = None;
     for k in 0..pane.probes.len() {
         ui.push_id(k, |ui| {
             ui.horizontal(|ui| {
-                let is_selected = stage.reading.selected == Some(k);
+                let is_selected = viewport.tools.selected == Some(k);
                 let chosen = ui.selectable_label(is_selected, format!("{}", k + 1));
                 if chosen.on_hover_text("Select this probe").clicked() {
-                    stage.reading.selected = Some(k);
+                    viewport.tools.selected = Some(k);
                 }
                 let texts = pane.probes[k].texts();
                 for (axis, name) in ["x", "y"].into_iter().enumerate() {
@@ -42,24 +42,24 @@ pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
                     pane.probes[k] = changed.unwrap_or(pane.probes[k]);
                 }
                 if button(ui, "→", &format!("Fly to probe {}", k + 1)).clicked() {
-                    let width = stage.view.map_or(1.0, |view| view.width);
+                    let width = viewport.camera.view.map_or(1.0, |view| view.width);
                     let center = pane.probes[k].point().into();
-                    stage.fly_to(pane, Some(VisibleRegion { center, width }));
+                    viewport.camera.fly_to(Some(VisibleRegion { center, width }));
                 }
                 if button(ui, "×", &format!("Remove probe {}", k + 1)).clicked() {
                     removed = Some(k);
                 }
             });
-            if let Some(probed) = stage.reading.probes.get(k) {
+            if let Some(probed) = viewport.tools.probes.get(k) {
                 probe_lines(ui, probed, &names);
             }
         });
     }
     if let Some(k) = removed {
         pane.probes.remove(k);
-        stage.reading.selected = None;
+        viewport.tools.selected = None;
     }
-    let all = stage.reading.probes.clone();
+    let all = viewport.tools.probes.clone();
     let table = table(&all, &names);
     ui.horizontal_wrapped(|ui| {
         if ui.button("Remove all").clicked() {
@@ -70,14 +70,14 @@ pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
             ui.ctx().copy_text(texts.collect());
         }
         let csv = || table.csv().into_bytes();
-        outputs(ui, stage, ("probes", &[("csv", &csv)]), &|| table.csv());
+        outputs(ui, viewport, ("probes", &[("csv", &csv)]), &|| table.csv());
     });
 }
 
 /// The quantity's name and unit.
-fn names(stage: &mut ViewPane) -> Option<[String; 2]> {
-    let frame = stage.frame().cloned()?;
-    let reader = stage.reading.reader(&frame);
+fn names(viewport: &mut ViewState) -> Option<[String; 2]> {
+    let frame = viewport.frame().cloned()?;
+    let reader = viewport.tools.reader(&frame);
     Some([reader.name.clone(), reader.unit.clone()])
 }
 

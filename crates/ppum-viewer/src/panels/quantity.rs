@@ -16,12 +16,12 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
-    let field = stage.controls.known.field().cloned();
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let (pane, viewport) = context.active();
+    let field = viewport.controls.known.field().cloned();
     let default = field.as_ref().map_or("", |field| default_quantity(field.field()));
     let current = pane.scene.quantity.clone().unwrap_or_else(|| default.to_owned());
-    let controls = &mut stage.controls;
+    let controls = &mut viewport.controls;
     let words = field.as_deref().map_or(String::new(), |field| words(&current, field));
     let button = Button::new(RichText::new(words)).right_text("▾").truncate();
     if ui
@@ -54,7 +54,7 @@ pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     if let Some(text) = chosen {
         pane.scene.quantity = (text != default).then_some(text);
     }
-    failure(ui, stage, FaultOrigin::Quantity);
+    failure(ui, viewport, FaultOrigin::Quantity);
 }
 
 /// Another number for another field.

@@ -12,7 +12,7 @@ use crate::shapes::{self, ImagePlacement};
 use crate::widgets::note;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     let room = ui.available_width();
     ui.painter().rect_filled(ui.max_rect(), 0.0, ui.visuals().panel_fill);
     ScrollArea::vertical().id_salt("start").auto_shrink([false; 2]).show(ui, |ui| {
@@ -22,36 +22,36 @@ pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
             ui.add_space((0.5 * (room - width)).max(12.0));
             ui.vertical(|ui| {
                 ui.set_width(width);
-                page(ui, desk);
+                page(ui, context);
             });
         });
     });
 }
 
-fn page(ui: &mut Ui, desk: &mut PanelContext<'_>) {
+fn page(ui: &mut Ui, context: &mut PanelContext<'_>) {
     ui.heading("ppum");
     ui.label("Fields with cracks, exact at every pixel, down to the tip.");
     ui.add_space(8.0);
     ui.horizontal(|ui| {
         if ui.button(RichText::new("Open a file…").strong()).clicked() {
-            desk.actions.push(Action::Open);
+            context.actions.push(Action::Open);
         }
         ui.weak("Ctrl+O, or drop it here: a dataset (.h5), a problem (.toml), a session");
     });
     ui.add_space(12.0);
     ui.strong("Recent files");
-    recent(ui, desk);
+    recent(ui, context);
     ui.add_space(12.0);
     ui.strong("Examples");
     ui.weak("A click solves the problem, within seconds mostly, and shows it with its text.");
     ui.add_space(4.0);
-    desk.files.find_previews();
+    context.files.find_previews();
     let gap = ui.spacing().item_spacing.x;
     let columns = (((ui.available_width() + gap) / (TILE.x + gap)) as usize).max(1);
     for row in 0..examples::ALL.len().div_ceil(columns) {
         ui.horizontal(|ui| {
             let last = examples::ALL.len().min((row + 1) * columns);
-            (row * columns..last).for_each(|number| tile(ui, desk, number));
+            (row * columns..last).for_each(|number| tile(ui, context, number));
         });
     }
 }
@@ -61,7 +61,7 @@ const TILE: Vec2 = vec2(240.0, 64.0);
 const PICTURE: Vec2 = vec2(76.0, 56.0);
 
 /// An example: its body, its title, and a line about it.
-fn tile(ui: &mut Ui, desk: &mut PanelContext<'_>, number: usize) {
+fn tile(ui: &mut Ui, context: &mut PanelContext<'_>, number: usize) {
     let example = &examples::ALL[number];
     let (rect, response) = ui.allocate_exact_size(TILE, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, example.title()));
@@ -71,7 +71,7 @@ fn tile(ui: &mut Ui, desk: &mut PanelContext<'_>, number: usize) {
         response.scroll_to_me(None);
     }
     if response.clicked() {
-        desk.actions.push(Action::Example(number));
+        context.actions.push(Action::Example(number));
     }
     if !ui.is_rect_visible(rect) {
         return;
@@ -79,7 +79,7 @@ fn tile(ui: &mut Ui, desk: &mut PanelContext<'_>, number: usize) {
     let visuals = ui.style().interact(&response);
     ui.painter().rect(rect, 4.0, visuals.weak_bg_fill, visuals.bg_stroke, StrokeKind::Inside);
     let picture = Rect::from_min_size(rect.min + vec2(4.0, 4.0), PICTURE);
-    if let Some(preview) = desk.files.previews.of(number) {
+    if let Some(preview) = context.files.previews.of(number) {
         let items =
             preview.items([2.0 * PICTURE.x, 2.0 * PICTURE.y].map(|n| n as u32), 2.0 * LINES);
         shapes::draw(&ui.painter_at(picture), ImagePlacement::new(picture.min, 0.5), &items);
@@ -97,16 +97,16 @@ fn tile(ui: &mut Ui, desk: &mut PanelContext<'_>, number: usize) {
 const LINES: f64 = 0.45;
 
 /// Files with their folders.
-fn recent(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let recent = desk.files.kept.recent.clone();
+fn recent(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let recent = context.files.kept.recent.clone();
     if recent.is_empty() {
         ui.weak("None yet.");
     }
     for path in recent {
         ui.horizontal(|ui| {
             if ui.button(crate::files::name(&path)).clicked() {
-                let pane = desk.session.active;
-                desk.files.open(&path, pane, crate::files::read::Why::Opened);
+                let pane = context.session.active;
+                context.files.open(&path, pane, crate::files::read::Why::Opened);
             }
             let folder = path.parent().map(|folder| folder.display().to_string());
             ui.add(egui::Label::new(RichText::new(folder.unwrap_or_default()).weak()).truncate());

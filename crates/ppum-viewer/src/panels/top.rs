@@ -4,8 +4,8 @@ use egui::{Label, ProgressBar, RichText, Sense, Ui};
 
 use super::player;
 use crate::actions::Action;
+use crate::measure::tool::Tool;
 use crate::panel_context::PanelContext;
-use crate::reading::tool::Tool;
 use crate::session::DrawerPage;
 use crate::widgets::button;
 
@@ -16,9 +16,9 @@ fn one_line(text: &str) -> String {
 
 /// Shows buttons for the most frequent actions, and the title in the room that they leave: it ends
 /// in … where it has none, and is told on hover then.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        super::files::menu(ui, desk);
+        super::files::menu(ui, context);
         for (sign, name, action) in [
             ("⌂", "Show the whole plate", Action::Fit),
             ("↶", "Undo", Action::Undo),
@@ -29,24 +29,24 @@ pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
             ("?", "Keys", Action::Help),
         ] {
             if button(ui, sign, name).clicked() {
-                desk.actions.push(action);
+                context.actions.push(action);
             }
         }
-        if desk.active().1.opened.is_some() {
-            reading(ui, desk);
+        if context.active().1.opened.is_some() {
+            reading(ui, context);
         }
-        replaced(ui, desk);
-        solving(ui, desk);
-        let opened = desk.active().1.opened.as_ref();
+        replaced(ui, context);
+        solving(ui, context);
+        let opened = context.active().1.opened.as_ref();
         let title = one_line(opened.map_or("ppum", |opened| &opened.dataset.title));
         ui.add(Label::new(RichText::new(title).strong()).truncate());
     });
-    player::show(ui, desk);
+    player::show(ui, context);
 }
 
 /// Says that functions, the weight or quantities are not those of the file.
-fn replaced(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
+fn replaced(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let (pane, viewport) = context.active();
     let subject = &pane.scene.subject;
     let count = subject.functions.len() + subject.quantities.len();
     let count = count + usize::from(subject.weight.is_some());
@@ -55,15 +55,15 @@ fn replaced(ui: &mut Ui, desk: &mut PanelContext<'_>) {
         let button = ui.button(text);
         let button = button.on_hover_text("Formulas in the place of the file's: show them");
         if button.clicked() {
-            stage.controls.wants = Some("Functions");
-            desk.session.panels = true;
+            viewport.controls.panel_to_open = Some("Functions");
+            context.session.panels = true;
         }
     }
 }
 
 /// Shows the progress of a running solution on every page; a click opens the page *Problem*.
-fn solving(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let Some(running) = desk.solving.running() else { return };
+fn solving(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let Some(running) = context.solving.running() else { return };
     let told = running.progress_report();
     let step = told.progress.map_or(0, |progress| progress.step);
     let text = match told.steps {
@@ -74,39 +74,32 @@ fn solving(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     let response = ui.add(bar).interact(Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "A solution runs"));
     if response.on_hover_text("Show the problem, and cancel there").clicked() {
-        desk.session.drawer = Some(DrawerPage::Problem);
+        context.session.drawer = Some(DrawerPage::Problem);
     }
 }
 
 /// Shows buttons for features that are easily overlooked: saving images, probes, K at a tip, two
 /// views.
-fn reading(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
-    let has_tips = stage.tips(pane) > 0;
-    let is_probing = stage.reading.tool == Some(Tool::Probe);
+fn reading(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let is_probing = context.active().1.tools.tool == Some(Tool::Probe);
     ui.separator();
-    ui.menu_button("Save image", |ui| super::files::exports(ui, desk))
+    ui.menu_button("Save image", |ui| super::files::exports(ui, context))
         .response
         .on_hover_text("An image, a figure for print, an animation");
-    for (name, hint, action, is_possible) in [
+    for (name, hint, action) in [
         (
             "Probe",
             "Click points of the plate to keep their values; p keeps those at the pointer",
             Action::Draw(Tool::Probe),
-            true,
         ),
-        (
-            "K at a tip",
-            "K, T and G on a circle around the nearest tip",
-            Action::CircleForK,
-            has_tips,
-        ),
-        ("Two views", "Two views side by side, or one", Action::Split, true),
+        ("K at a tip", "K, T and G on a circle around the nearest tip", Action::CircleForK),
+        ("Two views", "Two views side by side, or one", Action::Split),
     ] {
         let is_on = is_probing && name == "Probe";
-        let button = ui.add_enabled(is_possible, egui::Button::new(name).selected(is_on));
+        let button = egui::Button::new(name).selected(is_on);
+        let button = ui.add_enabled(context.is_possible(action), button);
         if button.on_hover_text(hint).clicked() {
-            desk.actions.push(action);
+            context.actions.push(action);
         }
     }
 }

@@ -26,11 +26,13 @@ pub struct Mark {
     pub message: String,
 }
 
-/// Where the files that a text names are looked for.
+/// A text, and where the files that it names are looked for: in the dataset that it came from, else
+/// in a folder.
 #[derive(Clone, Debug)]
-enum FileLookup {
-    Folder(PathBuf),
-    Dataset(Arc<Dataset>),
+struct ProblemText {
+    text: String,
+    origin: Option<Arc<Dataset>>,
+    folder: PathBuf,
 }
 
 /// A text with the results of its check.
@@ -77,13 +79,13 @@ pub struct ComputedDataset {
 
 /// The problem that is written, and the solution that is computed.
 #[derive(Debug)]
-pub struct SolverPane {
+pub struct SolverState {
     /// The dataset that the text came from: it holds the tables and points that the text names.
     pub origin: Option<Arc<Dataset>>,
     /// The way the last solution has ended.
     pub outcome: Option<SolutionOutcome>,
     /// The place in the text to go to.
-    pub wanted: Option<[usize; 2]>,
+    pub jump: Option<[usize; 2]>,
     /// Memory that is free \[bytes\], as far as the system tells.
     pub memory: fn() -> Option<u64>,
     checked: Option<Arc<CheckedText>>,
@@ -95,11 +97,13 @@ pub struct SolverPane {
 /// A solution that is being computed.
 #[derive(Debug)]
 pub struct RunningSolution {
-    pane: usize,
-    problem: ProblemDraft,
+    /// The view that it is for.
+    pub pane: usize,
+    /// The problem that is solved.
+    pub problem: ProblemDraft,
     start: Instant,
     told: Arc<Mutex<SolutionProgress>>,
-    job: BackgroundJob<Result<SolvedDataset, SolutionFailure>>,
+    job: BackgroundJob<SolvedSteps>,
 }
 
 /// The estimate and the progress of a solution while it is computed.
@@ -115,12 +119,9 @@ pub struct SolutionProgress {
     pub part: f32,
 }
 
-/// A dataset, and why it has no more steps than it has, if it should have.
-#[derive(Debug)]
-struct SolvedDataset {
-    dataset: Dataset,
-    stopped: Option<SolutionFailure>,
-}
+/// The dataset that was computed, if there is one, and why it has no more steps than it has, if it
+/// should have.
+type SolvedSteps = (Option<Dataset>, Option<SolutionFailure>);
 
 #[derive(Debug, thiserror::Error)]
 enum SolutionFailure {
@@ -150,8 +151,7 @@ pub const PHASES: [Phase; 6] = [
 ];
 
 /// The name of the editor of the text among all widgets.
-#[must_use]
-pub fn editor_id() -> egui::Id {
+pub(crate) fn editor_id() -> egui::Id {
     egui::Id::unique("text of the problem")
 }
 
@@ -160,14 +160,14 @@ pub(crate) fn phase_number(phase: Phase) -> usize {
     PHASES.iter().position(|known| *known == phase).unwrap_or(0)
 }
 
-impl SolverPane {
+impl SolverState {
     /// Nothing is written yet.
     #[must_use]
     pub fn new(ctx: &egui::Context) -> Self {
         Self {
             origin: None,
             outcome: None,
-            wanted: None,
+            jump: None,
             memory: || None,
             checked: None,
             checking: None,
@@ -203,13 +203,13 @@ impl SolverPane {
         }
         let is_known = self.checked.as_ref().is_some_and(|checked| checked.text == draft.text);
         if self.checking.is_none() && !is_known {
-            let (text, source) = (draft.text.clone(), self.source(draft));
+            let text = self.text(draft);
             self.checking = Some(BackgroundJob::start(&self.ctx, move |_| {
-                let (marks, preview) = match parse(&text, &source) {
+                let (marks, preview) = match text.parse() {
                     Ok(problem) => (Vec::new(), Some(Arc::new(Preview::new(&problem)))),
                     Err(error) => (marks(&error), None),
                 };
-                CheckedText { text, marks, preview }
+                CheckedText { text: text.text, marks, preview }
             }));
         }
     }
@@ -220,22 +220,28 @@ impl SolverPane {
         self.checked.as_ref()
     }
 
-    fn source(&self, draft: &ProblemDraft) -> FileLookup {
+    fn text(&self, draft: &ProblemDraft) -> ProblemText {
         let folder = draft.folder.as_deref().or(draft.path.as_deref().and_then(Path::parent));
-        match (&self.origin, folder) {
-            (Some(dataset), None) => FileLookup::Dataset(Arc::clone(dataset)),
-            (_, folder) => FileLookup::Folder(folder.unwrap_or(Path::new("")).to_owned()),
+        ProblemText {
+            text: draft.text.clone(),
+            origin: self.origin.clone().filter(|_| folder.is_none()),
+            folder: folder.unwrap_or(Path::new("")).to_owned(),
         }
     }
 
     /// Begins to solve the problem for a pane. A solution that is being computed is stopped.
     pub fn solve(&mut self, draft: &ProblemDraft, pane: usize) {
-        let (text, source) = (draft.text.clone(), self.source(draft));
+        let text = self.text(draft);
         let told = Arc::new(Mutex::new(SolutionProgress::default()));
         let (theirs, memory, ctx) = (Arc::clone(&told), (self.memory)(), self.ctx.clone());
         let job = BackgroundJob::start(&self.ctx, move |stop| {
             let follower = Follower { told: &theirs, stop, ctx: &ctx };
-            on_own_threads(|| solve(&text, &source, memory, &follower))?
+            // images, which are made on the other threads, do not wait for the solution
+            let solve = || solve(&text, memory, &follower).unwrap_or_else(|e| (None, Some(e)));
+            let pool = rayon::ThreadPoolBuilder::new().build();
+            let failed =
+                |error: rayon::ThreadPoolBuildError| SolutionFailure::Failed(error.to_string());
+            pool.map(|pool| pool.install(solve)).unwrap_or_else(|e| (None, Some(failed(e))))
         });
         self.outcome = None;
         let (problem, start) = (draft.clone(), Instant::now());
@@ -273,15 +279,20 @@ impl SolverPane {
     pub fn poll(&mut self) -> Option<ComputedDataset> {
         let ended = self.running.as_ref()?.job.poll()?;
         let running = self.running.take()?;
-        let (outcome, dataset) = match ended.map_err(SolutionFailure::Failed).flatten() {
-            Ok(SolvedDataset { dataset, stopped: None }) => {
-                let warnings = warnings_of(&dataset);
-                (SolutionOutcome::Solved(running.seconds(), warnings), Some(dataset))
+        let (dataset, stopped) =
+            ended.unwrap_or_else(|panic| (None, Some(SolutionFailure::Failed(panic))));
+        let steps = dataset.as_ref().map_or(0, |dataset| dataset.steps.len());
+        let nothing = || dataset.is_none().then_some(SolutionFailure::Cancelled);
+        let outcome = match stopped.or_else(nothing) {
+            None => {
+                let warnings = dataset.as_ref().map(warnings_of).unwrap_or_default();
+                SolutionOutcome::Solved(running.seconds(), warnings)
             }
-            Ok(SolvedDataset { dataset, stopped: Some(stopped) }) => {
-                (stopped.outcome(dataset.steps.len()), Some(dataset))
+            Some(SolutionFailure::Cancelled) => SolutionOutcome::Cancelled(steps),
+            Some(SolutionFailure::Failed(error)) if steps > 0 => {
+                SolutionOutcome::Failed(format!("step {steps}: {error}"))
             }
-            Err(stopped) => (stopped.outcome(0), None),
+            Some(SolutionFailure::Failed(error)) => SolutionOutcome::Failed(error),
         };
         self.outcome = Some(outcome.clone());
         let RunningSolution { pane, problem, .. } = running;
@@ -292,22 +303,8 @@ impl SolverPane {
 
 impl ComputationRecord {
     /// True if it is all that was to be computed: not the steps before a stop or an error.
-    #[must_use]
-    pub fn is_complete(&self) -> bool {
+    pub(crate) fn is_complete(&self) -> bool {
         matches!(self.outcome, SolutionOutcome::Solved(..))
-    }
-}
-
-impl SolutionFailure {
-    /// The outcome with so many steps.
-    fn outcome(self, steps: usize) -> SolutionOutcome {
-        match self {
-            Self::Cancelled => SolutionOutcome::Cancelled(steps),
-            Self::Failed(error) if steps > 0 => {
-                SolutionOutcome::Failed(format!("step {steps}: {error}"))
-            }
-            Self::Failed(error) => SolutionOutcome::Failed(error),
-        }
     }
 }
 
@@ -323,18 +320,6 @@ fn warnings_of(dataset: &Dataset) -> Vec<String> {
 }
 
 impl RunningSolution {
-    /// The problem that is solved.
-    #[must_use]
-    pub fn problem(&self) -> &ProblemDraft {
-        &self.problem
-    }
-
-    /// The view that it is for.
-    #[must_use]
-    pub fn pane(&self) -> usize {
-        self.pane
-    }
-
     /// Seconds since it began.
     #[must_use]
     pub fn seconds(&self) -> f64 {
@@ -394,30 +379,22 @@ impl Watcher for Follower<'_> {
     }
 }
 
-/// On threads of their own, so that images, which are made on the others, do not wait for the
-/// solution.
-fn on_own_threads<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, SolutionFailure> {
-    let pool = rayon::ThreadPoolBuilder::new().build();
-    pool.map(|pool| pool.install(work)).map_err(|error| SolutionFailure::Failed(error.to_string()))
-}
-
 fn solve(
-    text: &str,
-    source: &FileLookup,
+    text: &ProblemText,
     memory: Option<u64>,
     follower: &Follower<'_>,
-) -> Result<SolvedDataset, SolutionFailure> {
-    let problem = parse(text, source).map_err(|error| SolutionFailure::Failed(summary(&error)))?;
+) -> Result<SolvedSteps, SolutionFailure> {
+    let problem = text.parse().map_err(|error| SolutionFailure::Failed(summary(&error)))?;
     follower.told().steps = problem.growth.as_ref().map(|rule| rule.steps);
     let plan = Plan::new(&problem, memory, follower)?;
     follower.told().estimate = Some(plan.estimate().to_string());
     holds(plan.dataset())?;
     if problem.growth.is_some() {
-        return grown(&problem, memory, follower);
+        return Ok(grown(&problem, memory, follower));
     }
     let dataset = plan.solve(follower)?;
     holds(&dataset)?;
-    Ok(SolvedDataset { dataset, stopped: None })
+    Ok((Some(dataset), None))
 }
 
 /// A dataset that no file can hold is no solution: a load that is too large leaves numbers that are
@@ -427,11 +404,7 @@ fn holds(dataset: &Dataset) -> Result<(), SolutionFailure> {
 }
 
 /// All steps of a series, or those that are complete when it is stopped.
-fn grown(
-    problem: &Problem,
-    memory: Option<u64>,
-    follower: &Follower<'_>,
-) -> Result<SolvedDataset, SolutionFailure> {
+fn grown(problem: &Problem, memory: Option<u64>, follower: &Follower<'_>) -> SolvedSteps {
     let mut all: Option<Dataset> = None;
     let keep = |step: Dataset| {
         holds(&step)?;
@@ -447,16 +420,15 @@ fn grown(
         Err(GrowthError::Kept(stopped)) => Some(stopped),
         Err(error) => Some(SolutionFailure::Failed(error.to_string())),
     };
-    match (all, stopped) {
-        (Some(dataset), stopped) => Ok(SolvedDataset { dataset, stopped }),
-        (None, stopped) => Err(stopped.unwrap_or(SolutionFailure::Cancelled)),
-    }
+    (all, stopped)
 }
 
-fn parse(text: &str, source: &FileLookup) -> Result<Problem, ProblemError> {
-    match source {
-        FileLookup::Folder(folder) => Problem::parse(text, "problem", folder),
-        FileLookup::Dataset(dataset) => Problem::parse_with(text, dataset),
+impl ProblemText {
+    fn parse(&self) -> Result<Problem, ProblemError> {
+        match &self.origin {
+            None => Problem::parse(&self.text, "problem", &self.folder),
+            Some(dataset) => Problem::parse_with(&self.text, dataset),
+        }
     }
 }
 

@@ -55,8 +55,7 @@ impl Preview {
     }
 
     /// Holes, cracks, supports and loads, by number.
-    #[must_use]
-    pub fn counts(&self) -> [usize; 4] {
+    pub(crate) fn counts(&self) -> [usize; 4] {
         [self.holes().len(), self.cracks.len(), self.supports.len(), self.loads.len()]
     }
 
@@ -65,8 +64,7 @@ impl Preview {
     }
 
     /// Drawn on so many pixels; nothing of a body that has no room there.
-    #[must_use]
-    pub fn items(&self, pixels: [u32; 2], scale: f64) -> Vec<CanvasItem> {
+    pub(crate) fn items(&self, pixels: [u32; 2], scale: f64) -> Vec<CanvasItem> {
         let bounds = self.domain.bounds;
         let (size, center) = (bounds.size(), (bounds.min + bounds.max) * 0.5);
         let [across, up] = pixels.map(|count| f64::from(count) * (1.0 - 2.0 * MARGIN));

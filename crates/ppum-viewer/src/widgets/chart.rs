@@ -13,18 +13,30 @@ use crate::shapes::{self, ImagePlacement};
 pub struct PlotWidget {
     /// Its clicks and hovers.
     pub response: egui::Response,
-    placed: ImagePlacement,
-    area: PlotArea,
+    /// Where its pixels lie.
+    pub placed: ImagePlacement,
+    /// Where its values lie.
+    pub area: PlotArea,
 }
 
 /// Shows a plot under a name in a room of some size \[points\]; a small room shows all of
 /// it, smaller.
 pub fn chart(ui: &mut Ui, name: &str, figure: &Plot, size: egui::Vec2) -> PlotWidget {
+    let scale = [size.x / LEAST[0] as f32, size.y / LEAST[1] as f32];
+    scaled_chart(ui, name, figure, size, scale[0].min(scale[1]).clamp(0.1, 1.0))
+}
+
+/// Shows a plot at so many points of the window per pixel.
+pub fn scaled_chart(
+    ui: &mut Ui,
+    name: &str,
+    figure: &Plot,
+    size: egui::Vec2,
+    scale: f32,
+) -> PlotWidget {
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, name));
-    let scale = [size.x / LEAST[0] as f32, size.y / LEAST[1] as f32];
-    let scale = scale[0].min(scale[1]).clamp(0.1, 1.0);
-    let pixels = [size.x, size.y].map(|points| (points / scale) as u32);
+    let pixels = [size.x, size.y].map(|points| ((points / scale) as u32).max(1));
     let mut canvas = plot(figure, pixels);
     if ui.visuals().dark_mode {
         canvas = darkened(canvas);
@@ -38,8 +50,7 @@ pub fn chart(ui: &mut Ui, name: &str, figure: &Plot, size: egui::Vec2) -> PlotWi
 
 impl PlotWidget {
     /// The value of the horizontal axis at a position in the window.
-    #[must_use]
-    pub fn across(&self, x: f32) -> f64 {
+    pub(crate) fn across(&self, x: f32) -> f64 {
         self.area.across(f64::from((x - self.placed.corner.x) / self.placed.scale))
     }
 
@@ -57,8 +68,7 @@ impl PlotWidget {
 }
 
 /// A page with its greys turned round, for dark windows; colours are the same.
-#[must_use]
-pub fn darkened(page: Canvas) -> Canvas {
+fn darkened(page: Canvas) -> Canvas {
     let items = page.items.into_iter().map(|item| match item {
         CanvasItem::Line { path, mut pen } => {
             pen.color = turned(pen.color);

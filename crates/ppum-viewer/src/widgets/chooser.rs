@@ -24,8 +24,48 @@ pub struct Chooser {
     is_new: bool,
     /// True while the text has them.
     has_keys: bool,
+    /// True if the text takes them back whenever it has lost them.
+    keeps_keys: bool,
     text: String,
     at: usize,
+}
+
+/// Rows below each other, one of which the keys are at.
+pub(crate) struct RowList<'a> {
+    /// The name among all widgets.
+    pub(crate) name: &'a str,
+    /// The largest height \[points\].
+    pub(crate) height: f32,
+    /// The row that the keys are at.
+    pub(crate) at: Option<usize>,
+    /// True if that row is scrolled to.
+    pub(crate) is_followed: bool,
+}
+
+impl RowList<'_> {
+    /// Shows the rows; returns the one that is clicked.
+    pub(crate) fn show<T: Copy>(
+        &self,
+        ui: &mut Ui,
+        rows: impl Iterator<Item = T>,
+        mut row: impl FnMut(&mut Ui, T, bool) -> Response,
+    ) -> Option<T> {
+        let mut clicked = None;
+        let area = ScrollArea::vertical().max_height(self.height).auto_shrink([false, true]);
+        area.id_salt(self.name).show(ui, |ui| {
+            for (number, one) in rows.enumerate() {
+                let is_at = self.at == Some(number);
+                let response = row(ui, one, is_at);
+                if is_at && self.is_followed {
+                    response.scroll_to_me(None);
+                }
+                if response.clicked() {
+                    clicked = Some(one);
+                }
+            }
+        });
+        clicked
+    }
 }
 
 /// Rows that are shown; who looks for others writes more of the name.
@@ -39,9 +79,14 @@ impl Chooser {
         *self = Self { is_open: true, is_new: true, ..Self::default() };
     }
 
+    /// Opens the list, which keeps the keys until it is closed.
+    pub(crate) fn open_alone(&mut self) {
+        self.open();
+        self.keeps_keys = true;
+    }
+
     /// True if the list is open.
-    #[must_use]
-    pub fn is_open(&self) -> bool {
+    pub(crate) fn is_open(&self) -> bool {
         self.is_open
     }
 
@@ -54,8 +99,14 @@ impl Chooser {
         }
     }
 
-    /// Shows the list if it is open; returns what is chosen. `row` shows a choice, true if the keys
-    /// are at it.
+    /// The text that is looked for.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Shows the list of the choices that fit the text, if it is open; returns what is chosen.
+    /// `row` shows a choice, true if the keys are at it.
     pub fn show(
         &mut self,
         ui: &mut Ui,
@@ -64,54 +115,58 @@ impl Chooser {
         choices: &[ChooserItem],
         row: impl Fn(&mut Ui, &ChooserItem, bool) -> Response,
     ) -> Option<String> {
+        let found = matching_choices(&self.text, choices);
+        let empty = "nothing has this name; formulas are written below";
+        self.show_found(ui, [name, empty], current, &found, row)
+    }
+
+    /// Shows a list that was found by the text, with a note in place of an empty one.
+    pub(crate) fn show_found(
+        &mut self,
+        ui: &mut Ui,
+        [name, empty]: [&str; 2],
+        current: &str,
+        found: &[&ChooserItem],
+        row: impl Fn(&mut Ui, &ChooserItem, bool) -> Response,
+    ) -> Option<String> {
         if !self.is_open {
             return None;
         }
-        let found = matching_choices(&self.text, choices);
         if self.is_new {
             self.at = found.iter().position(|choice| choice.value == current).unwrap_or(0);
         }
-        let (enter, has_moved) = self.keys(ui, found.len());
+        let (enter, is_followed) = self.keys(ui, found.len());
         self.field(ui, name);
-        let mut chosen = found.get(self.at).filter(|_| enter).copied();
-        let area = ScrollArea::vertical().max_height(HEIGHT).auto_shrink([false, true]);
-        area.id_salt(name).show(ui, |ui| {
-            let mut group = "";
-            for (number, choice) in found.iter().copied().enumerate().take(MOST.max(self.at + 1)) {
-                if choice.group != group {
-                    group = choice.group;
-                    ui.label(note(ui, group));
-                }
-                let response = row(ui, choice, number == self.at);
-                if number == self.at && has_moved {
-                    response.scroll_to_me(None);
-                }
-                if response.clicked() {
-                    chosen = Some(choice);
-                }
+        let entered = found.get(self.at).filter(|_| enter).copied();
+        let list = RowList { name, height: HEIGHT, at: Some(self.at), is_followed };
+        let mut group = "";
+        let rows = found.iter().copied().take(MOST.max(self.at + 1));
+        let clicked = list.show(ui, rows, |ui, choice, is_at| {
+            if choice.group != group {
+                group = choice.group;
+                ui.label(note(ui, group));
             }
-            if found.len() > MOST {
-                ui.label(note(
-                    ui,
-                    format!("and {} more: write more of the name", found.len() - MOST),
-                ));
-            }
-            if found.is_empty() {
-                ui.weak("nothing has this name; formulas are written below");
-            }
+            row(ui, choice, is_at)
         });
-        let value = chosen.map(|choice| choice.value.clone());
+        if found.len() > MOST {
+            let more = format!("and {} more: write more of the name", found.len() - MOST);
+            ui.label(note(ui, more));
+        }
+        if found.is_empty() {
+            ui.weak(empty);
+        }
+        let value = clicked.or(entered).map(|choice| choice.value.clone());
         if value.is_some() {
             *self = Self::default();
         }
         value
     }
 
-    /// The text that is looked for.
+    /// The field of the text.
     fn field(&mut self, ui: &mut Ui, name: &str) {
         let edit = TextEdit::singleline(&mut self.text).hint_text("type to search");
         let edit = ui.add(edit.desired_width(f32::INFINITY)).accessible_name(name);
-        if self.is_new {
+        if self.is_new || self.keeps_keys {
             edit.request_focus();
             self.is_new = false;
         }

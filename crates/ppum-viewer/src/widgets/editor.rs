@@ -184,8 +184,7 @@ impl TextDiagnostic {
     }
 
     /// Explains why a text is no quantity.
-    #[must_use]
-    pub fn of_quantity(error: &DisplayError, text: &str) -> Self {
+    pub(crate) fn of_quantity(error: &DisplayError, text: &str) -> Self {
         match error {
             DisplayError::Quantity(QuantityError::Formula(QuantityFormulaError::Formula(
                 error,
@@ -214,8 +213,7 @@ impl TextDiagnostic {
     }
 
     /// Explains why a text is no formula of a named quantity.
-    #[must_use]
-    pub fn of_definition(error: &QuantityFormulaError, text: &str) -> Self {
+    pub(crate) fn of_definition(error: &QuantityFormulaError, text: &str) -> Self {
         match error {
             QuantityFormulaError::Formula(error) => Self::of_formula(error, text),
             other => Self::of_all(other, text),
@@ -223,8 +221,7 @@ impl TextDiagnostic {
     }
 
     /// Explains why a text cannot replace a function or the weight.
-    #[must_use]
-    pub fn of_replacement(error: &ReplaceError, text: &str) -> Self {
+    pub(crate) fn of_replacement(error: &ReplaceError, text: &str) -> Self {
         match error {
             ReplaceError::Formula(error) | ReplaceError::Weight(WeightError::Formula(error)) => {
                 Self::of_formula(error, text)

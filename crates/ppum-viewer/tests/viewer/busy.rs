@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
 use egui::{Event, Modifiers, MouseWheelUnit, TouchPhase, pos2, vec2};
-use ppum_viewer::actions::{ALL, Action};
+use ppum_viewer::actions::{Action, all};
 
 use crate::kit::{TIME_LIMIT, plate, settle, wait_until, window};
 
@@ -75,15 +75,15 @@ fn is_of_the_plate(action: Action) -> bool {
 #[test]
 fn the_window_never_waits_for_work_of_others() {
     let mut window = window(plate(), [700.0, 450.0]);
-    for entry in ALL.iter().filter(|entry| is_of_the_plate(entry.action)) {
+    for entry in all().filter(|entry| is_of_the_plate(entry.action)) {
         settle(&mut window);
         let ctx = window.ctx.clone();
         window.state_mut().act(&ctx, entry.action);
         window.step();
         // pictures that are ready but not yet shown are shown while the pool is busy
-        for stage in &mut window.state_mut().stages {
+        for viewport in &mut window.state_mut().viewports {
             wait_until("its next picture is ready", || {
-                stage.frames.poll() || !stage.frames.is_working()
+                viewport.frames.poll() || !viewport.frames.is_working()
             });
         }
         let busy = Busy::new();

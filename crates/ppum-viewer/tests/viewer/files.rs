@@ -7,9 +7,9 @@ use std::sync::Arc;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
-use ppum_viewer::files::examples;
 use ppum_viewer::files::window_state::WindowState;
-use ppum_viewer::session::VisibleRegion;
+use ppum_viewer::files::{SavedFile, examples};
+use ppum_viewer::session::{Session, VisibleRegion};
 
 use crate::kit::{plate, show_until};
 use crate::lab::{Lab, shot};
@@ -172,7 +172,11 @@ fn an_open_file_is_watched() {
 }
 
 fn title(viewer: &ppum_viewer::Viewer) -> String {
-    viewer.stages[0].opened.as_ref().map(|opened| opened.dataset.title.clone()).unwrap_or_default()
+    viewer.viewports[0]
+        .opened
+        .as_ref()
+        .map(|opened| opened.dataset.title.clone())
+        .unwrap_or_default()
 }
 
 /// A series that has lost steps: the step that was looked at is gone, and the last one is shown.
@@ -185,13 +189,13 @@ fn a_shorter_series_is_shown_to_its_end() {
     lab.settle();
     lab.write("series.h5", &ppum_testkit::synthetic::growing(2));
     let steps = |viewer: &ppum_viewer::Viewer| {
-        viewer.stages[0].opened.as_ref().map(|opened| opened.dataset.steps.len())
+        viewer.viewports[0].opened.as_ref().map(|opened| opened.dataset.steps.len())
     };
     lab.until("it is read", |viewer| steps(viewer) == Some(2));
     lab.settle();
     assert_eq!(lab.state().session.panes[0].scene.subject.step, None);
     assert!(lab.notes().contains("there is no step 3"), "{}", lab.notes());
-    assert_eq!(lab.window.state().stages[0].frames.failure(), None);
+    assert_eq!(lab.window.state().viewports[0].frames.failure(), None);
 }
 
 #[test]
@@ -200,14 +204,14 @@ fn a_dataset_is_saved_and_read_back() {
     let dataset = Arc::new(named("Solved"));
     lab.state().open(None, Arc::clone(&dataset));
     let path = lab.path("saved.h5");
-    lab.state().files.write_dataset(path.clone(), dataset);
+    lab.state().files.save(path.clone(), SavedFile::Dataset(dataset), &Session::default());
     lab.settle();
     assert_eq!(lab.state().session.panes[0].file, Some(path.clone()));
     assert_eq!(ppum_format::read(&path).expect("a dataset"), *lab.dataset(0).expect("open"));
     // into a folder that is not there
     let nowhere = lab.path("nowhere/saved.h5");
     let dataset = lab.dataset(0).expect("open");
-    lab.state().files.write_dataset(nowhere, dataset);
+    lab.state().files.save(nowhere, SavedFile::Dataset(dataset), &Session::default());
     lab.settle();
     assert!(lab.notes().contains("cannot be written"), "{}", lab.notes());
     assert_eq!(lab.state().session.panes[0].file, Some(path));
@@ -268,17 +272,17 @@ fn a_file_that_has_become_another_plate_is_shown_as_that() {
         let name = slit.title.clone();
         lab.write("plate.h5", &slit);
         lab.until("it is read and drawn", |viewer| {
-            let stage = &viewer.stages[0];
-            let newest = stage.frames.newest();
+            let viewport = &viewer.viewports[0];
+            let newest = viewport.frames.newest();
             let is_new = title(viewer) == name;
             if let Some(frame) = newest.filter(|_| is_new) {
-                assert_eq!(frame.wanted.dataset.title, name, "{quantity}");
+                assert_eq!(frame.request.dataset.title, name, "{quantity}");
             }
             is_new && newest.is_some() && !viewer.is_working()
         });
         lab.settle();
         let viewer = lab.viewer();
-        assert_eq!(viewer.stages[0].frames.failure(), None);
+        assert_eq!(viewer.viewports[0].frames.failure(), None);
         let pane = &viewer.session.panes[0];
         let scene = &pane.scene;
         assert_eq!(
@@ -304,23 +308,23 @@ fn a_quantity_that_a_file_no_longer_has_is_left() {
     lab.state().session.panes[0].scene.quantity = Some("mine".into());
     lab.state().session.panes[0].scene.colors.colormap = Some("cividis".into());
     lab.settle();
-    assert_eq!(lab.viewer().stages[0].frames.failure(), None);
+    assert_eq!(lab.viewer().viewports[0].frames.failure(), None);
     let place = Some(VisibleRegion { center: [0.5, 0.0], width: 1e-3 });
     lab.state().session.panes[0].place = place;
     lab.write("plate.h5", &named("Second"));
     lab.until("the new file is read", |viewer| title(viewer) == "Second");
     lab.settle();
-    let (stage, pane) = (&lab.viewer().stages[0], &lab.viewer().session.panes[0]);
-    let frame = stage.frames.newest().expect("a picture");
-    assert_eq!((frame.wanted.dataset.title.as_str(), stage.frames.failure()), ("Second", None));
+    let (viewport, pane) = (&lab.viewer().viewports[0], &lab.viewer().session.panes[0]);
+    let frame = viewport.frames.newest().expect("a picture");
+    assert_eq!((frame.request.dataset.title.as_str(), viewport.frames.failure()), ("Second", None));
     assert_eq!((&pane.scene.quantity, pane.place), (&None, place));
     assert_eq!(pane.scene.colors.colormap.as_deref(), Some("cividis"));
     assert!(lab.notes().contains("mine cannot be shown: "), "{}", lab.notes());
     // a mistake in what is written now leaves the picture of the same dataset
     lab.state().session.panes[0].scene.quantity = Some("nonsense".into());
     lab.settle();
-    let stage = &lab.viewer().stages[0];
-    assert!(stage.frames.failure().is_some() && stage.frames.newest().is_some());
+    let viewport = &lab.viewer().viewports[0];
+    assert!(viewport.frames.failure().is_some() && viewport.frames.newest().is_some());
 }
 
 /// A folder that cannot be written is told once, not never and not always.

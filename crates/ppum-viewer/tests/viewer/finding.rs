@@ -104,7 +104,7 @@ fn the_finder_makes_place_for_what_opens() {
 #[test]
 fn the_map_says_what_the_wheel_does() {
     let mut lab = lab();
-    let whole = lab.viewer().stages[0].view.expect("a view");
+    let whole = lab.viewer().viewports[0].camera.view.expect("a view");
     for (times, is_shown) in [(2.0, false), (30.0, true)] {
         let width = whole.width / times;
         let place = VisibleRegion { center: [0.0, 0.0], width };
@@ -140,7 +140,7 @@ fn enlarged(place: Vec2) -> View {
         lab.window.event(Event::MouseWheel { unit, delta, modifiers, phase, source });
         lab.settle();
     }
-    lab.viewer().stages[0].view.expect("a view")
+    lab.viewer().viewports[0].camera.view.expect("a view")
 }
 
 /// What is written is seen before it is solved; a solution of another text is told.

@@ -8,31 +8,32 @@ use egui_kittest::Harness;
 use ppum_scene::overlays::Overlays;
 use ppum_viewer::Viewer;
 use ppum_viewer::session::Session;
-use ppum_viewer::stage::pixels::use_device;
+use ppum_viewer::viewport::pixels::use_device;
 
 use crate::kit::{plate, settle, show_until, wait_until, window};
 
 #[test]
 fn at_rest_nothing_is_shown_anew() {
     let mut window = window(plate(), [700.0, 500.0]);
-    let frame = window.state().stages[0].frames.newest().cloned().expect("a picture");
+    let frame = window.state().viewports[0].frames.newest().cloned().expect("a picture");
     // a thread may wake the window late, once: the count begins again
     let mut idle_frames = 0;
     show_until(&mut window, "the window no longer asks to be shown", |window| {
         let viewports = window.output().viewport_output.values();
         let delay = viewports.map(|viewport| viewport.repaint_delay).min();
-        let is_idle = delay == Some(Duration::MAX) && !window.state().stages[0].is_drawing();
+        let is_idle = delay == Some(Duration::MAX) && !window.state().viewports[0].is_drawing();
         idle_frames = if is_idle { idle_frames + 1 } else { 0 };
         idle_frames == 60
     });
-    let later = window.state().stages[0].frames.newest().expect("a picture");
+    let later = window.state().viewports[0].frames.newest().expect("a picture");
     assert!(Arc::ptr_eq(&frame, later) && frame.is_final);
 }
 
 #[test]
 fn a_drag_moves_the_picture_and_ends_with_the_whole_one() {
     let mut window = window(plate(), [700.0, 500.0]);
-    let view = |window: &Harness<'_, Viewer>| window.state().stages[0].view.expect("a plate");
+    let view =
+        |window: &Harness<'_, Viewer>| window.state().viewports[0].camera.view.expect("a plate");
     let (before, mut mouse) = (view(&window), pos2(200.0, 250.0));
     window.event(Event::PointerMoved(mouse));
     window.step();
@@ -53,9 +54,9 @@ fn a_drag_moves_the_picture_and_ends_with_the_whole_one() {
         moves += 1;
         window.event(Event::PointerMoved(mouse));
         show_until(&mut window, "the new place is drawn", |window| {
-            let newest = window.state().stages[0].frames.newest().expect("a picture");
+            let newest = window.state().viewports[0].frames.newest().expect("a picture");
             was_rough |= newest.drawn.by.ends_with("moved");
-            newest.wanted.view == view(window)
+            newest.request.view == view(window)
         });
         was_rough && moves >= 10
     });
@@ -65,7 +66,7 @@ fn a_drag_moves_the_picture_and_ends_with_the_whole_one() {
     let moved = (before.center - after.center) / before.pixel_size();
     let [x, y] = [mouse.x - start.x, start.y - mouse.y].map(f64::from);
     assert!((moved.x - x).abs() < 1e-6 && (moved.y - y).abs() < 1e-6, "{moved:?}");
-    let last = window.state().stages[0].frames.newest().expect("a picture");
+    let last = window.state().viewports[0].frames.newest().expect("a picture");
     assert!(last.is_final && last.drawn.view == after && last.drawn.by == "cpu f64");
 }
 

@@ -56,9 +56,10 @@ pub(crate) fn show_until(
 /// Shows the window until nothing is drawn or read.
 pub(crate) fn settle(window: &mut Harness<'static, Viewer>) {
     show_until(window, "the window comes to rest", |window| {
-        let is_working =
-            |stage: &ppum_viewer::stage::ViewPane| stage.is_drawing() || stage.reading.is_working();
-        !window.state().stages.iter().any(is_working)
+        let is_working = |viewport: &ppum_viewer::viewport::ViewState| {
+            viewport.is_drawing() || viewport.tools.is_working()
+        };
+        !window.state().viewports.iter().any(is_working)
     });
     window.step();
 }
@@ -77,7 +78,7 @@ pub(crate) fn plate() -> Dataset {
 /// The position of a point of the plate in the window.
 pub(crate) fn at(harness: &Harness<'static, Viewer>, point: Vec2) -> egui::Pos2 {
     let rect = harness.get_by_label("Plate").rect();
-    let view = harness.state().stages[0].view.expect("a plate is shown");
+    let view = harness.state().viewports[0].camera.view.expect("a plate is shown");
     let pixel = view.pixel(point) * (f64::from(rect.width()) / f64::from(view.pixels[0]));
     rect.min + egui::vec2(pixel.x as f32, pixel.y as f32)
 }

@@ -93,7 +93,7 @@ impl Lab {
 
     /// The dataset of a pane.
     pub(crate) fn dataset(&self, pane: usize) -> Option<Arc<Dataset>> {
-        let opened = self.window.state().stages[pane].opened.as_ref();
+        let opened = self.window.state().viewports[pane].opened.as_ref();
         opened.map(|opened| Arc::clone(&opened.dataset))
     }
 

@@ -208,7 +208,7 @@ fn perform(lab: &mut Lab, deed: Deed) {
 fn check(lab: &mut Lab, work: &Work, doing: &str) {
     let is_asked = lab.viewer().is_asking();
     let is_shown = |solution: &Arc<Dataset>| {
-        let mut all = lab.viewer().stages.iter().filter_map(|stage| stage.opened.as_ref());
+        let mut all = lab.viewer().viewports.iter().filter_map(|viewport| viewport.opened.as_ref());
         all.any(|opened| Arc::ptr_eq(&opened.dataset, solution))
     };
     if let Some(solution) = &work.solution {
@@ -300,7 +300,7 @@ fn solving_another_problem_asks_for_the_solution() {
     click(&mut lab, "Save…");
     lab.window.key_press(Key::Enter);
     lab.until("the other one is solved", |viewer| {
-        let opened = viewer.stages[0].opened.as_ref();
+        let opened = viewer.viewports[0].opened.as_ref();
         opened.is_some_and(|opened| opened.dataset.title == "Second")
     });
     let saved = ppum_format::read(&lab.path("first.h5")).expect("it is saved");
@@ -326,7 +326,7 @@ fn a_problem_that_gets_a_file_is_the_same_problem() {
     rest(&mut lab);
     let named = lab.path("named.toml");
     assert_eq!(draft(&mut lab).path.as_ref(), Some(&named));
-    let opened = lab.viewer().stages[0].opened.as_ref().expect("it is shown");
+    let opened = lab.viewer().viewports[0].opened.as_ref().expect("it is shown");
     let proposed = opened.proposed_name(std::path::Path::new("/"));
     assert_eq!(proposed, Some(lab.path("named.h5")));
     draft(&mut lab).text = text("First").replace("young = 1.0", MINE);

@@ -15,7 +15,7 @@ use ppum_problem::Problem;
 use ppum_scene::overlays::Overlay;
 use ppum_scene::profile::ProfileCurve;
 use ppum_viewer::Viewer;
-use ppum_viewer::reading::words;
+use ppum_viewer::measure::words;
 use ppum_viewer::session::{DrawerPage, VisibleRegion};
 
 use crate::kit::{at, hover, plate, settle, show_until, window};
@@ -186,7 +186,7 @@ fn probes_are_pinned_on_the_plate_and_once_at_a_place() {
     hover(&mut window, v(0.31, 0.42));
     press(&mut window, Key::P);
     press(&mut window, Key::P);
-    assert_eq!((count(&window), window.state().stages[0].reading.selected), (1, Some(0)));
+    assert_eq!((count(&window), window.state().viewports[0].tools.selected), (1, Some(0)));
     hover(&mut window, v(-0.31, 0.42));
     press(&mut window, Key::P);
     assert_eq!(count(&window), 2);
@@ -213,7 +213,7 @@ fn keys_that_have_nothing_to_do_say_why() {
         press(&mut window, Key::O);
         assert!(shown(&window).is_empty());
     }
-    window.state_mut().stages[0].controls.hidden = None;
+    window.state_mut().viewports[0].controls.hidden = None;
     press(&mut window, Key::O);
     assert_eq!(shown(&window), [Overlay::Cells]);
 }
@@ -340,7 +340,7 @@ fn the_line_below_the_plate_shows_as_many_patches_as_there_is_room_for() {
     for (width, is_whole) in [(1900.0, true), (700.0, false)] {
         let mut window = window(plate(), [width, 700.0]);
         hover(&mut window, v(0.252, 0.501));
-        let probed = window.state().stages[0].reading.hover.clone().expect("read");
+        let probed = window.state().viewports[0].tools.hover.clone().expect("read");
         assert!(probed.patches.len() > 1);
         let all = words::patches(&probed).expect("patches");
         assert_eq!(has(&window, &all), is_whole, "{width}");

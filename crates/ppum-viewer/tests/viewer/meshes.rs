@@ -15,7 +15,7 @@ use ppum_scene::owner::Owner;
 use ppum_testkit::meshes::{BivariatePolynomial, MeshBuilder, field, random_polynomial};
 use ppum_testkit::random::Random;
 use ppum_viewer::Viewer;
-use ppum_viewer::reading::tool::Tool;
+use ppum_viewer::measure::tool::Tool;
 
 use crate::kit::{at, hover, settle, window};
 
@@ -54,7 +54,7 @@ fn boxes() -> Dataset {
 /// What is read at a point of the plate.
 fn owner(window: &mut Window, point: Vec2) -> Option<Owner> {
     hover(window, point);
-    window.state().stages[0].reading.hover.as_ref().expect("over the plate").owner
+    window.state().viewports[0].tools.hover.as_ref().expect("over the plate").owner
 }
 
 fn click(window: &mut Window, point: Vec2) {
@@ -71,14 +71,14 @@ fn click(window: &mut Window, point: Vec2) {
 fn a_probe_of_an_element_shows_its_data() {
     let dataset = mesh();
     let mut window = window(dataset.clone(), SIZE);
-    window.state_mut().stages[0].reading.tool = Some(Tool::Probe);
+    window.state_mut().viewports[0].tools.tool = Some(Tool::Probe);
     let field = Field::new(&dataset, 0).expect("a field");
     let mesh = dataset.steps[0].partition.mesh().expect("a mesh");
     let mut random = Random(9);
     for _ in 0..6 {
         let point = vec2(random.between(0.2, 0.9), random.between(0.1, 0.8));
         let Some(Owner::Element(element)) = owner(&mut window, point) else { panic!("{point:?}") };
-        let spot = window.state().stages[0].reading.hover.as_ref().expect("read").spot.point();
+        let spot = window.state().viewports[0].tools.hover.as_ref().expect("read").spot.point();
         let expected = field.at(spot).owner(Vec2::ZERO, Side::Above).expect("inside");
         assert_eq!(element.patch as usize, expected);
         assert_eq!(element.number, mesh.element[expected]);
@@ -97,7 +97,7 @@ fn elements_and_boxes_are_picked_as_parts() {
     for (dataset, point) in [(mesh(), vec2(0.61, 0.33)), (boxes(), vec2(0.36, 0.6))] {
         let mut window = window(dataset, SIZE);
         let expected = owner(&mut window, point).expect("inside").patch();
-        window.state_mut().stages[0].controls.is_picking = true;
+        window.state_mut().viewports[0].controls.is_picking = true;
         click(&mut window, point);
         let part = window.state().session.pane().scene.subject.part.clone();
         assert_eq!(part, Some(format!("patch:{expected}")));

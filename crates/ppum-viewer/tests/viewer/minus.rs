@@ -27,7 +27,7 @@ use ppum_testkit::synthetic::growing;
 use ppum_viewer::Viewer;
 use ppum_viewer::export::PageSize;
 use ppum_viewer::frames::{Backend, FaultOrigin, RenderedFrame};
-use ppum_viewer::reading::probe::ProbeReading;
+use ppum_viewer::measure::probe::ProbeReading;
 use ppum_viewer::session::{Session, VisibleRegion};
 
 use crate::kit::{plate, settle, show_until};
@@ -71,7 +71,7 @@ fn pair(left: Dataset, right: Dataset, size: [f32; 2], backend: Backend) -> Wind
 const SIZE: [f32; 2] = [1200.0, 700.0];
 
 fn frame(window: &Window) -> Arc<RenderedFrame> {
-    Arc::clone(window.state().stages[1].frames.newest().expect("a picture on the right"))
+    Arc::clone(window.state().viewports[1].frames.newest().expect("a picture on the right"))
 }
 
 fn values(window: &Window) -> Vec<f64> {
@@ -82,7 +82,7 @@ fn values(window: &Window) -> Vec<f64> {
 }
 
 fn norms(window: &Window) -> DifferenceNorms {
-    frame(window).subtracted.as_ref().and_then(|left| left.norms).expect("it is drawn")
+    frame(window).norms.expect("it is drawn")
 }
 
 /// A value of a quantity at a point of a dataset.
@@ -94,14 +94,14 @@ fn value(dataset: &Dataset, step: usize, text: &str, spot: &Location) -> f64 {
 
 /// Moves the pointer to a place of the right view.
 fn hover(window: &mut Window, offset: Vec2) -> ProbeReading {
-    let stage = &window.state().stages[1];
-    let view = stage.view.expect("it is shown");
+    let viewport = &window.state().viewports[1];
+    let view = viewport.camera.view.expect("it is shown");
     let rect = window.query_all_by_label("Plate").last().expect("two plates").rect();
     let pixel =
         view.pixel_of_offset(offset) * (f64::from(rect.width()) / f64::from(view.pixels[0]));
     window.hover_at(rect.min + vec2(pixel.x as f32, pixel.y as f32));
     settle(window);
-    window.state().stages[1].reading.hover.clone().expect("the pointer is over the plate")
+    window.state().viewports[1].tools.hover.clone().expect("the pointer is over the plate")
 }
 
 fn has_label(window: &Window, part: &str) -> bool {
@@ -130,7 +130,7 @@ fn a_key_shows_the_difference_and_takes_it_back() {
     window.key_press_modifiers(Modifiers::SHIFT, Key::V);
     window.run_steps(2);
     settle(&mut window);
-    assert!(frame(&window).subtracted.is_none());
+    assert!(frame(&window).left.is_none());
     let map = |window: &Window| window.state().session.panes[1].scene.colors.colormap.clone();
     assert_eq!(map(&window).as_deref(), Some("magma"));
     window.key_press_modifiers(Modifiers::SHIFT, Key::V);
@@ -168,7 +168,7 @@ fn the_switch_of_the_panel_is_the_key() {
     settle(&mut window);
     assert!(window.state().session.minus.is_shown);
     let frame = frame(&window);
-    assert!(frame.is_final && frame.subtracted.is_some());
+    assert!(frame.is_final && frame.left.is_some());
 }
 
 /// Two quantities: at every pixel the values of one minus those of the other, whatever is moved,
@@ -192,7 +192,9 @@ fn any_two_views_are_subtracted_pixel_by_pixel() {
         window.set_size(vec2(size[0] as f32, size[1] as f32));
         settle(&mut window);
         let frame = frame(&window);
-        assert!(frame.is_final && frame.drawn.view == window.state().stages[1].view.unwrap());
+        assert!(
+            frame.is_final && frame.drawn.view == window.state().viewports[1].camera.view.unwrap()
+        );
         let [left, right] = [refined(3), refined(4)].map(Arc::new);
         let rasters = [(&left, texts[0]), (&right, texts[1])].map(|(dataset, text)| {
             let field = Field::new(dataset, 0).expect("a field");
@@ -259,7 +261,7 @@ fn on_a_crack_both_sides_are_subtracted() {
     // pinned, it is in the table with its two terms
     window.key_press(Key::P);
     settle(&mut window);
-    let probes = window.state().stages[1].reading.probes.clone();
+    let probes = window.state().viewports[1].tools.probes.clone();
     let names = ["Δ uy".to_owned(), String::new()];
     let csv = ppum_viewer::panels::probes::table(&probes, &names).csv();
     let mut rows = csv.lines();
@@ -367,20 +369,20 @@ fn who_moves_sees_differences_and_rests_with_exact_ones() {
     let mut window = pair(refined(3), refined(4), [900.0, 500.0], Backend::Cpu);
     let pixel = frame(&window).drawn.view.pixel_size();
     for _ in 0..12 {
-        let view = window.state().stages[1].view.expect("it is shown");
+        let view = window.state().viewports[1].camera.view.expect("it is shown");
         let center = view.center + v(5.0, -2.0) * pixel;
         let place = Some(VisibleRegion { center: center.into(), width: view.width });
         window.state_mut().session.panes.iter_mut().for_each(|pane| pane.place = place);
         show_until(&mut window, "the new place is drawn", |window| {
             let newest = frame(window);
-            assert!(newest.subtracted.is_some());
-            Some(newest.wanted.view) == window.state().stages[1].view
+            assert!(newest.left.is_some());
+            Some(newest.request.view) == window.state().viewports[1].camera.view
         });
     }
     settle(&mut window);
     let last = frame(&window);
     assert!(last.is_final && last.drawn.by == "cpu f64");
-    assert!(last.drawn.view == window.state().stages[1].view.unwrap());
+    assert!(last.drawn.view == window.state().viewports[1].camera.view.unwrap());
 }
 
 #[test]
@@ -391,7 +393,7 @@ fn what_cannot_be_subtracted_is_told_on_the_plate() {
     window.state_mut().session.panes[1].scene.deformed = Some(Magnification::Auto);
     settle(&mut window);
     let fault =
-        |window: &Window| window.state().stages[1].frames.failure().map(|failure| failure.fault);
+        |window: &Window| window.state().viewports[1].frames.failure().map(|failure| failure.fault);
     assert_eq!(fault(&window), Some(FaultOrigin::Minus));
     assert!(has_label(&window, "of the deformed plate there is no difference"));
     assert!(Arc::ptr_eq(&before, &frame(&window)), "the last picture stays");
@@ -410,7 +412,7 @@ fn what_cannot_be_subtracted_is_told_on_the_plate() {
     settle(&mut window);
     assert!(frame(&window).other.is_none() && fault(&window).is_none());
     // nothing open
-    window.state_mut().stages[0].opened = None;
+    window.state_mut().viewports[0].opened = None;
     settle(&mut window);
     assert!(has_label(&window, "nothing is open on the left"));
 }
@@ -432,11 +434,12 @@ fn pictures_of_differences_are_saved() {
     let order = ppum_viewer::export::ImageExport {
         field: Arc::clone(&frame.field),
         file: Some(PathBuf::from("plate.h5")),
-        left: frame.left(),
+        left: frame.left.clone(),
         scene,
         view: frame.drawn.view,
         page: PageSize::pixels(frame.drawn.view.pixels),
-        kind: ppum_viewer::export::ExportKind::Picture,
+        choice: ppum_viewer::export::ExportChoice::Image,
+        motion: ppum_viewer::export::Motion::default(),
     };
     let (bytes, _) = order
         .bytes(Path::new("apart.png"), unwatched(), &AtomicUsize::new(0))
@@ -444,7 +447,7 @@ fn pictures_of_differences_are_saved() {
     let seen = ppum_render::png::encode(&frame.picture.image, &[]).expect("it is encoded");
     assert!(pixels(&bytes) == pixels(&seen), "what is seen is what is saved");
     let figure = ppum_viewer::export::ImageExport {
-        kind: ppum_viewer::export::ExportKind::Figure,
+        choice: ppum_viewer::export::ExportChoice::Figure,
         page: PageSize::pixels([500, 400]),
         ..order
     };

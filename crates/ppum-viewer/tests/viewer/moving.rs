@@ -13,16 +13,16 @@ use crate::kit::{plate, settle, window};
 type Window = Harness<'static, Viewer>;
 
 fn view(window: &Window) -> View {
-    window.state().stages[0].view.expect("a plate is shown")
+    window.state().viewports[0].camera.view.expect("a plate is shown")
 }
 
-fn stage(window: &Window) -> egui::Rect {
+fn viewport(window: &Window) -> egui::Rect {
     window.get_by_label("Plate").rect()
 }
 
 /// The point of the plane below a position of the window.
 fn point(window: &Window, at: Pos2) -> Vec2 {
-    let (view, rect) = (view(window), stage(window));
+    let (view, rect) = (view(window), viewport(window));
     let pixel = at - rect.min;
     view.center + view.offset_at(ppum::vec2::vec2(pixel.x.into(), pixel.y.into()))
 }
@@ -70,7 +70,7 @@ fn the_wheel_keeps_the_point_below_the_cursor() {
     let mut random = Random(3);
     for _ in 0..6 {
         // the colour bar on the right has the wheel for itself
-        let rect = stage(&window).shrink(60.0);
+        let rect = viewport(&window).shrink(60.0);
         let rect = rect.with_max_x(rect.max.x - 80.0);
         let at = rect.lerp_inside(vec2(random.unit() as f32, random.unit() as f32));
         window.hover_at(at);
@@ -92,7 +92,7 @@ fn the_wheel_keeps_the_point_below_the_cursor() {
 fn dragging_takes_the_plate_along_and_a_double_click_shows_it_whole() {
     let mut window = window(plate(), [900.0, 600.0]);
     let whole = view(&window);
-    let from = stage(&window).center();
+    let from = viewport(&window).center();
     let grabbed = point(&window, from);
     window.drag_at(from);
     window.step();
@@ -117,15 +117,15 @@ fn a_key_flies_to_a_tip_and_the_wheel_down_to_where_doubles_end() {
     rest(&mut window);
     assert!((view(&window).center - ppum::vec2::vec2(0.5, 0.0)).length() < 1e-15);
     assert!(view(&window).width < 0.2);
-    let center = stage(&window).center();
+    let center = viewport(&window).center();
     for _ in 0..200 {
         window.key_press(Key::Plus);
         window.step();
     }
     rest(&mut window);
     assert!((view(&window).width / 2e-12 - 1.0).abs() < 1e-6, "{:e}", view(&window).width);
-    let frame = window.state().stages[0].frames.newest().expect("it is drawn").clone();
-    assert!(frame.picture.has_values && frame.wanted.view == view(&window));
+    let frame = window.state().viewports[0].frames.newest().expect("it is drawn").clone();
+    assert!(frame.picture.has_values && frame.request.view == view(&window));
     assert!((point(&window, center) - ppum::vec2::vec2(0.5, 0.0)).length() < 1e-14);
     window.get_by_label_contains("Map of the plate").click();
     rest(&mut window);
@@ -137,7 +137,7 @@ fn two_views_move_together_while_they_are_linked() {
     let mut window = window(plate(), [1200.0, 600.0]);
     window.key_press(Key::V);
     settle(&mut window);
-    assert_eq!(window.state().stages.len(), 2);
+    assert_eq!(window.state().viewports.len(), 2);
     window.key_press(Key::Num1);
     rest(&mut window);
     let places = |window: &Window| {

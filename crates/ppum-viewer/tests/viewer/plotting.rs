@@ -9,8 +9,8 @@ use ppum::quantity::Quantity;
 use ppum::vec2::vec2 as v;
 use ppum_scene::profile::ProfileCurve;
 use ppum_viewer::Viewer;
-use ppum_viewer::reading::plot_request::CurveValues;
-use ppum_viewer::reading::tool::Tool;
+use ppum_viewer::measure::plot_request::CurveValues;
+use ppum_viewer::measure::tool::Tool;
 use ppum_viewer::session::{DrawerPage, VisibleRegion};
 
 use crate::kit::{at, plate, settle, show_until, window};
@@ -24,7 +24,7 @@ fn curve(window: &Window) -> Option<ProfileCurve> {
 }
 
 fn draw(window: &mut Window, tool: Option<Tool>, from: Pos2, to: Pos2) {
-    window.state_mut().stages[0].reading.tool = tool;
+    window.state_mut().viewports[0].tools.tool = tool;
     window.hover_at(from);
     window.step();
     let button = |pos, pressed| Event::PointerButton {
@@ -47,14 +47,14 @@ fn draw(window: &mut Window, tool: Option<Tool>, from: Pos2, to: Pos2) {
 fn plotted(window: &mut Window) -> std::sync::Arc<Result<CurveValues, String>> {
     settle(window);
     settle(window);
-    let (_, found) = window.state_mut().stages[0].reading.plot.newest().expect("a plot").clone();
+    let (_, found) = window.state_mut().viewports[0].tools.plot.newest().expect("a plot").clone();
     found
 }
 
 #[test]
 fn a_line_is_drawn_and_its_ends_can_be_moved() {
     let mut window = window(plate(), SIZE);
-    let view = window.state().stages[0].view.expect("a view");
+    let view = window.state().viewports[0].camera.view.expect("a view");
     let [a, b] = [v(-0.8, 0.3), v(0.7, -0.2)].map(|p| at(&window, p));
     draw(&mut window, Some(Tool::Line), a, b);
     let Some(ProfileCurve::Line { anchor, from, to }) = curve(&window) else { panic!("no line") };
@@ -63,7 +63,7 @@ fn a_line_is_drawn_and_its_ends_can_be_moved() {
     assert!(near(from, -0.8, 0.3) && near(to, 0.7, -0.2), "{from:?} {to:?}");
     assert_eq!(window.state().session.panes[0].place, None, "the plate was not dragged along");
     // the plot has opened, and the plate is smaller
-    let view = window.state().stages[0].view.expect("a view");
+    let view = window.state().viewports[0].camera.view.expect("a view");
     let near = |p: [f64; 2], x: f64, y: f64| (p[0] - x).hypot(p[1] - y) < 2.0 * view.pixel_size();
     let [b, c] = [v(0.7, -0.2), v(0.2, 0.9)].map(|p| at(&window, p));
     draw(&mut window, None, b, c);
@@ -102,7 +102,7 @@ fn a_line_has_the_values_that_the_program_samples() {
     let rect = window.get_by_label("Plotted curves").rect();
     window.hover_at(rect.center());
     settle(&mut window);
-    let marked = window.state().stages[0].reading.marked.expect("a point of the plate");
+    let marked = window.state().viewports[0].tools.marked.expect("a point of the plate");
     assert!((marked.point().x - 0.1).abs() < 1e-12 && marked.point().y.abs() < 0.1, "{marked:?}");
 }
 
@@ -151,7 +151,7 @@ fn circles_around_a_tip_have_its_factors() {
         window.state_mut().session.panes[0].curve = Some(ProfileCurve::Around { tip: 1, radius });
         settle(&mut window);
         settle(&mut window);
-        let found = window.state_mut().stages[0].reading.integral.newest_factors();
+        let found = window.state_mut().viewports[0].tools.integral.newest_factors();
         let factors = found.expect("it is done").expect("it is possible");
         assert!((factors.k1 / stored.k1 - 1.0).abs() < tolerance, "{part}: {}", factors.k1);
         let miss = (factors.k2 - stored.k2).abs();
@@ -177,7 +177,7 @@ fn a_circle_without_factors_says_why() {
         window.state_mut().session.panes[0].curve = Some(along);
         settle(&mut window);
         settle(&mut window);
-        let found = window.state_mut().stages[0].reading.integral.newest_factors();
+        let found = window.state_mut().viewports[0].tools.integral.newest_factors();
         let told = found.expect("it is done").expect_err("there are no factors");
         assert!(told.contains(reason), "{told}");
     }
@@ -211,7 +211,7 @@ fn a_circle_drawn_from_a_tip_is_around_it() {
     let mut window = window(plate(), SIZE);
     let tip = at(&window, v(0.5, 0.0));
     draw(&mut window, Some(Tool::Circle), tip + vec2(3.0, 2.0), tip + vec2(50.0, 0.0));
-    let view = window.state().stages[0].view.expect("a view");
+    let view = window.state().viewports[0].camera.view.expect("a view");
     match curve(&window) {
         Some(ProfileCurve::Around { tip: 1, radius: Some(radius) }) => {
             assert!((radius - 50.0 * view.pixel_size()).abs() < 2.0 * view.pixel_size());
@@ -282,7 +282,7 @@ fn files_are_written_but_never_over_the_dataset() {
     let own = folder.path().join("plate.csv");
     std::fs::write(&own, "the dataset").expect("written");
     let state = window.state_mut();
-    state.stages[0].opened.as_mut().expect("open").path = Some(own.clone());
+    state.viewports[0].opened.as_mut().expect("open").path = Some(own.clone());
     state.session.panes[0].curve = Some(ProfileCurve::Crack { index: 0 });
     state.session.drawer = Some(DrawerPage::Plot);
     let found = plotted(&mut window);
@@ -290,11 +290,12 @@ fn files_are_written_but_never_over_the_dataset() {
     // a name without a folder goes beside the dataset, and so does the one that is proposed
     let whole = folder.path().join("plate").display().to_string();
     for (name, is_written) in [(&*whole, false), ("plate", false), ("table", true), ("", true)] {
-        window.state_mut().stages[0].reading.output.path = name.to_owned();
+        let targets = &mut window.state_mut().viewports[0].tools.targets;
+        targets.entry("plot").or_default().name = name.to_owned();
         settle(&mut window);
         window.get_by_label("Save CSV").click();
         settle(&mut window);
-        let told = window.state().stages[0].reading.output.told.clone().expect("it is told");
+        let told = window.state().viewports[0].tools.targets["plot"].result.clone().expect("told");
         assert_eq!(told.is_ok(), is_written, "{told:?}");
     }
     assert_eq!(std::fs::read_to_string(&own).expect("there"), "the dataset");
@@ -302,7 +303,7 @@ fn files_are_written_but_never_over_the_dataset() {
     assert_eq!(written, values.table.csv());
     let proposed = std::fs::read_to_string(folder.path().join("plate-plot.csv"));
     assert_eq!(proposed.expect("there"), written);
-    window.state_mut().stages[0].reading.output.path =
+    window.state_mut().viewports[0].tools.targets.entry("plot").or_default().name =
         folder.path().join("table").display().to_string();
     let mine = folder.path().join("table.svg");
     std::fs::write(&mine, "mine").expect("written");

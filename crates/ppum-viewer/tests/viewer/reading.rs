@@ -16,7 +16,7 @@ use ppum_problem::Problem;
 use ppum_scene::location::Location;
 use ppum_scene::owner::Owner;
 use ppum_viewer::Viewer;
-use ppum_viewer::reading::probe::ProbeReading;
+use ppum_viewer::measure::probe::ProbeReading;
 use ppum_viewer::session::VisibleRegion;
 
 use crate::kit::{at, hover, plate, settle, window};
@@ -26,7 +26,7 @@ type Window = Harness<'static, Viewer>;
 const SIZE: [f32; 2] = [1000.0, 700.0];
 
 fn hovered(window: &Window) -> ProbeReading {
-    window.state().stages[0].reading.hover.clone().expect("the pointer is over the plate")
+    window.state().viewports[0].tools.hover.clone().expect("the pointer is over the plate")
 }
 
 fn show(window: &mut Window, quantity: &str, place: Option<VisibleRegion>) {
@@ -162,14 +162,14 @@ fn clicks_pin_probes_while_the_tool_for_them_is_chosen() {
     for (k, place) in [place, at(&window, v(-0.4, 0.5))].into_iter().enumerate() {
         click(&mut window, place);
         settle(&mut window);
-        assert_eq!((count(&window), window.state().stages[0].reading.selected), (k + 1, Some(k)));
+        assert_eq!((count(&window), window.state().viewports[0].tools.selected), (k + 1, Some(k)));
     }
     // a click on its mark selects it and pins no other, whatever the tool is
     for _ in 0..2 {
         click(&mut window, place + vec2(3.0, 0.0));
         settle(&mut window);
-        assert_eq!((count(&window), window.state().stages[0].reading.selected), (2, Some(0)));
-        window.state_mut().stages[0].reading.selected = None;
+        assert_eq!((count(&window), window.state().viewports[0].tools.selected), (2, Some(0)));
+        window.state_mut().viewports[0].tools.selected = None;
         window.key_press(Key::Escape);
         settle(&mut window);
     }
@@ -203,7 +203,7 @@ fn probes_follow_the_quantity() {
         vec![Location::new(v(0.25, 0.75), Vec2::ZERO), Location::new(v(0.0, 0.0), Vec2::ZERO)];
     for name in ["ux", "von-mises", "sqrt(ux^2 + uy^2)"] {
         show(&mut window, name, None);
-        let probes = window.state().stages[0].reading.probes.clone();
+        let probes = window.state().viewports[0].tools.probes.clone();
         let quantity = Quantity::parse(name, &field).expect("a quantity");
         let expected = quantity.at(&mut field.at(v(0.25, 0.75)), Vec2::ZERO, Side::Above);
         assert_eq!(probes[0].sides[0].value, expected, "{name}");
@@ -257,8 +257,8 @@ fn the_deformed_plate_is_read_where_it_is_seen() {
     let rect = window.get_by_label("Plate").rect();
     let (mut seen, mut missing) = (0, 0);
     for k in 0..150u32 {
-        let frame = window.state().stages[0].frames.newest().expect("a picture").clone();
-        let [columns, rows] = frame.wanted.view.pixels;
+        let frame = window.state().viewports[0].frames.newest().expect("a picture").clone();
+        let [columns, rows] = frame.request.view.pixels;
         let pixel = |size: u32, n: u32| (f64::from(size) * number(n).abs()) as u32;
         // every third near the crack, whose faces have parted
         let near = rows / 2 - 12 + pixel(24, 2 * k + 1);
@@ -266,14 +266,14 @@ fn the_deformed_plate_is_read_where_it_is_seen() {
         let column = pixel(columns, 2 * k);
         window.hover_at(rect.min + vec2(column as f32 + 0.5, row as f32 + 0.5));
         window.step();
-        if window.state().stages[0].hover.is_none() {
+        if window.state().viewports[0].hover.is_none() {
             continue; // the bar lies over the plate there
         }
         let ppum_scene::drawing::RasterValues::Double(raster) = &frame.drawn.values else {
             panic!("it is drawn in double precision")
         };
         let shown = raster.value(column, row);
-        let read = window.state().stages[0].reading.hover.clone();
+        let read = window.state().viewports[0].tools.hover.clone();
         let read = read.filter(|read| !read.is_outside());
         match (shown.is_nan(), read) {
             (true, None) => missing += 1,
@@ -353,7 +353,7 @@ fn go_anywhere(dataset: Dataset, quantities: &[&str], center: Vec2) {
         let to = rect.min + vec2(within(rect.width(), 2 * k), within(rect.height(), 2 * k + 1));
         window.hover_at(to);
         window.step();
-        let Some(read) = &window.state().stages[0].reading.hover else { continue };
+        let Some(read) = &window.state().viewports[0].tools.hover else { continue };
         if read.is_outside() {
             outside += 1;
             continue;

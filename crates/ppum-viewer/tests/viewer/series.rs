@@ -50,8 +50,8 @@ fn keys_and_buttons_go_through_the_steps() {
     lab.settle();
     assert_eq!(step(&mut lab), Some(2));
     // what is drawn is that step
-    let frame = lab.window.state().stages[0].frames.newest().cloned().expect("a picture");
-    assert_eq!(frame.wanted.scene.subject.step, Some(2));
+    let frame = lab.window.state().viewports[0].frames.newest().cloned().expect("a picture");
+    assert_eq!(frame.request.scene.subject.step, Some(2));
     assert_eq!(frame.field.field().step.load, lab.dataset(0).expect("open").steps[2].load);
     // and it is a setting that can be undone
     lab.window.get_by_label("Undo").click();
@@ -174,7 +174,7 @@ fn what_the_solver_tells_is_shown() {
     lab.window.step();
     lab.settle();
     assert_eq!(lab.state().session.panes[0].scene.quantity.as_deref(), Some("level"));
-    let frame = lab.window.state().stages[0].frames.newest().cloned().expect("a picture");
+    let frame = lab.window.state().viewports[0].frames.newest().cloned().expect("a picture");
     assert!(frame.shown.quantity().is_none(), "values of cells are shown");
     lab.window.get_by_label("⚠ the faces overlap").click();
     lab.window.step();

@@ -214,7 +214,7 @@ fn a_saved_session_opens_where_it_lies_with_its_files() {
     assert_eq!(lab.state().session, expected);
     // and once it is there again it is shown
     lab.write("there/plate.h5", &plate());
-    lab.until("it is read", |viewer| viewer.stages[0].opened.is_some());
+    lab.until("it is read", |viewer| viewer.viewports[0].opened.is_some());
     assert_eq!(lab.state().session, expected);
     assert_eq!(lab.notes(), "");
 }
@@ -306,7 +306,7 @@ fn places_that_nothing_can_show_are_the_whole_plate() {
         lab.reopen(WindowStart { files: vec![path], ..WindowStart::default() });
         assert_eq!(lab.viewer().session.panes[0].place, None, "{place}");
         assert!(lab.notes().contains("the whole plate is"), "{place}: {}", lab.notes());
-        let is_final = |lab: &Lab| lab.viewer().stages[0].frames.newest().map(|f| f.is_final);
+        let is_final = |lab: &Lab| lab.viewer().viewports[0].frames.newest().map(|f| f.is_final);
         assert_eq!(is_final(&lab), Some(true), "{place}");
     }
     lab.window.set_size(egui::vec2(600.0, 400.0));
@@ -324,8 +324,8 @@ fn places_that_nothing_can_show_are_the_whole_plate() {
         lab.window.step();
         lab.until("all of it is shown", |viewer| viewer.session.panes[0].place.is_none());
         lab.settle();
-        let stage = &lab.viewer().stages[0];
-        assert!(stage.view.is_some_and(|view| view.width > 1.0 && view.width < 10.0));
+        let viewport = &lab.viewer().viewports[0];
+        assert!(viewport.camera.view.is_some_and(|view| view.width > 1.0 && view.width < 10.0));
     }
 }
 
@@ -345,8 +345,11 @@ fn what_a_session_asks_in_vain_is_told() {
         let path = written(&lab, "a.ppum-session", "plate.h5", &rest);
         lab.reopen(WindowStart { files: vec![path.clone()], ..WindowStart::default() });
         assert!(lab.notes().contains(reason), "{scene}: {}", lab.notes());
-        let stage = &lab.viewer().stages[0];
-        assert!(stage.frames.newest().is_some() && stage.frames.failure().is_none(), "{scene}");
+        let viewport = &lab.viewer().viewports[0];
+        assert!(
+            viewport.frames.newest().is_some() && viewport.frames.failure().is_none(),
+            "{scene}"
+        );
         refused(WindowStart { files: vec![path], ..WindowStart::default() }, reason);
     }
 }

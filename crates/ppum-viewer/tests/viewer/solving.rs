@@ -13,7 +13,7 @@ use ppum::progress::unwatched;
 use ppum_fracture::solve::solve;
 use ppum_problem::Problem;
 use ppum_viewer::Viewer;
-use ppum_viewer::actions::{ALL, Action};
+use ppum_viewer::actions::{Action, all};
 use ppum_viewer::session::VisibleRegion;
 use ppum_viewer::solving::SolutionOutcome;
 use ppum_viewer::window::WindowStart;
@@ -421,7 +421,7 @@ fn no_action_loses_a_solution_unasked() {
     *draft(&mut lab) = growing(1e-5, 8000);
     lab.state().act(&ctx, Action::Solve);
     lab.window.run_steps(2);
-    let all = ALL.iter().map(|entry| entry.action).chain([Action::Example(0)]);
+    let all = all().map(|entry| entry.action).chain([Action::Example(0)]);
     let all = all.filter(|action| *action != Action::CancelSolving);
     // there and back: some show what others hide
     for action in all.clone().chain(all.clone()) {
@@ -431,7 +431,7 @@ fn no_action_loses_a_solution_unasked() {
         let running = lab.viewer().solving.running();
         assert!(running.is_some_and(|running| !running.is_cancelled()), "{action:?}: stopped");
         let is_there = |pane: usize| lab.dataset(pane).is_some_and(|d| Arc::ptr_eq(&d, &solved));
-        assert!((0..lab.viewer().stages.len()).any(is_there), "{action:?}: lost");
+        assert!((0..lab.viewer().viewports.len()).any(is_there), "{action:?}: lost");
         for _ in 0..4 {
             lab.window.key_press(Key::Escape);
             lab.window.step();
@@ -483,7 +483,7 @@ fn who_wants_to_lose_a_solution_may() {
     lab.window.key_press_modifiers(Modifiers::COMMAND, Key::W);
     lab.window.run_steps(2);
     assert!(lab.window.query_by_label(UNSAVED).is_none());
-    assert_eq!(lab.viewer().stages.len(), 1);
+    assert_eq!(lab.viewer().viewports.len(), 1);
     lab.window.key_press_modifiers(Modifiers::COMMAND, Key::W);
     click(&mut lab, "Close without saving");
     assert!(lab.dataset(0).is_none());
@@ -550,7 +550,7 @@ fn what_is_opened_takes_the_place_of_a_solution_only_if_that_is_meant() {
     lab.window.run_steps(3);
     lab.window.key_press(Key::Enter);
     lab.until("it is saved and the other one open", |viewer| {
-        let opened = viewer.stages[0].opened.as_ref();
+        let opened = viewer.viewports[0].opened.as_ref();
         opened.is_some_and(|opened| opened.path.as_ref() == Some(&other))
     });
     // under the name of its own problem
@@ -562,7 +562,7 @@ fn what_is_opened_takes_the_place_of_a_solution_only_if_that_is_meant() {
     ask_for(&mut lab, &other, 0);
     click(&mut lab, "Open without saving");
     lab.settle();
-    assert!(lab.viewer().stages[0].opened.as_ref().is_some_and(|o| o.path.is_some()));
+    assert!(lab.viewer().viewports[0].opened.as_ref().is_some_and(|o| o.path.is_some()));
 }
 
 #[test]

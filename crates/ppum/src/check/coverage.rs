@@ -32,12 +32,12 @@ pub(super) fn check(partition: &BoxPartition, domain: &Domain) -> CheckResult {
     };
     let boxes = patches.map(core).chain(gaps);
     let Some(p) = uncovered(boxes, &domain.bounds, holes) else { return Ok(()) };
-    let mistake = format!(
+    let message = format!(
         "no support holds ({}, {}) well inside, at most {CORE} of its half-extents from its centre: the \
          patches there do not overlap, or by a thin strip alone; make them larger",
         p.x, p.y
     );
-    fail("half", mistake)
+    fail("half", message)
 }
 
 /// A point of the bounds that none of the closed boxes covers and no hole holds. O(n log n), and
@@ -134,7 +134,7 @@ mod tests {
             let whole = 1.42 * (half + 0.021);
             assert_eq!(check_with(&partition, whole), Ok(()), "{center:?} {half}");
             let error = check_with(&partition, 0.4 * half).expect_err("a gap beside the hole");
-            assert!(error.mistake.contains("no support holds"), "{error}");
+            assert!(error.message.contains("no support holds"), "{error}");
             partition.half.fill(vec2(0.03, 0.03));
             assert!(check_with(&partition, whole).is_err(), "gaps everywhere");
         }
@@ -207,7 +207,7 @@ mod tests {
                     assert!(worst <= CORE);
                 }
                 Err(error) => {
-                    let numbers = error.mistake.split(['(', ',', ')']).skip(1).take(2);
+                    let numbers = error.message.split(['(', ',', ')']).skip(1).take(2);
                     let p: Vec<f64> =
                         numbers.map(|v| v.trim().parse().expect("a number")).collect();
                     assert!(reach(vec2(p[0], p[1])) > CORE, "{error}");

@@ -9,13 +9,13 @@ const MOST_ERRORS: usize = 100;
 
 /// A thing that is wrong in a dataset.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{place}: {mistake}")]
+#[error("{place}: {message}")]
 #[non_exhaustive]
 pub struct CheckError {
     /// The place, as a path through the dataset's fields, e.g. `steps[0].partition.half[17]`.
     pub place: String,
     /// A description of the error, with the expected value.
-    pub mistake: String,
+    pub message: String,
 }
 
 pub(super) type CheckResult = Result<(), CheckError>;
@@ -74,16 +74,16 @@ impl CheckError {
     }
 }
 
-pub(super) fn fail(place: &str, mistake: String) -> CheckResult {
-    Err(CheckError { place: place.to_owned(), mistake })
+pub(super) fn fail(place: &str, message: String) -> CheckResult {
+    Err(CheckError { place: place.to_owned(), message })
 }
 
 pub(super) fn require(
     condition: bool,
     place: &str,
-    mistake: impl FnOnce() -> String,
+    message: impl FnOnce() -> String,
 ) -> CheckResult {
-    if condition { Ok(()) } else { fail(place, mistake()) }
+    if condition { Ok(()) } else { fail(place, message()) }
 }
 
 /// Checks every entry of an array; the place names the first that fails.
@@ -91,9 +91,9 @@ pub(super) fn check_all<T>(
     name: &str,
     values: &[T],
     good: impl Fn(&T) -> bool,
-    mistake: impl Fn(&T) -> String,
+    message: impl Fn(&T) -> String,
 ) -> CheckResult {
-    check_each(name, values.len(), |k| good(&values[k]), |k| mistake(&values[k]))
+    check_each(name, values.len(), |k| good(&values[k]), |k| message(&values[k]))
 }
 
 /// Checks each of so many entries, and reports the first bad one.
@@ -101,11 +101,11 @@ pub(super) fn check_each(
     name: &str,
     count: usize,
     good: impl Fn(usize) -> bool,
-    mistake: impl Fn(usize) -> String,
+    message: impl Fn(usize) -> String,
 ) -> CheckResult {
     match (0..count).find(|&k| !good(k)) {
         None => Ok(()),
-        Some(k) => fail(&format!("{name}[{k}]"), mistake(k)),
+        Some(k) => fail(&format!("{name}[{k}]"), message(k)),
     }
 }
 
@@ -141,9 +141,12 @@ pub(super) fn is_box(b: &Rect) -> bool {
 }
 
 pub(super) fn check_box(place: &str, b: &Rect) -> CheckResult {
-    require(is_box(b), place, || {
-        format!("({}, {}) to ({}, {}) is not a box", b.min.x, b.min.y, b.max.x, b.max.y)
-    })
+    require(is_box(b), place, || no_box(b))
+}
+
+/// The message about a rectangle that is not one.
+pub(super) fn no_box(Rect { min, max }: &Rect) -> String {
+    format!("({}, {}) to ({}, {}) is not a box", min.x, min.y, max.x, max.y)
 }
 
 pub(super) fn check_length(place: &str, length: usize, expected: usize, of: &str) -> CheckResult {
@@ -154,6 +157,26 @@ pub(super) fn check_length(place: &str, length: usize, expected: usize, of: &str
 
 pub(super) fn check_index(place: &str, index: usize, count: usize, of: &str) -> CheckResult {
     require(index < count, place, || format!("index {index}, but there are {count} {of}"))
+}
+
+/// Compressed rows of so many parts: they start at zero, never fall, and end at the number of
+/// entries.
+pub(super) fn check_rising<T: Copy + Into<u64>>(
+    place: &str,
+    offsets: &[T],
+    (parts, of_parts): (usize, &str),
+    (entries, of_entries): (usize, &str),
+) -> CheckResult {
+    check_length(place, offsets.len(), parts + 1, &format!("one more than {of_parts}"))?;
+    let at = |k: usize| -> u64 { offsets[k].into() };
+    require(at(0) == 0, &format!("{place}[0]"), || format!("is {}, expected 0", at(0)))?;
+    if let Some(k) = (1..=parts).find(|&k| at(k) < at(k - 1)) {
+        let message = format!("{} falls below {}; offsets must not fall", at(k), at(k - 1));
+        return fail(&format!("{place}[{k}]"), message);
+    }
+    require(at(parts) == entries as u64, &format!("{place}[{parts}]"), || {
+        format!("is {}, but there are {entries} {of_entries}", at(parts))
+    })
 }
 
 pub(super) fn check_names<'a>(place: &str, names: impl Iterator<Item = &'a String>) -> CheckResult {

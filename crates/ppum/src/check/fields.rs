@@ -1,8 +1,8 @@
 //! Fields: components, blocks and their coefficients.
 
 use super::errors::{
-    CheckResult, Errors, check_all, check_each, check_length, check_names, check_numbers, fail,
-    require,
+    CheckResult, Errors, check_all, check_each, check_length, check_names, check_numbers,
+    check_rising, fail, require,
 };
 use crate::dataset::{Equation, FieldData, MAX_DEGREE, Step};
 use crate::polynomial::PolynomialSpace;
@@ -60,21 +60,9 @@ fn check_components(field: &FieldData, equation: &Equation) -> CheckResult {
     Ok(())
 }
 
-/// Compressed rows: start at zero, never fall, end at the number of blocks.
 fn check_rows(field: &FieldData, patches: usize) -> CheckResult {
-    let rows = &field.patch_blocks;
-    check_length("patch_blocks", rows.len(), patches + 1, "one more than patches")?;
-    require(rows[0] == 0, "patch_blocks[0]", || format!("is {}, expected 0", rows[0]))?;
-    if let Some(k) = rows.windows(2).position(|w| w[0] > w[1]) {
-        return fail(
-            &format!("patch_blocks[{}]", k + 1),
-            format!("{} falls below {}; offsets must not fall", rows[k + 1], rows[k]),
-        );
-    }
     let blocks = field.block_function.len();
-    require(rows[patches] as usize == blocks, &format!("patch_blocks[{patches}]"), || {
-        format!("is {}, but there are {blocks} blocks", rows[patches])
-    })?;
+    check_rising("patch_blocks", &field.patch_blocks, (patches, "patches"), (blocks, "blocks"))?;
     check_length("block_degree", field.block_degree.len(), blocks, "one per block")?;
     check_length("block_offset", field.block_offset.len(), blocks, "one per block")
 }

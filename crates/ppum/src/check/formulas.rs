@@ -23,7 +23,7 @@ pub(super) fn check(dataset: &Dataset, errors: &mut Errors) -> bool {
     let plane = match plane {
         Ok(plane) if few => plane,
         Ok(_) => return false,
-        Err(error) => return errors.add(Err(mistake("tables", &error))),
+        Err(error) => return errors.add(Err(message("tables", &error))),
     };
     let mut is_fine = true;
     for (name, expression) in dataset.equation.constants() {
@@ -43,17 +43,17 @@ fn with_tables(variables: &[&str], tables: &[Arc<Table>]) -> Result<Scope, Scope
     Scope::new(variables)?.with_tables(tables)
 }
 
-fn mistake(place: &str, mistake: &dyn Display) -> CheckError {
-    CheckError { place: place.to_owned(), mistake: mistake.to_string() }
+fn message(place: &str, message: &dyn Display) -> CheckError {
+    CheckError { place: place.to_owned(), message: message.to_string() }
 }
 
 fn parse(place: &str, text: &str, scope: &Scope) -> CheckResult {
-    Formula::parse(text, scope).map(drop).map_err(|error| mistake(place, &error))
+    Formula::parse(text, scope).map(drop).map_err(|error| message(place, &error))
 }
 
 fn check_step(step: &Step, tables: &[Arc<Table>], plane: &Scope, errors: &mut Errors) {
     if let WeightFunction::Formula(weight) = &step.partition.boxes().weight {
-        let scope = with_tables(&["t"], tables).map_err(|error| mistake("tables", &error));
+        let scope = with_tables(&["t"], tables).map_err(|error| message("tables", &error));
         errors.add(scope.and_then(|scope| parse("partition.weight", weight.text(), &scope)));
     }
     errors.add(check_functions(step, tables));
@@ -95,30 +95,22 @@ fn check_quantity_names(dataset: &Dataset) -> CheckResult {
             "names are letters, digits, `_` and `-`, a letter or `_` first".into()
         })?;
     }
-    let mut seen = BTreeSet::new();
-    for field in dataset.steps.iter().flat_map(|step| &step.fields).filter(is_bounded) {
-        if seen.insert(&field.components) {
-            check_names_of(dataset, &field.components)?;
-        }
-    }
-    Ok(())
+    let mut all = components(dataset.steps.iter().flat_map(|step| &step.fields));
+    all.try_for_each(|components| check_names_of(dataset, components))
 }
 
 fn check_quantity_texts(dataset: &Dataset) -> CheckResult {
-    let mut seen = BTreeSet::new();
-    let first = dataset.steps.iter().filter_map(|step| step.fields.first());
-    for field in first.filter(is_bounded) {
-        if seen.insert(&field.components) {
-            check_texts(dataset, &field.components)?;
-        }
-    }
-    Ok(())
+    let mut first = components(dataset.steps.iter().filter_map(|step| step.fields.first()));
+    first.try_for_each(|components| check_texts(dataset, components))
 }
 
-/// True for fields whose number of components is no error: what names of thousands mean takes too
-/// long to say.
-fn is_bounded(field: &&FieldData) -> bool {
-    field.components.len() <= MAX_COMPONENTS
+/// The components of fields, each list once, without those whose number is an error: what names of
+/// thousands mean takes too long to say.
+fn components<'d>(
+    fields: impl Iterator<Item = &'d FieldData>,
+) -> impl Iterator<Item = &'d Vec<String>> {
+    let all: BTreeSet<_> = fields.map(|field| &field.components).collect();
+    all.into_iter().filter(|components| components.len() <= MAX_COMPONENTS)
 }
 
 fn check_names_of(dataset: &Dataset, components: &[String]) -> CheckResult {
@@ -136,7 +128,7 @@ fn check_texts(dataset: &Dataset, components: &[String]) -> CheckResult {
     let Dataset { equation, tables, quantities, .. } = dataset;
     let parse = |place: &str, text: &str, named| {
         let vocabulary = Vocabulary { equation, components, tables, named };
-        QuantityFormula::new(text, &vocabulary).map(drop).map_err(|error| mistake(place, &error))
+        QuantityFormula::new(text, &vocabulary).map(drop).map_err(|error| message(place, &error))
     };
     // any number is a formula where the names do not clash
     parse("tables", "0", &[])?;
@@ -234,7 +226,7 @@ mod tests {
                 d.tables.clear();
             });
             assert_eq!(error.place, place);
-            assert!(error.mistake.contains("there are no tables here"), "{error}");
+            assert!(error.message.contains("there are no tables here"), "{error}");
         }
     }
 
@@ -242,7 +234,7 @@ mod tests {
     fn mistakes_point_at_the_text() {
         let error = error_after(|d| d.steps[0].functions[1].kind = function("x +\n  b*y"));
         assert_eq!(error.place, "steps[0].functions[1].formula");
-        assert!(error.mistake.contains("line 2, column 3: unknown name `b`"), "{error}");
+        assert!(error.message.contains("line 2, column 3: unknown name `b`"), "{error}");
         let error = error_after(|d| d.steps[0].fields[0].exact[1] = "r".into());
         assert_eq!(error.place, "steps[0].fields[0].exact[1]");
         let error = error_after(|d| d.steps[0].functions[1].kind = function(" "));
@@ -311,13 +303,13 @@ mod tests {
             let function = |k| Function { name: "f".into(), kind: function(&long(k)) };
             d.steps[0].functions.extend((0..200).map(function));
         });
-        assert!(error.mistake.contains("operations together"), "{error}");
+        assert!(error.message.contains("operations together"), "{error}");
         let error = error_after(|d| {
             let crack = d.steps[0].cracks[0].clone();
             d.steps[0].cracks = vec![crack; 2000];
             let function = |_| Function { name: "f".into(), kind: function("x") };
             d.steps[0].functions.extend((0..600).map(function));
         });
-        assert!(error.mistake.contains("cracks, tables and parameters"), "{error}");
+        assert!(error.message.contains("cracks, tables and parameters"), "{error}");
     }
 }

@@ -4,7 +4,7 @@ use super::errors::{
     CheckResult, check_all, check_index, check_names, check_number, check_points, require,
 };
 use crate::crack::{Crack, SegmentId};
-use crate::function::{Cut, CutSide, Frame, Function, FunctionKind};
+use crate::function::{Cut, CutBranch, Frame, Function, FunctionKind};
 use crate::vec2::Vec2;
 
 pub(super) fn check_crack(crack: &Crack) -> CheckResult {
@@ -49,7 +49,7 @@ fn check_cuts(cuts: &[Cut], cracks: &[Crack]) -> CheckResult {
         let segments = cracks[crack as usize].points.len().saturating_sub(1);
         check_index(&format!("cuts[{k}].segment"), segment as usize, segments, "segments")?;
         for (name, part) in [("left", cut.left), ("right", cut.right)] {
-            let CutSide::Cut(next) = part else { continue };
+            let CutBranch::Cut(next) = part else { continue };
             let place = format!("cuts[{k}].{name}");
             check_index(&place, next as usize, cuts.len(), "cuts")?;
             require(next as usize > k, &place, || {

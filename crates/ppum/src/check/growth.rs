@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::errors::{CheckResult, Errors, fail};
+use super::errors::{CheckResult, Errors, fail, require};
 use crate::crack::tips;
 use crate::dataset::Step;
 use crate::growth::TipIncrement;
@@ -29,33 +29,23 @@ pub(super) fn check_growth(step: &Step, errors: &mut Errors) {
 }
 
 fn check_row(row: &TipIncrement) -> CheckResult {
-    if row.k_eq.is_infinite() {
-        return fail("strength", "must be finite, or NaN where there is none".into());
-    }
+    require(!row.k_eq.is_infinite(), "strength", || {
+        "must be finite, or NaN where there is none".into()
+    })?;
     for (name, value) in [("direction", row.direction), ("curvature", row.curvature)] {
-        if !value.is_finite() {
-            return fail(name, "must be finite".into());
-        }
+        require(value.is_finite(), name, || "must be finite".into())?;
     }
     for (name, value) in [("length", row.length), ("due", row.due), ("extension", row.extension)] {
-        if !(value >= 0.0 && value.is_finite()) {
-            return fail(name, "must be a number, not negative".into());
-        }
+        require(value >= 0.0 && value.is_finite(), name, || {
+            "must be a number, not negative".into()
+        })?;
     }
-    if row.path.iter().any(|p| !p.is_finite()) {
-        return fail("path", "must be finite".into());
-    }
-    if row.fate.goes_on() == row.path.is_empty() {
-        return fail(
-            "path",
-            "must have vertices of a tip that goes on, and none of one that stays".into(),
-        );
-    }
-    if row.fate.goes_on() != (row.length > 0.0) {
-        return fail(
-            "length",
-            "must be positive of a tip that goes on, and zero of one that stays".into(),
-        );
-    }
-    Ok(())
+    require(row.path.iter().all(|p| p.is_finite()), "path", || "must be finite".into())?;
+    let goes_on = row.fate.goes_on();
+    require(goes_on != row.path.is_empty(), "path", || {
+        "must have vertices of a tip that goes on, and none of one that stays".into()
+    })?;
+    require(goes_on == (row.length > 0.0), "length", || {
+        "must be positive of a tip that goes on, and zero of one that stays".into()
+    })
 }

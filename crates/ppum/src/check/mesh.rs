@@ -2,7 +2,7 @@
 
 use super::errors::{
     CheckResult, Errors, check_all, check_each, check_index, check_length, check_numbers,
-    check_points, fail, require,
+    check_points, check_rising, fail, require,
 };
 use crate::dataset::{FieldData, MAX_DEGREE, Partition, Step};
 use crate::domain::Domain;
@@ -76,32 +76,23 @@ fn check_maps(mesh: &Mesh) -> CheckResult {
         let found = if is_known { None } else { mesh.shape[k].samples(SAMPLES).find(folded) };
         if let Some([x, y]) = found {
             let det = mesh.image(k, [x, y]).1;
-            let mistake = format!(
+            let message = format!(
                 "the map of patch {k} (element {}) has the determinant {det} at ({x}, {y}) of its shape, which must be \
                  positive: put the element's nodes in counter-clockwise order, or repair the element",
                 mesh.element[k]
             );
-            return fail(&format!("map_offset[{k}]"), mistake);
+            return fail(&format!("map_offset[{k}]"), message);
         }
     }
     Ok(())
 }
 
 fn check_clips(mesh: &Mesh) -> CheckResult {
-    let (offsets, clips, n) = (&mesh.clip_offsets, mesh.clips.len(), mesh.len());
+    let (offsets, clips) = (&mesh.clip_offsets, mesh.clips.len());
     if offsets.is_empty() && clips == 0 {
         return Ok(());
     }
-    check_length("clip_offsets", offsets.len(), n + 1, "one more than patches")?;
-    require(offsets[0] == 0, "clip_offsets[0]", || format!("is {}, expected 0", offsets[0]))?;
-    if let Some(k) = offsets.windows(2).position(|w| w[0] > w[1]) {
-        let mistake =
-            format!("{} falls below {}; offsets must not fall", offsets[k + 1], offsets[k]);
-        return fail(&format!("clip_offsets[{}]", k + 1), mistake);
-    }
-    require(offsets[n] == clips as u64, &format!("clip_offsets[{n}]"), || {
-        format!("is {}, but there are {clips} clips", offsets[n])
-    })
+    check_rising("clip_offsets", offsets, (mesh.len(), "patches"), (clips, "clips"))
 }
 
 /// Checks that the corners of the elements lie in the domain's box, which has no holes.
@@ -116,11 +107,11 @@ pub(super) fn check_domain(mesh: &Mesh, domain: &Domain) -> CheckResult {
         for &corner in mesh.shape[k].corners() {
             let (p, _) = mesh.image(k, corner);
             if p.min(min) != min || p.max(max) != max {
-                let mistake = format!(
+                let message = format!(
                     "the element has a corner at ({}, {}), outside the box of the domain: enlarge the domain",
                     p.x, p.y
                 );
-                return fail(&format!("origin[{k}]"), mistake);
+                return fail(&format!("origin[{k}]"), message);
             }
         }
     }

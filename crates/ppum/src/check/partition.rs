@@ -2,7 +2,7 @@
 
 use super::errors::{
     CheckResult, Errors, check_all, check_each, check_extents, check_length, check_points, is_box,
-    require,
+    no_box, require,
 };
 use super::mesh::check_mesh;
 use crate::dataset::{BoxPartition, Partition};
@@ -39,9 +39,7 @@ fn check_boxes(partition: &BoxPartition, errors: &mut Errors) {
     errors.add(check_points("origin", &partition.origin));
     errors.add(check_extents("scale", &partition.scale));
     errors.add(check_points("points", &partition.points));
-    is_fine &= errors.add(check_all("cell", &partition.cell, is_box, |c| {
-        format!("({}, {}) to ({}, {}) is not a box", c.min.x, c.min.y, c.max.x, c.max.y)
-    }));
+    is_fine &= errors.add(check_all("cell", &partition.cell, is_box, no_box));
     if is_fine && partition.has_cells() {
         let meets = |patch: usize| partition.support(patch).overlaps(&partition.cell[patch]);
         errors.add(check_each("center", n, meets, |_| "puts the support beside its cell".into()));

@@ -143,8 +143,8 @@ impl CellExtent {
     }
 }
 
-fn wrong(index: usize, cell: &Rect, mistake: &str) -> CheckResult {
-    fail(&format!("cell[{index}]"), format!("{} {mistake}", corners(cell)))
+fn wrong(index: usize, cell: &Rect, message: &str) -> CheckResult {
+    fail(&format!("cell[{index}]"), format!("{} {message}", corners(cell)))
 }
 
 fn corners(b: &Rect) -> String {
@@ -277,14 +277,14 @@ fn check_gaps(mut gaps: Vec<Rect>, holes: &[Hole]) -> CheckResult {
     gaps.sort_by(|a, b| area(b).total_cmp(&area(a)));
     for gap in gaps.iter().take(most_gaps(holes)) {
         if let Some(p) = place_beside(gap, holes) {
-            let mistake = format!(
+            let message = format!(
                 "none covers {}, where ({}, {}) is in no hole; cells tile the domain's box, but for \
                  those in holes",
                 corners(gap),
                 p.x,
                 p.y
             );
-            return fail("cell", mistake);
+            return fail("cell", message);
         }
     }
     Ok(())
@@ -318,7 +318,7 @@ mod tests {
         cover.partition(1.3, WeightFunction::Linear).expect("an overlap")
     }
 
-    fn mistake(partition: &BoxPartition, holes: Vec<Hole>) -> Option<String> {
+    fn message(partition: &BoxPartition, holes: Vec<Hole>) -> Option<String> {
         check(partition, &Domain { bounds: BOX, holes }).err().map(|error| error.to_string())
     }
 
@@ -331,7 +331,7 @@ mod tests {
     fn covers_tile() {
         for seed in 0..50 {
             let mut partition = cover(seed);
-            assert_eq!(mistake(&partition, vec![]), None, "seed {seed}");
+            assert_eq!(message(&partition, vec![]), None, "seed {seed}");
             let layout = CellBorders::new(&partition.cell, &BOX).expect("cells of the box");
             assert!(layout.covers_once() && layout.gaps() == Ok(vec![]), "seed {seed}");
             partition.cell.reverse();
@@ -339,7 +339,7 @@ mod tests {
             for cell in partition.cell.iter_mut().step_by(2) {
                 *cell = Rect::new(cell.min, vec2(ulp(cell.max.x), ulp(cell.max.y)));
             }
-            assert_eq!(mistake(&partition, vec![]), None, "rounded, seed {seed}");
+            assert_eq!(message(&partition, vec![]), None, "rounded, seed {seed}");
         }
     }
 
@@ -353,9 +353,9 @@ mod tests {
             let changed = |change: fn(&mut Rect, Vec2)| {
                 let mut partition = good.clone();
                 change(&mut partition.cell[k], quarter);
-                mistake(&partition, vec![]).expect("found")
+                message(&partition, vec![]).expect("found")
             };
-            let gone = mistake(&without(good.clone(), k), vec![]).expect("found");
+            let gone = message(&without(good.clone(), k), vec![]).expect("found");
             let numbers = gone.split(['(', ',', ')']).filter_map(|part| part.trim().parse().ok());
             let found: Vec<f64> = numbers.collect();
             // the gap, or a part of it beside a smaller neighbour, and a place in it
@@ -365,19 +365,19 @@ mod tests {
                 gone.starts_with("cell: none covers") && extents.len() == 3 && inside,
                 "{gone}"
             );
-            for (mistake, text) in [
+            for (message, text) in [
                 (changed(|c, q| c.max.x -= q.x), "none covers"),
                 (changed(|c, q| c.min.y += q.y), "none covers"),
                 (changed(|c, _| *c = Rect::new(c.min + BOX.size(), c.max + BOX.size())), "out of"),
                 (changed(|c, _| c.max.x = c.min.x + 1e-14), "thinner"),
             ] {
-                assert!(mistake.contains(text), "{mistake}");
+                assert!(message.contains(text), "{message}");
             }
             let larger = changed(|c, q| c.max.y += q.y);
             assert!(larger.contains("overlaps") || larger.contains("out of"), "{larger}");
             let mut twice = good.clone();
             twice.cell.push(cell);
-            assert!(mistake(&twice, vec![]).expect("found").contains("overlaps"));
+            assert!(message(&twice, vec![]).expect("found").contains("overlaps"));
         }
     }
 
@@ -391,15 +391,15 @@ mod tests {
                 let (center, half) = (cell.center(), cell.size() * 0.5);
                 let partition = without(good.clone(), k);
                 let round = |radius| vec![Hole::Circle { center, radius }];
-                assert_eq!(mistake(&partition, round(half.length())), None);
-                assert!(mistake(&partition, round(0.8 * half.x.min(half.y))).is_some());
+                assert_eq!(message(&partition, round(half.length())), None);
+                assert!(message(&partition, round(0.8 * half.x.min(half.y))).is_some());
                 let [left, right] = [-1.0, 1.0].map(|side| {
                     let corners = [[0.0, -1.0], [side, -1.0], [side, 1.0], [0.0, 1.0]];
                     let points = corners.map(|[x, y]| center + vec2(x * half.x, y * half.y));
                     Hole::polygon(points.to_vec())
                 });
-                assert_eq!(mistake(&partition, vec![left.clone(), right]), None, "two halves");
-                assert!(mistake(&partition, vec![left]).is_some(), "one half");
+                assert_eq!(message(&partition, vec![left.clone(), right]), None, "two halves");
+                assert!(message(&partition, vec![left]).is_some(), "one half");
             }
         }
     }

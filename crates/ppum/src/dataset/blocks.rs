@@ -8,7 +8,7 @@ use crate::polynomial::{PolynomialSpace, monomials};
 /// `block_function[b]` times a polynomial of degree `block_degree[b]` whose coefficients start at
 /// `block_offset[b]` in each component's array. Monomials are ordered by total degree, then by
 /// descending power of x: 1, ξ, η, ξ², ξη, η², …
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct FieldData {
     /// Name, e.g. `displacement`.
@@ -40,15 +40,10 @@ impl FieldData {
     pub fn new(name: &str, components: &[&str]) -> Self {
         Self {
             name: name.into(),
-            unit: String::new(),
             components: components.iter().map(|&component| component.into()).collect(),
             patch_blocks: vec![0],
-            block_function: Vec::new(),
-            block_degree: Vec::new(),
-            block_space: Vec::new(),
-            block_offset: Vec::new(),
             coefficients: vec![Vec::new(); components.len()],
-            exact: Vec::new(),
+            ..Self::default()
         }
     }
 
@@ -96,13 +91,6 @@ impl FieldData {
             Some(last) => self.block_offset[blocks.start] as usize..end(last),
             None => 0..0,
         }
-    }
-
-    /// The coefficients of a patch, component by component, where its blocks have theirs behind
-    /// one another.
-    pub fn coefficients_of(&self, patch: usize) -> impl Iterator<Item = &[f64]> {
-        let range = self.range(patch);
-        self.coefficients.iter().map(move |component| &component[range.clone()])
     }
 
     /// The blocks of a patch as a range of block indices.

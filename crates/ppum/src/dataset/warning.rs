@@ -19,6 +19,19 @@ pub struct Warning {
     pub message: String,
 }
 
+impl Warning {
+    /// A warning with the number that gave rise to it and the bound that this passes.
+    #[must_use]
+    pub fn new(
+        kind: WarningKind,
+        at: Option<Vec2>,
+        [value, limit]: [f64; 2],
+        message: String,
+    ) -> Self {
+        Self { kind, at, value, limit, message }
+    }
+}
+
 macro_rules! warning_kinds {
     ($($(#[$doc:meta])* $kind:ident $code:literal,)*) => {
         /// The kind of a warning; its text is the code that files and JSON have for it.

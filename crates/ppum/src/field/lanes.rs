@@ -7,54 +7,39 @@ use crate::mesh::grid::PointGrid;
 use crate::vec2::Vec2;
 use ppum_formula::real::{LaneJob, LaneNumber, Real};
 
-/// [`LocalField::evaluate_into`] on lanes.
-struct FieldOnLanes<'a, 'f, const D: usize> {
-    local: &'a mut LocalField<'f>,
-    offsets: &'a [Vec2],
-    side: Side,
-    out: &'a mut [Jet<f64>],
-}
-
-impl<const D: usize> LaneJob<f64> for FieldOnLanes<'_, '_, D> {
-    type Output = ();
-
-    #[inline(always)]
-    fn run<R: Real<Scalar = f64>>(self, zero: R) {
-        let components = self.local.field.components();
-        let mut lanes = vec![Jet::constant(zero); components];
-        let chunks = self.offsets.chunks(R::LANES).zip(self.out.chunks_mut(R::LANES * components));
-        for (points, out) in chunks {
-            let patches = self.local.covering_any(points, self.side);
-            self.local.at_once::<R, D>(points, self.side, &patches, &mut lanes, out);
-            for (&point, out) in points.iter().zip(out.chunks_mut(components)) {
-                if !self.local.contains(point) {
-                    out.fill(Jet::NAN);
-                }
-            }
-            self.local.patches = patches;
-        }
-    }
-}
-
-/// [`LocalField::evaluate_over`] on lanes.
-struct LaneEvaluation<'a, 'f, const D: usize> {
+/// The field at many points, on lanes.
+struct FieldEvaluation<'a, 'f, const D: usize> {
     local: &'a LocalField<'f>,
     offsets: &'a [Vec2],
     side: Side,
-    patches: &'a [u32],
+    /// All patches that cover any of the points; if they are not known, they are searched for, and
+    /// points outside the domain are left out.
+    patches: Option<&'a [u32]>,
     out: &'a mut [Jet<f64>],
 }
 
-impl<const D: usize> LaneJob<f64> for LaneEvaluation<'_, '_, D> {
+impl<const D: usize> LaneJob<f64> for FieldEvaluation<'_, '_, D> {
     type Output = ();
 
     #[inline(always)]
     fn run<R: Real<Scalar = f64>>(self, zero: R) {
-        let components = self.local.field.components();
-        let mut lanes = vec![Jet::constant(zero); components];
+        let Self { local, side, .. } = self;
+        let components = local.field.components();
+        let (mut lanes, mut found) = (vec![Jet::constant(zero); components], Vec::new());
         let chunks = self.offsets.chunks(R::LANES).zip(self.out.chunks_mut(R::LANES * components));
         for (points, out) in chunks {
-            self.local.at_once::<R, D>(points, self.side, self.patches, &mut lanes, out);
+            if self.patches.is_none() {
+                local.covering_any(points, side, &mut found);
+            }
+            let patches = self.patches.unwrap_or(&found);
+            local.at_once::<R, D>(points, side, patches, &mut lanes, out);
+            if self.patches.is_none() {
+                for (&point, out) in points.iter().zip(out.chunks_mut(components)) {
+                    if !local.contains(point) {
+                        out.fill(Jet::NAN);
+                    }
+                }
+            }
         }
     }
 }
@@ -79,15 +64,7 @@ impl LocalField<'_> {
         if let Some(mesh) = &self.mesh {
             return mesh.evaluate_many::<D>(&self.functions, (offsets, side), out);
         }
-        if self.outer == Some(side) {
-            return out.fill(Jet::NAN);
-        }
-        f64::dispatch(FieldOnLanes::<D> { local: self, offsets, side, out });
-        if self.is_sided::<D>() {
-            let mut values = out.to_vec();
-            f64::dispatch(FieldOnLanes::<0> { local: self, offsets, side, out: &mut values });
-            take_values(out, &values);
-        }
+        self.on_lanes::<D>(offsets, side, None, out);
     }
 
     /// Evaluates a field on a mesh at the points of a grid, row by row: as
@@ -119,20 +96,24 @@ impl LocalField<'_> {
         patches: &[u32],
         out: &mut [Jet<f64>],
     ) {
+        self.on_lanes::<D>(offsets, side, Some(patches), out);
+    }
+
+    fn on_lanes<const D: usize>(
+        &self,
+        offsets: &[Vec2],
+        side: Side,
+        patches: Option<&[u32]>,
+        out: &mut [Jet<f64>],
+    ) {
         if self.outer == Some(side) {
             return out.fill(Jet::NAN);
         }
-        f64::dispatch(LaneEvaluation::<D> { local: self, offsets, side, patches, out });
+        let local = self;
+        f64::dispatch(FieldEvaluation::<D> { local, offsets, side, patches, out });
         if self.is_sided::<D>() {
             let mut values = out.to_vec();
-            let out_values = &mut values[..];
-            f64::dispatch(LaneEvaluation::<0> {
-                local: self,
-                offsets,
-                side,
-                patches,
-                out: out_values,
-            });
+            f64::dispatch(FieldEvaluation::<0> { local, offsets, side, patches, out: &mut values });
             take_values(out, &values);
         }
     }

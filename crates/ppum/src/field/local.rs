@@ -8,7 +8,7 @@ use crate::function::{LocalFunctions, Slot};
 use crate::jet::Jet;
 use crate::mesh::{ElementField, LocalMesh};
 use crate::polynomial::polynomial;
-use crate::vec2::{Rect, Vec2, vec2};
+use crate::vec2::{Vec2, vec2};
 use ppum_formula::real::Real;
 
 /// A field seen from an anchor.
@@ -30,15 +30,6 @@ pub struct LocalField<'f> {
     pub(super) mesh: Option<LocalMesh<'f>>,
     /// Memory for the patches around a point.
     pub(super) patches: Vec<u32>,
-}
-
-/// The part of one patch in a field at a point.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PatchPart {
-    /// φ_i with derivatives.
-    pub share: Jet<f64>,
-    /// The components of v_i with derivatives; zero beyond those of the field.
-    pub local: [Jet<f64>; 2],
 }
 
 /// The partition of unity at a point.
@@ -81,8 +72,7 @@ impl Field<'_> {
         let line = self.domain.line_along(&ends);
         let local = LocalField::new(self, anchor, functions);
         let domain = local.domain.without_hole(line.and_then(|line| line.hole));
-        let Rect { min, max } = self.domain.bounds;
-        let extent = [min.x, min.y, max.x, max.y].into_iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        let extent = self.domain.bounds.max_norm();
         let above = (ends[1] - ends[0]).unit().left() * (ASIDE * extent);
         LocalField { outer: line.map(|line| line.outer_side(ends)), above, domain, ..local }
     }
@@ -131,7 +121,8 @@ impl<'f> LocalField<'f> {
         if self.outer == Some(side) || !self.contains(offset) {
             return false;
         }
-        let patches = self.covering_any(&[offset], side);
+        let mut patches = std::mem::take(&mut self.patches);
+        self.covering_any(&[offset], side, &mut patches);
         self.over_patches::<f64, D>([offset.x, offset.y], side, &patches, out);
         if self.is_sided::<D>() {
             let mut values = out.to_vec();
@@ -202,7 +193,8 @@ impl<'f> LocalField<'f> {
         if self.mesh.is_some() {
             return Some(PartitionOfUnity { weight_sum: Jet::constant(1.0), overlap: 1 });
         }
-        let patches = self.covering_any(&[offset], Side::Above);
+        let mut patches = std::mem::take(&mut self.patches);
+        self.covering_any(&[offset], Side::Above, &mut patches);
         let weight = |&p: &u32| self.partition_weight::<f64, D>(p as usize, [offset.x, offset.y]);
         let zero = Jet::constant(0.0);
         let weight_sum = patches.iter().map(weight).fold(zero, Jet::plus::<D>);
@@ -228,16 +220,14 @@ impl<'f> LocalField<'f> {
     }
 
     /// The patches that cover at least one of the points, ascending.
-    pub(super) fn covering_any(&mut self, offsets: &[Vec2], side: Side) -> Vec<u32> {
-        let mut patches = std::mem::take(&mut self.patches);
+    pub(super) fn covering_any(&self, offsets: &[Vec2], side: Side, patches: &mut Vec<u32>) {
         patches.clear();
         for &offset in offsets {
             let [x, y] = self.aside::<f64, 1>([offset.x, offset.y], side);
-            self.field.tree.query_point(self.anchor + vec2(x, y), &mut patches);
+            self.field.tree.query_point(self.anchor + vec2(x, y), patches);
         }
         patches.sort_unstable();
         patches.dedup();
-        patches
     }
 
     /// Evaluates over a given list of patches, which must hold all that cover the point.
@@ -302,58 +292,6 @@ impl<'f> LocalField<'f> {
                 yy: number(|j| j.yy),
             };
         }
-    }
-
-    /// The parts of the elements among some patches: the owner's has the share 1, those of
-    /// others 0.
-    fn parts_of_mesh<const D: usize>(
-        &self,
-        mesh: &LocalMesh<'_>,
-        (offset, side): (Vec2, Side),
-        patches: &[u32],
-        out: &mut Vec<PatchPart>,
-    ) {
-        let zero = Jet::constant(0.0);
-        out.resize(patches.len(), PatchPart { share: zero, local: [zero; 2] });
-        let Some(place) = mesh.owner_among(offset, side, patches) else { return };
-        let mut jets = vec![zero; self.field.components()];
-        mesh.evaluate::<D>(&place, &self.functions, (offset, side), &mut jets);
-        for (part, _) in out.iter_mut().zip(patches).filter(|(_, p)| **p as usize == place.patch) {
-            part.share = Jet::constant(1.0);
-            part.local.iter_mut().zip(&jets).for_each(|(local, jet)| *local = *jet);
-        }
-    }
-
-    /// The parts φ_i and v_i of some patches at `anchor + offset`, which must be all that cover the
-    /// point: what [`over_patches`](Self::over_patches) sums up to v = Σ φ_i v_i. Uses the first
-    /// two components of a field that has more.
-    pub fn parts<const D: usize>(
-        &self,
-        offset: Vec2,
-        side: Side,
-        patches: &[u32],
-        out: &mut Vec<PatchPart>,
-    ) {
-        out.clear();
-        if let Some(mesh) = &self.mesh {
-            return self.parts_of_mesh::<D>(mesh, (offset, side), patches, out);
-        }
-        let at = [offset.x, offset.y];
-        let mut functions = FunctionJets::new(&self.functions, at, side);
-        let aside = self.aside::<f64, D>(at, side);
-        let (components, zero) = (self.field.components(), Jet::constant(0.0));
-        let mut weight_sum = zero;
-        for &patch in patches {
-            let patch = patch as usize;
-            let share = self.weight::<f64, D>(patch, aside, patches.len() == 1);
-            weight_sum = weight_sum.plus::<D>(share);
-            let mut local = [zero; 2];
-            for (component, v) in local.iter_mut().enumerate().take(components) {
-                *v = self.local_field::<f64, D>(patch, component, at, &mut functions);
-            }
-            out.push(PatchPart { share, local });
-        }
-        out.iter_mut().for_each(|part| part.share = part.share.over::<D>(weight_sum));
     }
 
     /// The part W_i v_i of a sum, zero on the lanes that the patch does not cover: there v_i need

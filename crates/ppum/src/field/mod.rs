@@ -15,4 +15,4 @@ mod lanes;
 mod local;
 
 pub use compiled::{Field, FieldError};
-pub use local::{LocalField, PartitionOfUnity, PatchPart};
+pub use local::{LocalField, PartitionOfUnity};

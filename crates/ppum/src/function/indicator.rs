@@ -23,14 +23,14 @@ pub struct Cut {
     /// The segment.
     pub segment: SegmentId,
     /// The part on the left of the segment's direction, and on the line itself.
-    pub left: CutSide,
+    pub left: CutBranch,
     /// The part on the right.
-    pub right: CutSide,
+    pub right: CutBranch,
 }
 
 /// A part of the plane behind a cut.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CutSide {
+pub enum CutBranch {
     /// Not in the component: the function is 0.
     Outside,
     /// In the component: the function is 1.
@@ -43,7 +43,7 @@ pub enum CutSide {
 const OUTSIDE: f64 = -1.0;
 const INSIDE: f64 = -2.0;
 
-impl CutSide {
+impl CutBranch {
     /// The number of a part: that of a cut, −1 outside, −2 inside.
     #[must_use]
     pub fn number(self) -> i64 {

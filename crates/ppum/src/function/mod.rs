@@ -9,7 +9,7 @@ mod westergaard;
 
 pub use crate::library::WESTERGAARD;
 pub use formulas::GROUP;
-pub use indicator::{Cut, CutSide};
+pub use indicator::{Cut, CutBranch};
 pub use kinds::{Frame, Function, FunctionKind, NonsmoothPoints, Role};
 pub(crate) use table::LevelUse;
 pub use table::{

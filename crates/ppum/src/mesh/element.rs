@@ -6,10 +6,10 @@
 
 use std::borrow::Cow;
 
-use super::evaluate::At;
+use super::evaluate::EvaluationPoint;
 use super::local::{ElementView, LocalMesh, PatchLocation};
 use super::map::PolynomialMap;
-use crate::compensated::RoundedSum;
+use crate::compensated::SumWithError;
 use crate::crack::Side;
 use crate::function::LocalFunctions;
 use crate::jet::Jet;
@@ -27,7 +27,7 @@ pub struct ElementField<'m, 'f> {
     seen: ElementView<'m>,
     map: Cow<'m, PolynomialMap>,
     /// M(δ) at the anchor.
-    from: [RoundedSum; 2],
+    from: [SumWithError; 2],
 }
 
 /// A point of an element.
@@ -84,7 +84,7 @@ impl<'m, 'f> ElementField<'m, 'f> {
     #[must_use]
     pub fn point(&self, delta: Vec2) -> ElementPoint {
         let [x, y] = self.map.at::<f64, 1>(delta.into());
-        let part = |value: f64, from: RoundedSum| (value - from.0) - from.1;
+        let part = |value: f64, from: SumWithError| (value - from.0) - from.1;
         let offset = vec2(part(x.v, self.from[0]), part(y.v, self.from[1]));
         ElementPoint { offset, columns: [vec2(x.x, y.x), vec2(x.y, y.y)] }
     }
@@ -100,7 +100,7 @@ impl<'m, 'f> ElementField<'m, 'f> {
         side: Side,
         out: &mut [Jet<f64>],
     ) {
-        let at = At { delta: delta.into(), offset: offset.into(), side };
+        let at = EvaluationPoint { delta: delta.into(), offset: offset.into(), side };
         let out = &mut out[..self.mesh.field.components()];
         self.mesh.evaluate_at::<f64, D>((self.seen, &self.map), self.functions, &at, out);
     }

@@ -21,7 +21,7 @@ impl LocalMesh<'_> {
         (offset, side): (Vec2, Side),
         out: &mut [Jet<f64>],
     ) {
-        let at = At { delta: place.delta, offset: offset.into(), side };
+        let at = EvaluationPoint { delta: place.delta, offset: offset.into(), side };
         let seen = (place.patch, place.near);
         self.evaluate_at::<f64, D>((seen, &self.map_of(seen)), functions, &at, out);
     }
@@ -40,10 +40,10 @@ impl LocalMesh<'_> {
         &self,
         (seen, map): (ElementView<'_>, &PolynomialMap),
         functions: &LocalFunctions<'_>,
-        at: &At<R>,
+        at: &EvaluationPoint<R>,
         out: &mut [Jet<R>],
     ) {
-        let world = World::new(map.at::<R, D>(at.delta));
+        let world = ElementJacobian::new(map.at::<R, D>(at.delta));
         let (own, data) = (self.field.index, self.field.data);
         let zero = Jet::constant(at.delta[0].broadcast(0.0));
         let mut known: Vec<(u32, [Jet<R>; GROUP])> = Vec::new();
@@ -114,8 +114,8 @@ impl LocalMesh<'_> {
         &self,
         seen: ElementView<'_>,
         functions: &LocalFunctions<'_>,
-        at: &At<R>,
-        world: &World<R>,
+        at: &EvaluationPoint<R>,
+        world: &ElementJacobian<R>,
         group: usize,
     ) -> [Jet<R>; GROUP] {
         let mut jets = [Jet::constant(at.delta[0].broadcast(0.0)); GROUP];
@@ -143,7 +143,7 @@ impl LocalMesh<'_> {
 }
 
 /// Places in a patch, as δ and as offsets from the anchor.
-pub(super) struct At<R> {
+pub(super) struct EvaluationPoint<R> {
     pub(super) delta: [R; 2],
     pub(super) offset: [R; 2],
     pub(super) side: Side,
@@ -151,13 +151,13 @@ pub(super) struct At<R> {
 
 /// The chain rule from ξ to the world: G = DM⁻¹, ∇v = Gᵀ ∇_ξ v, ∇²v = Gᵀ (∇²_ξ v − Σ_i ∂v/∂x_i ∇²_ξ
 /// x_i) G.
-struct World<R> {
+struct ElementJacobian<R> {
     image: [Jet<R>; 2],
     /// Gᵀ in rows.
     transposed: [[R; 2]; 2],
 }
 
-impl<R: Real> World<R> {
+impl<R: Real> ElementJacobian<R> {
     #[inline(always)]
     fn new(image: [Jet<R>; 2]) -> Self {
         let [x, y] = image;

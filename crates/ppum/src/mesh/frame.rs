@@ -4,7 +4,7 @@ use super::elements::Mesh;
 use super::local::{Candidate, ElementView, moved};
 use super::map::{MapInverse, NEAR, TOLERANCE, largest};
 use super::shape::Shape;
-use crate::compensated::RoundedSum;
+use crate::compensated::SumWithError;
 use ppum_formula::real::Real;
 
 /// An element as it is, or as seen from a ξ beside the anchor.
@@ -15,7 +15,7 @@ pub(super) struct SeenElement<'a, 'm> {
     /// ξ = at + δ
     at: [f64; 2],
     /// The value of M(δ) at the anchor.
-    from: &'a [RoundedSum; 2],
+    from: &'a [SumWithError; 2],
 }
 
 /// The places of points on lanes.

@@ -4,7 +4,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::evaluate::At;
+use super::evaluate::EvaluationPoint;
 use super::frame::{LanePlaces, SeenElement};
 use super::local::{Candidate, LocalMesh, PatchLocation};
 use super::map::TOLERANCE;
@@ -114,7 +114,7 @@ impl LocalMesh<'_> {
         (grid, side): (&PointGrid<'_>, Side),
         out: &mut [Jet<f64>],
     ) {
-        f64::dispatch(OnGrid::<D> { mesh: self, functions, grid, side, out });
+        f64::dispatch(GridEvaluation::<D> { mesh: self, functions, grid, side, out });
     }
 
     /// The patches that may hold points of a grid, ascending.
@@ -128,7 +128,7 @@ impl LocalMesh<'_> {
     }
 }
 
-struct OnGrid<'a, 'f, 't, const D: usize> {
+struct GridEvaluation<'a, 'f, 't, const D: usize> {
     mesh: &'a LocalMesh<'f>,
     functions: &'a LocalFunctions<'t>,
     grid: &'a PointGrid<'a>,
@@ -144,7 +144,7 @@ struct GridSearch<'m> {
     beside: BTreeMap<usize, (f64, PatchLocation<'m>)>,
 }
 
-impl<const D: usize> LaneJob<f64> for OnGrid<'_, '_, '_, D> {
+impl<const D: usize> LaneJob<f64> for GridEvaluation<'_, '_, '_, D> {
     type Output = ();
 
     #[inline(always)]
@@ -170,7 +170,7 @@ impl<const D: usize> LaneJob<f64> for OnGrid<'_, '_, '_, D> {
     }
 }
 
-impl<const D: usize> OnGrid<'_, '_, '_, D> {
+impl<const D: usize> GridEvaluation<'_, '_, '_, D> {
     /// The free points that an element may hold.
     #[inline(always)]
     fn add_points(
@@ -240,7 +240,7 @@ impl<const D: usize> OnGrid<'_, '_, '_, D> {
                 }
             }
             if hits > 0 {
-                let at = At { delta, offset, side: self.side };
+                let at = EvaluationPoint { delta, offset, side: self.side };
                 self.store(frame, &at, &inside[..hits], lanes);
             }
         }
@@ -252,7 +252,7 @@ impl<const D: usize> OnGrid<'_, '_, '_, D> {
     fn store<R: Real<Scalar = f64>>(
         &mut self,
         frame: &SeenElement<'_, '_>,
-        at: &At<R>,
+        at: &EvaluationPoint<R>,
         points: &[(usize, usize)],
         lanes: &mut [Jet<R>],
     ) {

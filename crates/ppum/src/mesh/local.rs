@@ -10,7 +10,7 @@ use super::elements::Mesh;
 use super::map::{MapInverse, TOLERANCE};
 use super::shape::ShapeEdge;
 use super::taylor::DensePolynomial;
-use crate::compensated::{RoundedSum, difference, minus};
+use crate::compensated::{SumWithError, difference, minus};
 use crate::crack::Side;
 use crate::dataset::FieldData;
 use crate::field::Field;
@@ -23,18 +23,18 @@ pub(crate) struct LocalMesh<'f> {
     pub(super) field: &'f Field<'f>,
     pub(super) mesh: &'f Mesh,
     pub(super) anchor: Vec2,
-    near: BTreeMap<u32, Near>,
+    near: BTreeMap<u32, NearElement>,
 }
 
 /// An element beside the anchor.
 #[derive(Clone, Debug)]
-pub(super) struct Near {
+pub(super) struct NearElement {
     /// The ξ of the anchor, except for rounding.
     pub(super) at: [f64; 2],
     /// The map in δ.
     pub(super) inverse: MapInverse,
     /// anchor − origin − M(at): what rounding leaves.
-    pub(super) rest: [RoundedSum; 2],
+    pub(super) rest: [SumWithError; 2],
     /// The fields that are used, by their index: coefficients in δ of the patch's blocks, for each
     /// component one block after the other.
     fields: BTreeMap<usize, Vec<f64>>,
@@ -46,17 +46,17 @@ pub(crate) struct PatchLocation<'m> {
     pub(crate) patch: usize,
     /// ξ = at + δ, at = 0 for elements that are not near.
     pub(super) delta: [f64; 2],
-    pub(super) near: Option<&'m Near>,
+    pub(super) near: Option<&'m NearElement>,
 }
 
 /// A patch, ready to be asked for many points.
 pub(super) struct Candidate<'m> {
     pub(super) patch: usize,
-    pub(super) near: Option<&'m Near>,
+    pub(super) near: Option<&'m NearElement>,
     /// The inverse of the element's map; `None` if the map is singular at ξ = 0.
     pub(super) inverse: Option<MapInverse>,
     /// anchor − origin.
-    pub(super) from_origin: [RoundedSum; 2],
+    pub(super) from_origin: [SumWithError; 2],
     /// A box around the patch and what lies beside it, from the anchor.
     reach: Rect,
 }
@@ -66,7 +66,7 @@ impl<'f> LocalMesh<'f> {
         let (mut beside, mut near) = (Vec::new(), BTreeMap::new());
         field.tree.query_point(anchor, &mut beside);
         for patch in beside {
-            if let Some(element) = Near::new(field, mesh, patch as usize, anchor) {
+            if let Some(element) = NearElement::new(field, mesh, patch as usize, anchor) {
                 near.insert(patch, element);
             }
         }
@@ -118,14 +118,14 @@ impl<'f> LocalMesh<'f> {
     }
 
     /// A patch as it is seen from the anchor, and M(δ) there.
-    pub(super) fn frame(&self, patch: usize) -> (Option<&Near>, [RoundedSum; 2]) {
+    pub(super) fn frame(&self, patch: usize) -> (Option<&NearElement>, [SumWithError; 2]) {
         let near = self.near.get(&(patch as u32));
         let from = near.map_or_else(|| self.anchor_from_origin(patch), |near| near.rest);
         (near, from)
     }
 
     /// anchor − origin
-    fn anchor_from_origin(&self, patch: usize) -> [RoundedSum; 2] {
+    fn anchor_from_origin(&self, patch: usize) -> [SumWithError; 2] {
         let origin = self.mesh.origin[patch];
         [difference(self.anchor.x, origin.x), difference(self.anchor.y, origin.y)]
     }
@@ -191,7 +191,7 @@ impl<'f> LocalMesh<'f> {
 
 /// A point that is moved by an offset.
 #[inline(always)]
-pub(super) fn moved<R: Real>(from: &[RoundedSum; 2], offset: [R; 2]) -> [(R, R); 2] {
+pub(super) fn moved<R: Real>(from: &[SumWithError; 2], offset: [R; 2]) -> [(R, R); 2] {
     let [x, y] = offset;
     let (p, q) = (difference(x.broadcast(from[0].0), -x), difference(y.broadcast(from[1].0), -y));
     [(p.0, p.1 + x.broadcast(from[0].1)), (q.0, q.1 + y.broadcast(from[1].1))]
@@ -222,7 +222,7 @@ impl Candidate<'_> {
     }
 }
 
-impl Near {
+impl NearElement {
     fn new(field: &Field<'_>, mesh: &Mesh, patch: usize, anchor: Vec2) -> Option<Self> {
         let origin = mesh.origin[patch];
         let t = [difference(anchor.x, origin.x), difference(anchor.y, origin.y)];
@@ -269,7 +269,7 @@ fn shifted(data: &FieldData, patch: usize, at: [f64; 2]) -> Vec<f64> {
 }
 
 /// A patch as it is, or as seen from a ξ beside the anchor.
-pub(super) type ElementView<'m> = (usize, Option<&'m Near>);
+pub(super) type ElementView<'m> = (usize, Option<&'m NearElement>);
 
 /// +1 where a level field is positive, −1 where it is negative; where it is zero, that of the side.
 #[inline(always)]

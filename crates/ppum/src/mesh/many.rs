@@ -1,7 +1,7 @@
 //! Many points: each one's owner first, beginning with the place of its neighbour, then those of
 //! one patch on lanes.
 
-use super::evaluate::At;
+use super::evaluate::EvaluationPoint;
 use super::local::{Candidate, LocalMesh, PatchLocation};
 use crate::crack::Side;
 use crate::function::LocalFunctions;
@@ -25,7 +25,14 @@ impl LocalMesh<'_> {
         let components = self.field.components();
         for (offsets, out) in offsets.chunks(POINTS).zip(out.chunks_mut(POINTS * components)) {
             let owners = self.owners(offsets, side);
-            f64::dispatch(MeshOnLanes::<D> { mesh: self, functions, offsets, side, owners, out });
+            f64::dispatch(MeshEvaluation::<D> {
+                mesh: self,
+                functions,
+                offsets,
+                side,
+                owners,
+                out,
+            });
         }
     }
 
@@ -62,7 +69,7 @@ impl LocalMesh<'_> {
     }
 }
 
-struct MeshOnLanes<'a, 'f, 't, 'm, const D: usize> {
+struct MeshEvaluation<'a, 'f, 't, 'm, const D: usize> {
     mesh: &'a LocalMesh<'f>,
     functions: &'a LocalFunctions<'t>,
     offsets: &'a [Vec2],
@@ -71,7 +78,7 @@ struct MeshOnLanes<'a, 'f, 't, 'm, const D: usize> {
     out: &'a mut [Jet<f64>],
 }
 
-impl<const D: usize> LaneJob<f64> for MeshOnLanes<'_, '_, '_, '_, D> {
+impl<const D: usize> LaneJob<f64> for MeshEvaluation<'_, '_, '_, '_, D> {
     type Output = ();
 
     #[inline(always)]
@@ -98,10 +105,10 @@ impl<const D: usize> LaneJob<f64> for MeshOnLanes<'_, '_, '_, '_, D> {
     }
 }
 
-impl<const D: usize> MeshOnLanes<'_, '_, '_, '_, D> {
+impl<const D: usize> MeshEvaluation<'_, '_, '_, '_, D> {
     /// The places of no more points than there are lanes; the last stands in for those missing.
     #[inline(always)]
-    fn places<R: Real<Scalar = f64>>(&self, points: &[usize], zero: R) -> At<R> {
+    fn places<R: Real<Scalar = f64>>(&self, points: &[usize], zero: R) -> EvaluationPoint<R> {
         let (mut delta, mut offset) = ([Lanes::default(); 2], [Lanes::default(); 2]);
         for lane in 0..R::LANES {
             let index = points[lane.min(points.len() - 1)];
@@ -109,7 +116,7 @@ impl<const D: usize> MeshOnLanes<'_, '_, '_, '_, D> {
             (delta[0][lane], delta[1][lane]) = (xi[0], xi[1]);
             (offset[0][lane], offset[1][lane]) = (self.offsets[index].x, self.offsets[index].y);
         }
-        At {
+        EvaluationPoint {
             delta: [zero.load(&delta[0]), zero.load(&delta[1])],
             offset: [zero.load(&offset[0]), zero.load(&offset[1])],
             side: self.side,

@@ -12,7 +12,7 @@
 
 use super::shape::Shape;
 use super::taylor::DensePolynomial;
-use crate::compensated::{RoundedSum, difference, exact_product};
+use crate::compensated::{SumWithError, difference, exact_product};
 use crate::jet::Jet;
 use crate::polynomial::{PolynomialSpace, polynomial_in};
 use ppum_formula::real::Real;
@@ -82,7 +82,7 @@ impl PolynomialMap {
     }
 
     /// The coefficients of the map seen from `at`, and the constant M(at).
-    pub(super) fn shifted(&self, at: [f64; 2]) -> (Self, [RoundedSum; 2]) {
+    pub(super) fn shifted(&self, at: [f64; 2]) -> (Self, [SumWithError; 2]) {
         let mut out = self.clone();
         let constants = [(&self.x, &mut out.x), (&self.y, &mut out.y)].map(|(from, to)| {
             let mut dense = DensePolynomial::new(self.space, self.degree, from);
@@ -239,7 +239,7 @@ impl MapInverse {
     pub(super) fn at(
         &self,
         shape: Shape,
-        t: [RoundedSum; 2],
+        t: [SumWithError; 2],
         start: Option<[f64; 2]>,
     ) -> Option<[f64; 2]> {
         let target = t.map(|t| t.0 + t.1);
@@ -337,7 +337,7 @@ impl MapInverse {
     }
 
     /// The ξ with M(ξ) = t if it lies within a quarter of 0.
-    pub(super) fn near(&self, t: [RoundedSum; 2]) -> Option<[f64; 2]> {
+    pub(super) fn near(&self, t: [SumWithError; 2]) -> Option<[f64; 2]> {
         let guess = self.bounds.inverse.times(t.map(|t| t.0));
         let found = match self.map.is_affine() {
             true => Some(self.map.refined(&self.bounds.inverse, guess, t)),
@@ -347,7 +347,7 @@ impl MapInverse {
     }
 
     /// The ξ with M(ξ) = t in the shape, or one that lies beside it.
-    pub(super) fn beside(&self, shape: Shape, t: [RoundedSum; 2]) -> Option<[f64; 2]> {
+    pub(super) fn beside(&self, shape: Shape, t: [SumWithError; 2]) -> Option<[f64; 2]> {
         let newton = || {
             let target = t.map(|t| t.0 + t.1);
             let guess = self.bounds.inverse.times(target);

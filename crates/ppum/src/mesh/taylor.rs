@@ -1,9 +1,9 @@
 //! Polynomials as seen from another point: P(at + δ) in powers of δ, with twice the digits.
 //!
-//! Near a crack's tip or an edge values are differences of coefficients that nearly cancel; formed
+//! NearElement a crack's tip or an edge values are differences of coefficients that nearly cancel; formed
 //! once with twice the digits, a view 10⁻¹⁵ of an element wide has no noise.
 
-use crate::compensated::{RoundedSum, plus, product};
+use crate::compensated::{SumWithError, plus, product};
 use crate::dataset::MAX_DEGREE;
 use crate::polynomial::PolynomialSpace;
 
@@ -11,7 +11,7 @@ const SIZE: usize = MAX_DEGREE + 1;
 
 /// Coefficients of ξ^a η^b in the rows b and columns a.
 pub(super) struct DensePolynomial {
-    rows: [[RoundedSum; SIZE]; SIZE],
+    rows: [[SumWithError; SIZE]; SIZE],
     degree: usize,
 }
 
@@ -38,7 +38,7 @@ impl DensePolynomial {
         }
     }
 
-    pub(super) fn constant(&self) -> RoundedSum {
+    pub(super) fn constant(&self) -> SumWithError {
         self.rows[0][0]
     }
 
@@ -51,7 +51,7 @@ impl DensePolynomial {
 }
 
 /// Repeated synthetic division (Horner 1819).
-fn shift(c: &mut [RoundedSum], at: f64) {
+fn shift(c: &mut [SumWithError], at: f64) {
     for end in 0..c.len() {
         for k in (end..c.len() - 1).rev() {
             c[k] = plus(c[k], product((at, 0.0), c[k + 1]));

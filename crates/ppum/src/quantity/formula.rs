@@ -464,7 +464,7 @@ impl QuantityInput {
 
     /// `None` if it is no constant of an equation.
     #[inline(always)]
-    fn modulus<R: Copy>(self, moduli: &Moduli<R>) -> Option<R> {
+    pub(super) fn modulus<R: Copy>(self, moduli: &Moduli<R>) -> Option<R> {
         match self {
             Self::Young => Some(moduli.young),
             Self::Poisson => Some(moduli.poisson),

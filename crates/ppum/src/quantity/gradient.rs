@@ -118,9 +118,7 @@ impl QuantityGradient {
     #[must_use]
     pub fn at(&self, local: &mut LocalField<'_>, offset: Vec2, side: Side) -> ValueWithGradient {
         if matches!(self.rule, GradientRule::Partition) {
-            return self
-                .of_partition(local, offset)
-                .map_or(ValueWithGradient::NOWHERE, ValueWithGradient::from_jet);
+            return self.of_partition(local, offset);
         }
         let mut jets = vec![Jet::constant(0.0); local.field.components()];
         let inside = match self.rule {
@@ -151,11 +149,7 @@ impl QuantityGradient {
         let mut jets = vec![Jet::constant(0.0); offsets.len() * components];
         local.evaluate_into::<2>(offsets, side, &mut jets);
         let rows = offsets.iter().zip(jets.chunks(components));
-        let one = |(&offset, jets): (&Vec2, &[Jet<f64>])| match local.has_values(offset, jets) {
-            true => self.of_jets(local, offset, jets),
-            false => ValueWithGradient::NOWHERE,
-        };
-        rows.map(one).collect()
+        rows.map(|(&offset, jets)| self.slope_from_jets(local, offset, jets)).collect()
     }
 
     /// Value and gradient where the field is known to its second derivatives; NaN outside
@@ -167,9 +161,7 @@ impl QuantityGradient {
         jets: &[Jet<f64>],
     ) -> ValueWithGradient {
         match self.rule {
-            GradientRule::Partition => self
-                .of_partition(local, offset)
-                .map_or(ValueWithGradient::NOWHERE, ValueWithGradient::from_jet),
+            GradientRule::Partition => self.of_partition(local, offset),
             _ if local.has_values(offset, jets) => self.of_jets(local, offset, jets),
             _ => ValueWithGradient::NOWHERE,
         }
@@ -199,24 +191,24 @@ impl QuantityGradient {
     }
 
     /// A quantity of the partition; `None` outside the domain.
-    fn of_partition(&self, local: &mut LocalField<'_>, offset: Vec2) -> Option<Jet<f64>> {
-        match self.quantity {
+    fn of_partition(&self, local: &mut LocalField<'_>, offset: Vec2) -> ValueWithGradient {
+        let jet = match self.quantity {
             Quantity::PartitionFunction(patch) => {
                 local.partition_function::<1>(patch as usize, offset)
             }
-            Quantity::WeightSum => Some(local.covering::<1>(offset)?.weight_sum),
-            _ => Some(Jet::constant(local.covering::<0>(offset)?.overlap as f64)),
-        }
+            Quantity::WeightSum => local.covering::<1>(offset).map(|all| all.weight_sum),
+            _ => local.covering::<0>(offset).map(|all| Jet::constant(all.overlap as f64)),
+        };
+        jet.map_or(ValueWithGradient::NOWHERE, |jet| ValueWithGradient {
+            value: jet.v,
+            gradient: gradient(&jet),
+        })
     }
 }
 
 impl ValueWithGradient {
     /// Outside the domain.
     const NOWHERE: Self = Self { value: f64::NAN, gradient: vec2(f64::NAN, f64::NAN) };
-
-    fn from_jet(jet: Jet<f64>) -> Self {
-        Self { value: jet.v, gradient: gradient(&jet) }
-    }
 }
 
 impl GradientRule {
@@ -260,8 +252,8 @@ fn text(quantity: &Quantity, field: &Field<'_>) -> Result<QuantityFormula, Quant
         }
         Quantity::PrincipalDirection => "atan2(2*exy, exx - eyy)/2".to_owned(),
         other => {
-            let name = ELASTIC.iter().find(|(_, known)| known == other);
-            name.map_or_else(String::new, |(name, _)| name.replace('-', "_"))
+            let row = ELASTIC.iter().find(|(.., known)| known == other);
+            row.map_or_else(String::new, |(name, ..)| name.replace('-', "_"))
         }
     };
     QuantityFormula::new(&text, &vocabulary)
@@ -300,19 +292,13 @@ impl FormulaChain {
 
 impl QuantityInput {
     fn gradient(self, jets: &[Jet<f64>], material: Option<&Moduli<Vec2>>) -> Vec2 {
-        let modulus = |of: fn(&Moduli<Vec2>) -> Vec2| material.map_or(Vec2::ZERO, of);
         match self {
             Self::X => vec2(1.0, 0.0),
             Self::Y => vec2(0.0, 1.0),
-            Self::Young => modulus(|m| m.young),
-            Self::Poisson => modulus(|m| m.poisson),
-            Self::Mu => modulus(|m| m.mu),
-            Self::Lambda => modulus(|m| m.lambda),
-            Self::OutOfPlane => modulus(|m| m.out_of_plane),
-            Self::Conductivity => modulus(|m| m.conductivity),
             Self::Value(c) => gradient(&jets[c]),
             Self::SlopeX(c) => gradient_of_derivative(&jets[c], Axis::X),
             Self::SlopeY(c) => gradient_of_derivative(&jets[c], Axis::Y),
+            modulus => material.and_then(|m| modulus.modulus(m)).unwrap_or(Vec2::ZERO),
         }
     }
 }

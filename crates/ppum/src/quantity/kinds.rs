@@ -103,33 +103,36 @@ pub enum QuantityError {
 
 use Quantity as Q;
 
-/// Names of the quantities every field of the equation has, besides components and derivatives.
-const GENERAL: [(&str, Quantity); 6] = [
-    ("magnitude", Q::Magnitude),
-    ("gradient", Q::GradientNorm),
-    ("energy", Q::EnergyDensity),
-    ("error", Q::Error),
-    ("weight-sum", Q::WeightSum),
-    ("overlap", Q::Overlap),
+/// A quantity with its name, and its symbol for labels.
+type NamedRow = (&'static str, &'static str, Quantity);
+
+/// The quantities every field of the equation has, besides components and derivatives.
+const GENERAL: [NamedRow; 6] = [
+    ("magnitude", "|u|", Q::Magnitude),
+    ("gradient", "|∇u|", Q::GradientNorm),
+    ("energy", "energy density", Q::EnergyDensity),
+    ("error", "|u − u_{exact}|", Q::Error),
+    ("weight-sum", "Σ W", Q::WeightSum),
+    ("overlap", "patches covering", Q::Overlap),
 ];
 
-/// Names of the quantities of elasticity.
-pub(super) const ELASTIC: [(&str, Quantity); 15] = [
-    ("divergence", Q::Divergence),
-    ("curl", Q::Curl),
-    ("exx", Q::Strain(Axis::X, Axis::X)),
-    ("eyy", Q::Strain(Axis::Y, Axis::Y)),
-    ("exy", Q::Strain(Axis::X, Axis::Y)),
-    ("sxx", Q::Stress(Axis::X, Axis::X)),
-    ("syy", Q::Stress(Axis::Y, Axis::Y)),
-    ("sxy", Q::Stress(Axis::X, Axis::Y)),
-    ("szz", Q::StressOut),
-    ("von-mises", Q::VonMises),
-    ("tresca", Q::Tresca),
-    ("s1", Q::Principal1),
-    ("s2", Q::Principal2),
-    ("direction", Q::PrincipalDirection),
-    ("hydrostatic", Q::Hydrostatic),
+/// The quantities of elasticity.
+pub(super) const ELASTIC: [NamedRow; 15] = [
+    ("divergence", "div u", Q::Divergence),
+    ("curl", "curl u", Q::Curl),
+    ("exx", "ε_{xx}", Q::Strain(Axis::X, Axis::X)),
+    ("eyy", "ε_{yy}", Q::Strain(Axis::Y, Axis::Y)),
+    ("exy", "ε_{xy}", Q::Strain(Axis::X, Axis::Y)),
+    ("sxx", "σ_{xx}", Q::Stress(Axis::X, Axis::X)),
+    ("syy", "σ_{yy}", Q::Stress(Axis::Y, Axis::Y)),
+    ("sxy", "σ_{xy}", Q::Stress(Axis::X, Axis::Y)),
+    ("szz", "σ_{zz}", Q::StressOut),
+    ("von-mises", "von Mises stress", Q::VonMises),
+    ("tresca", "Tresca stress", Q::Tresca),
+    ("s1", "principal stress σ_{1}", Q::Principal1),
+    ("s2", "principal stress σ_{2}", Q::Principal2),
+    ("direction", "direction of σ_{1}", Q::PrincipalDirection),
+    ("hydrostatic", "hydrostatic stress", Q::Hydrostatic),
 ];
 
 /// All names with a meaning for a field with these components, with their quantities; the φ of a
@@ -151,8 +154,8 @@ pub fn names(equation: &Equation, components: &[String]) -> Vec<(String, Quantit
         Q::Magnitude | Q::GradientNorm => has_sizes,
         _ => true,
     };
-    let general = GENERAL.iter().filter(|(_, quantity)| has(quantity));
-    all.extend(general.chain(elastic).map(|(name, q)| ((*name).to_owned(), q.clone())));
+    let general = GENERAL.iter().filter(|(.., quantity)| has(quantity));
+    all.extend(general.chain(elastic).map(|(name, _, q)| ((*name).to_owned(), q.clone())));
     all
 }
 
@@ -351,30 +354,21 @@ impl Quantity {
             [.., last] if c == 2 && last == TEMPERATURE => "T".into(),
             _ => format!("u_{{{}}}", ["x", "y", "z"].get(c as usize).unwrap_or(&"?")),
         };
-        let pair =
-            |letter: &str, a: Axis, b: Axis| format!("{letter}_{{{}{}}}", a.name(), b.name());
+        // strains and stresses are symmetric
+        let listed = match self {
+            Q::Strain(Axis::Y, Axis::X) => &Q::Strain(Axis::X, Axis::Y),
+            Q::Stress(Axis::Y, Axis::X) => &Q::Stress(Axis::X, Axis::Y),
+            other => other,
+        };
         match self {
             Q::Formula(formula) => formula.label(),
             Q::Component(c) => component(*c),
             Q::Derivative(c, axis) => format!("∂{}/∂{}", component(*c), axis.name()),
-            Q::Strain(a, b) => pair("ε", *a, *b),
-            Q::Stress(a, b) => pair("σ", *a, *b),
             Q::PartitionFunction(patch) => format!("φ_{{{patch}}}"),
-            Q::Magnitude => "|u|".into(),
-            Q::GradientNorm => "|∇u|".into(),
-            Q::Divergence => "div u".into(),
-            Q::Curl => "curl u".into(),
-            Q::StressOut => "σ_{zz}".into(),
-            Q::VonMises => "von Mises stress".into(),
-            Q::Tresca => "Tresca stress".into(),
-            Q::Principal1 => "principal stress σ_{1}".into(),
-            Q::Principal2 => "principal stress σ_{2}".into(),
-            Q::PrincipalDirection => "direction of σ_{1}".into(),
-            Q::Hydrostatic => "hydrostatic stress".into(),
-            Q::EnergyDensity => "energy density".into(),
-            Q::Error => "|u − u_{exact}|".into(),
-            Q::WeightSum => "Σ W".into(),
-            Q::Overlap => "patches covering".into(),
+            _ => {
+                let row = GENERAL.iter().chain(&ELASTIC).find(|(.., known)| known == listed);
+                row.map_or_else(String::new, |(_, symbol, _)| (*symbol).to_owned())
+            }
         }
     }
 }

@@ -28,8 +28,18 @@ impl Quantity {
         } else {
             local.evaluate_into::<0>(offsets, side, &mut jets);
         }
-        let mut rows = Vec::with_capacity(offsets.len() * quantities.len());
-        for (&offset, jets) in offsets.iter().zip(jets.chunks(components)) {
+        Self::rows(quantities, local, offsets.iter().copied(), &jets)
+    }
+
+    /// Several quantities of jets at points, a row for each point.
+    fn rows(
+        quantities: &[Self],
+        local: &mut LocalField<'_>,
+        offsets: impl Iterator<Item = Vec2>,
+        jets: &[Jet<f64>],
+    ) -> Vec<f64> {
+        let mut rows = Vec::new();
+        for (offset, jets) in offsets.zip(jets.chunks(local.field.components())) {
             rows.extend(quantities.iter().map(|quantity| quantity.of_jets(local, offset, jets)));
         }
         rows
@@ -59,11 +69,7 @@ impl Quantity {
                 }
             }
         }
-        let mut rows = Vec::with_capacity(points.len() * quantities.len());
-        for (&offset, jets) in offsets.iter().zip(jets.chunks(components)) {
-            rows.extend(quantities.iter().map(|quantity| quantity.of_jets(local, offset, jets)));
-        }
-        rows
+        Self::rows(quantities, local, offsets.into_iter(), &jets)
     }
 
     /// A quantity of a field on a mesh at the points of a grid, row by row; NaN outside, and of a
@@ -82,8 +88,7 @@ impl Quantity {
             Source::Gradient => local.evaluate_grid::<1>(grid, side, &mut jets),
             _ => local.evaluate_grid::<0>(grid, side, &mut jets),
         }
-        let points = grid.offsets().zip(jets.chunks(components));
-        points.map(|(offset, jets)| self.of_jets(local, offset, jets)).collect()
+        Self::rows(std::slice::from_ref(self), local, grid.offsets(), &jets)
     }
 
     /// The quantity where the field is known; NaN outside the domain.

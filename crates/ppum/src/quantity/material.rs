@@ -9,8 +9,9 @@ use ppum_formula::{Formula, FormulaJets, Scope};
 
 /// The gradients of an equation's moduli: those of its formulas through the moduli's own.
 #[derive(Clone, Debug)]
-pub(super) struct MaterialGradient {
-    /// young and poisson, or conductivity; `None` if it is the same everywhere.
+pub struct MaterialGradient {
+    /// young and poisson, or conductivity, then the given strains; `None` of what is the same
+    /// everywhere.
     constants: Vec<Option<FormulaJets>>,
     /// mu, lambda and out_of_plane as functions of young and poisson.
     law: Option<FormulaJets>,
@@ -21,7 +22,7 @@ impl MaterialGradient {
     ///
     /// # Errors
     /// Derivatives that are too large.
-    pub(super) fn new(equation: &Equation) -> Result<Option<Self>, QuantityFormulaError> {
+    pub fn new(equation: &Equation) -> Result<Option<Self>, QuantityFormulaError> {
         if equation.is_uniform() {
             return Ok(None);
         }
@@ -30,25 +31,26 @@ impl MaterialGradient {
         Ok(Some(Self { constants: constants?, law }))
     }
 
-    /// The gradients at a point.
-    pub(super) fn at(&self, p: Vec2, moduli: &Moduli<f64>) -> Moduli<Vec2> {
-        let gradient = |k: usize| match &self.constants[k] {
-            Some(jets) => evaluate::<3>(jets, [p.x, p.y]),
-            None => [0.0; 3],
-        };
-        let of = |k: usize| vec2(gradient(k)[1], gradient(k)[2]);
+    /// The gradients of the given strains at a point, in the order of [`Moduli::eigenstrain`].
+    #[must_use]
+    pub fn eigenstrain(&self, p: Vec2) -> [Vec2; 4] {
+        std::array::from_fn(|k| self.gradient(2 + k, p))
+    }
+
+    fn gradient(&self, constant: usize, p: Vec2) -> Vec2 {
+        let jets = self.constants.get(constant).and_then(Option::as_ref);
+        jets.map_or(Vec2::ZERO, |jets| {
+            let [_, x, y] = evaluate::<3>(jets, [p.x, p.y]);
+            vec2(x, y)
+        })
+    }
+
+    /// The gradients of the moduli at a point, without those of strains.
+    #[must_use]
+    pub fn at(&self, p: Vec2, moduli: &Moduli<f64>) -> Moduli<Vec2> {
+        let of = |k: usize| self.gradient(k, p);
         let zero = Vec2::ZERO;
-        let none = Moduli {
-            young: zero,
-            poisson: zero,
-            lambda: zero,
-            mu: zero,
-            out_of_plane: zero,
-            conductivity: zero,
-            eigenstrain: [zero; 4],
-            expansion: zero,
-            expansion_out: zero,
-        };
+        let none = Moduli::all(zero);
         let Some(law) = &self.law else { return Moduli { conductivity: of(0), ..none } };
         let (young, poisson) = (of(0), of(1));
         let law = evaluate::<9>(law, [moduli.young, moduli.poisson]);

@@ -21,6 +21,7 @@ pub use formula::{
 };
 pub use gradient::{QuantityGradient, ValueWithGradient};
 pub use kinds::{Axis, Quantity, QuantityError, available, names};
+pub use material::MaterialGradient;
 pub use reflected::ReflectedQuantity;
 pub use reflection::{Reflection, ValueChange};
 pub use sample::{Sample, Source};

@@ -12,13 +12,13 @@
 //! from which p − a is exact, too: a is zero, or the difference no longer than p. So smaller
 //! patches lose nothing by a lattice that is wider than they are.
 
-use super::place::{ROUNDING, SidedPoint, largest, settle};
+use super::place::{SidedPoint, settle};
 use crate::box_tree::BoxTree;
 use crate::compensated::difference;
 use crate::crack::{Side, TipId, tips};
 use crate::domain::{Domain, Hole};
 use crate::field::Field;
-use crate::sides::Segments;
+use crate::sides::{ROUNDING, Segments};
 use crate::vec2::{Rect, Vec2, vec2};
 
 /// Exponent of the widest lattice, of which some multiples are finite.
@@ -65,7 +65,6 @@ impl<'d> AnchorMap<'d> {
         let boxes: Vec<_> = tips.iter().map(|&tip| Rect::new(tip, tip)).collect();
         let half = (0..step.partition.len()).map(|patch| step.partition.half(patch));
         let largest_half = half.fold(f64::MIN_POSITIVE, |most, h| most.max(h.x).max(h.y));
-        let Rect { min, max } = domain.bounds;
         Self {
             domain,
             segments: Segments::new(cracks),
@@ -73,7 +72,7 @@ impl<'d> AnchorMap<'d> {
             tips,
             holes: domain.holes.iter().flat_map(Hole::boxes).collect(),
             spacing: (1.0 + largest_half.log2()).ceil().min(WIDEST).exp2(),
-            reach: 2.0 * ROUNDING * [min.x, min.y, max.x, max.y].into_iter().fold(0.0, largest),
+            reach: 2.0 * ROUNDING * domain.bounds.max_norm(),
         }
     }
 
@@ -121,7 +120,7 @@ impl<'d> AnchorMap<'d> {
     /// True if rounding may decide whether the point is of the domain.
     fn is_near_border(&self, point: Vec2) -> bool {
         let Rect { min, max } = self.domain.bounds;
-        let reach = self.reach.max(2.0 * ROUNDING * largest(point.x, point.y));
+        let reach = self.reach.max(2.0 * ROUNDING * point.max_norm());
         let is_near = |a: f64, b: f64| (a - b).abs() <= reach;
         let inflated = |b: &Rect| {
             Rect::new(b.min - vec2(reach, reach), b.max + vec2(reach, reach)).contains(point)

@@ -89,16 +89,16 @@ pub fn evaluate_each(
     let width = wanted.width();
     let mut rows = vec![f64::NAN; places.len() * width];
     if width > 0 {
-        let mut memory = Memory::default();
+        let mut buffers = EvaluationBuffers::default();
         for (places, rows) in places.chunks(CHUNK).zip(rows.chunks_mut(CHUNK * width)) {
-            Chunk::new(field, places).evaluate(wanted, &mut memory, rows);
+            PointChunk::new(field, places).evaluate(wanted, &mut buffers, rows);
         }
     }
     rows
 }
 
 /// Places with the patches that cover them.
-struct Chunk<'a, 'd> {
+struct PointChunk<'a, 'd> {
     field: &'a Field<'d>,
     places: &'a [SidedPoint],
     /// All patches, those of each place from its start to that of the next.
@@ -108,9 +108,9 @@ struct Chunk<'a, 'd> {
     order: Vec<u64>,
 }
 
-/// Memory for places that are evaluated together.
+/// EvaluationBuffers for places that are evaluated together.
 #[derive(Default)]
-struct Memory {
+struct EvaluationBuffers {
     offsets: Vec<Vec2>,
     jets: Vec<Jet<f64>>,
     patches: Vec<u32>,
@@ -124,7 +124,7 @@ enum PlaceCover {
     Shared,
 }
 
-impl<'a, 'd> Chunk<'a, 'd> {
+impl<'a, 'd> PointChunk<'a, 'd> {
     fn new(field: &'a Field<'d>, places: &'a [SidedPoint]) -> Self {
         let (mut patches, mut starts) = (Vec::with_capacity(2 * places.len()), vec![0]);
         let mut order = Vec::with_capacity(places.len());
@@ -155,8 +155,13 @@ impl<'a, 'd> Chunk<'a, 'd> {
         }
     }
 
-    fn evaluate(&self, wanted: SampledQuantity<'_>, memory: &mut Memory, rows: &mut [f64]) {
-        for run in self.order.chunk_by(|&a, &b| seat(self.place(a)) == seat(self.place(b))) {
+    fn evaluate(
+        &self,
+        wanted: SampledQuantity<'_>,
+        buffers: &mut EvaluationBuffers,
+        rows: &mut [f64],
+    ) {
+        for run in self.order.chunk_by(|&a, &b| origin(self.place(a)) == origin(self.place(b))) {
             let mut local = self.place(run[0]).seen(self.field);
             for part in run.chunk_by(|&a, &b| self.cover(a) == self.cover(b)) {
                 let most = match self.cover(part[0]) {
@@ -165,7 +170,7 @@ impl<'a, 'd> Chunk<'a, 'd> {
                     PlaceCover::Shared => LANES,
                 };
                 for keys in part.chunks(most) {
-                    self.together(&mut local, keys, wanted, memory, rows);
+                    self.together(&mut local, keys, wanted, buffers, rows);
                 }
             }
         }
@@ -188,11 +193,11 @@ impl<'a, 'd> Chunk<'a, 'd> {
         local: &mut LocalField<'_>,
         keys: &[u64],
         wanted: SampledQuantity<'_>,
-        memory: &mut Memory,
+        buffers: &mut EvaluationBuffers,
         rows: &mut [f64],
     ) {
         let (width, components) = (wanted.width(), self.field.components());
-        let Memory { offsets, jets, patches } = memory;
+        let EvaluationBuffers { offsets, jets, patches } = buffers;
         self.collect_patches(keys, patches);
         offsets.clear();
         offsets.extend(keys.iter().map(|&key| self.place(key).offset));
@@ -213,7 +218,7 @@ fn number(key: u64) -> usize {
 }
 
 /// The anchor and the face of a place: those that have them in common share one [`LocalField`].
-fn seat(place: &SidedPoint) -> ([u64; 2], Option<SegmentId>, bool) {
+fn origin(place: &SidedPoint) -> ([u64; 2], Option<SegmentId>, bool) {
     let Vec2 { x, y } = place.anchor;
     ([x.to_bits(), y.to_bits()], place.on, place.side == Side::Above)
 }
@@ -222,15 +227,15 @@ fn seat(place: &SidedPoint) -> ([u64; 2], Option<SegmentId>, bool) {
 /// these neighbours. That different ones have the same key takes a little time, and changes no
 /// value.
 fn key(field: &Field<'_>, place: &SidedPoint, patches: &[u32]) -> u64 {
-    let ([x, y], on, above) = seat(place);
+    let ([x, y], on, above) = origin(place);
     let on = on.map_or(0, |on| ((u64::from(on.crack) << 32) | u64::from(on.segment)) + 1);
     let side = (on << 1) ^ u64::from(above);
-    let seat = mixed(mixed(mixed(x) ^ y) ^ side) >> 32;
-    let Some(&patch) = patches.first() else { return seat << 16 };
+    let origin = mixed(mixed(mixed(x) ^ y) ^ side) >> 32;
+    let Some(&patch) = patches.first() else { return origin << 16 };
     let from_center = place.point - field.step.partition.center(patch as usize);
     let quarter = u64::from(from_center.x > 0.0) | (u64::from(from_center.y > 0.0) << 1);
     let is_shared = u64::from(patches.len() > 1);
-    (seat << 16) | (is_shared << 15) | ((u64::from(patch) & 0x1fff) << 2) | quarter
+    (origin << 16) | (is_shared << 15) | ((u64::from(patch) & 0x1fff) << 2) | quarter
 }
 
 /// Bits that all depend on all (a step of Steele's SplitMix, 2014).

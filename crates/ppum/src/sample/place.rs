@@ -3,8 +3,8 @@
 use crate::crack::{SegmentId, Side};
 use crate::domain::Domain;
 use crate::field::{Field, LocalField};
-use crate::sides::Segments;
-use crate::vec2::{Rect, Vec2};
+use crate::sides::{ROUNDING, Segments};
+use crate::vec2::Vec2;
 
 /// A point with the side of a crack that is meant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,21 +52,17 @@ impl SidedPoint {
     }
 }
 
-/// Rounding of a point's coordinates and of its distance from a rim, in parts of their size.
-pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
-
 /// Makes places that lie on the boundary of the domain or on the rim of a hole, up to the rounding
 /// of their coordinates, belong to the domain: they are evaluated a few roundings beside it, on its
 /// side, and keep their `point`. Places that are not given by their coordinates do not need this:
 /// their offsets are exact.
 pub fn settle(domain: &Domain, places: &mut [SidedPoint]) {
-    let Rect { min, max } = domain.bounds;
-    let extent = [min.x, min.y, max.x, max.y].into_iter().fold(0.0, largest);
-    for seat in places.chunk_by_mut(|a, b| a.anchor == b.anchor) {
-        let (local, anchor) = (domain.at(seat[0].anchor), seat[0].anchor);
-        for place in seat {
-            let away = largest(place.offset.x, place.offset.y);
-            let size = extent.max(largest(anchor.x, anchor.y)).max(away);
+    let extent = domain.bounds.max_norm();
+    for group in places.chunk_by_mut(|a, b| a.anchor == b.anchor) {
+        let (local, anchor) = (domain.at(group[0].anchor), group[0].anchor);
+        for place in group {
+            let away = place.offset.max_norm();
+            let size = extent.max(anchor.max_norm()).max(away);
             // an offset that is tiny itself has no rounding of that size
             let finest = if away > 0.0 { 1e-3 * away } else { f64::INFINITY };
             if let Some(offset) = local.settled(place.offset, (ROUNDING * size).min(finest)) {
@@ -74,8 +70,4 @@ pub fn settle(domain: &Domain, places: &mut [SidedPoint]) {
             }
         }
     }
-}
-
-pub(super) fn largest(a: f64, b: f64) -> f64 {
-    a.abs().max(b.abs())
 }

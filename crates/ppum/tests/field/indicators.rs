@@ -2,7 +2,7 @@
 //! on the segments themselves.
 
 use ppum::crack::{Crack, CrackEnd, SegmentId, Side};
-use ppum::function::{Cut, CutSide, Function, FunctionKind, FunctionTable};
+use ppum::function::{Cut, CutBranch, Function, FunctionKind, FunctionTable};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
 use ppum_testkit::extended::{indicator, point};
@@ -40,11 +40,11 @@ fn tree(random: &mut Random, cracks: &[Crack]) -> Vec<Cut> {
     let count = 1 + random.below(9);
     let mut part = |k: usize| {
         let next = k + 1 + random.below(3);
-        let ends = [CutSide::Inside, CutSide::Outside][random.below(2)];
-        if next < count { CutSide::Cut(next as u32) } else { ends }
+        let ends = [CutBranch::Inside, CutBranch::Outside][random.below(2)];
+        if next < count { CutBranch::Cut(next as u32) } else { ends }
     };
     let parts: Vec<_> = (0..count).map(|k| [part(k), part(k)]).collect();
-    let mut cut = |[left, right]: [CutSide; 2]| {
+    let mut cut = |[left, right]: [CutBranch; 2]| {
         let crack = random.below(cracks.len());
         let segment = random.below(cracks[crack].points.len() - 1);
         let segment = SegmentId { crack: crack as u32, segment: segment as u32 };
@@ -168,8 +168,8 @@ fn the_caller_chooses_the_side_on_a_line() {
     let id = |crack| SegmentId { crack, segment: 0 };
     // the example of FORMAT.md: x ≤ 0, y ≥ 0
     let cuts = [
-        Cut { segment: id(0), left: CutSide::Cut(1), right: CutSide::Outside },
-        Cut { segment: id(1), left: CutSide::Inside, right: CutSide::Outside },
+        Cut { segment: id(0), left: CutBranch::Cut(1), right: CutBranch::Outside },
+        Cut { segment: id(1), left: CutBranch::Inside, right: CutBranch::Outside },
     ];
     let table = table(&cuts, &cracks);
     let at = |x: f64, y: f64, side| {

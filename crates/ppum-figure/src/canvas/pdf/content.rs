@@ -6,7 +6,7 @@ use ppum::vec2::Vec2;
 use ppum_render::image::{Image, Rgba};
 
 use super::font::{self, Font};
-use super::{File, picture};
+use super::{File, image};
 use crate::canvas::{Canvas, CanvasItem, CanvasPath, StrokeStyle, TextItem};
 use crate::text;
 
@@ -15,7 +15,7 @@ use crate::text;
 pub(super) struct Resources {
     pub(super) font: Font,
     /// Images by their names.
-    pub(super) pictures: Vec<(String, Ref)>,
+    pub(super) images: Vec<(String, Ref)>,
     /// Opacities by their names.
     pub(super) states: Vec<(String, f32)>,
 }
@@ -45,7 +45,7 @@ impl<'f> PdfWriter<'f> {
         }
         for item in &canvas.items {
             match item {
-                CanvasItem::Picture { image, corner } => self.picture(image, *corner),
+                CanvasItem::Picture { image, corner } => self.image(image, *corner),
                 CanvasItem::Fill { outline, color } => {
                     self.color(*color);
                     if self.path(&outline.turned_alike(), true) {
@@ -53,7 +53,7 @@ impl<'f> PdfWriter<'f> {
                     }
                 }
                 CanvasItem::Line { path, pen } => self.line(path, pen),
-                CanvasItem::Text(lettering) => self.letters(lettering),
+                CanvasItem::Text(text) => self.text(text),
                 CanvasItem::Inset { corner, canvas } => self.inset(canvas, *corner),
             }
         }
@@ -69,17 +69,17 @@ impl<'f> PdfWriter<'f> {
     }
 
     /// An image, which is a unit square with its base line below.
-    fn picture(&mut self, image: &Image, corner: [u32; 2]) {
+    fn image(&mut self, image: &Image, corner: [u32; 2]) {
         let ([x, y], [width, height]) = (corner.map(|n| n as f32), image.size.map(|n| n as f32));
         if image.rgba.is_empty() {
             return;
         }
-        let name = format!("P{}", self.resources.pictures.len());
-        let place = picture::picture(self.file, image);
+        let name = format!("P{}", self.resources.images.len());
+        let place = image::image(self.file, image);
         self.opacity(255);
         self.content.save_state().transform([width, 0.0, 0.0, -height, x, y + height]);
         self.content.x_object(Name(name.as_bytes())).restore_state();
-        self.resources.pictures.push((name, place));
+        self.resources.images.push((name, place));
     }
 
     fn line(&mut self, path: &CanvasPath, pen: &StrokeStyle) {
@@ -102,7 +102,7 @@ impl<'f> PdfWriter<'f> {
         }
     }
 
-    fn letters(&mut self, line: &TextItem) {
+    fn text(&mut self, line: &TextItem) {
         if let Some(halo) = line.halo {
             self.color(halo.color);
             self.content.set_line_join(LineJoinStyle::RoundJoin).set_dash_pattern([], 0.0);

@@ -55,7 +55,7 @@ impl<'f> Blocks<'f> {
 /// A few bytes of a block, which count as a reading.
 fn slice(mut block: Cursor, at: u64, length: usize) -> ReadResult<Cursor> {
     let source = block.source;
-    if !source.account.pay_reading(length as u64) {
+    if !source.budget.charge_reading(length as u64) {
         return fail("it takes more readings than the file is worth");
     }
     let at = usize::try_from(at).or(fail("an index is too large"))?;
@@ -124,7 +124,7 @@ impl<'f> FixedArray<'f> {
 
 /// An array that grows: some entries in the index block, then data blocks of growing size, first
 /// found through the index block and then through super blocks.
-pub(super) struct Extensible<'f> {
+pub(super) struct ExtensibleArray<'f> {
     blocks: Blocks<'f>,
     index: Option<u64>,
     /// Entries in the index block, in the smallest data block, and in a page of a large one.
@@ -150,7 +150,7 @@ struct EntryIndex {
     entries: u64,
 }
 
-impl<'f> Extensible<'f> {
+impl<'f> ExtensibleArray<'f> {
     pub(super) fn open(source: Hdf5Source<'f>, address: u64) -> ReadResult<Self> {
         let length = 16 + source.offset_size() + 6 * source.length_size();
         let mut header = source.with_checksum(address, length as u64)?;

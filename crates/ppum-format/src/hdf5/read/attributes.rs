@@ -1,13 +1,12 @@
 //! Attributes of a group.
 
-use super::super::account::memory;
 use super::error::{ReadResult, fail};
 use super::header::{ATTRIBUTE, ATTRIBUTE_INFO, DATATYPE, Header, shared};
 use super::heap::dense;
 use super::source::Cursor;
 use super::texts::{TextCollections, end_without, text};
-use super::types::{Dataspace, DatatypeClass, Type};
-use crate::content::{Array, ArrayValues};
+use super::types::{Dataspace, Type};
+use crate::content::Array;
 
 /// Kind of the index of attributes by name.
 const INDEX: u8 = 8;
@@ -72,26 +71,9 @@ fn attribute(mut message: Cursor) -> ReadResult<AttributeEntry> {
 
 impl AttributeEntry<'_> {
     pub(super) fn read(mut self, texts: &mut TextCollections) -> ReadResult<Array> {
-        let Some(space) = self.space.filter(|_| !matches!(self.kind.kind, DatatypeClass::Other(_)))
-        else {
-            let DatatypeClass::Other(name) = self.kind.kind else {
-                return Ok(Array { shape: vec![], values: ArrayValues::Other("null".into()) });
-            };
-            return Ok(Array { shape: vec![], values: ArrayValues::Other(name) });
-        };
-        let count = space.count();
-        let size = count.and_then(|n| usize::try_from(n).ok()?.checked_mul(self.kind.size));
-        let Some(size) = size else { return fail("its shape is too large") };
-        let raw = self.data.take(size)?;
-        let cost = count.and_then(|n| memory(n, self.kind.size as u64, self.kind.is_text()));
-        if !self.data.source.account.pay_memory(cost) {
-            return fail("its shape is too large for the file's length");
-        }
-        let fill = |bytes: &mut [u8]| {
-            bytes.copy_from_slice(raw);
+        self.kind.array(self.space, texts, |_, bytes| {
+            bytes.copy_from_slice(self.data.take(bytes.len())?);
             Ok(())
-        };
-        let values = self.kind.values(size / self.kind.size, texts, fill)?;
-        Ok(Array { shape: space.shape, values })
+        })
     }
 }

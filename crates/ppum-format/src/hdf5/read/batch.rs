@@ -7,7 +7,7 @@ use rayon::prelude::*;
 
 use super::chunks::{ChunkGrid, ChunkLocation};
 use super::error::{ReadResult, fail};
-use super::filters::{Pipeline, Undone};
+use super::filters::{Pipeline, UnfilteredChunk};
 use super::source::Hdf5Source;
 use super::types::step;
 
@@ -52,7 +52,7 @@ impl<'a, 'f> ChunkBatch<'a, 'f> {
             self.finish()?;
         }
         let raw = self.source.values(stored.address, stored.bytes)?;
-        self.pipeline.pay(stored, slab.keep(), self.source.account)?;
+        self.pipeline.charge(stored, slab.keep(), self.source.budget)?;
         self.waiting.push(StoredBytes { slab, raw, mask: stored.mask });
         Ok(())
     }
@@ -88,7 +88,7 @@ impl<'a, 'f> ChunkBatch<'a, 'f> {
     }
 
     /// Puts the elements of a chunk where they belong.
-    fn put(&mut self, slab: &Hyperslab, undone: &Undone) -> ReadResult<()> {
+    fn put(&mut self, slab: &Hyperslab, undone: &UnfilteredChunk) -> ReadResult<()> {
         let bytes = self.kept(slab) as usize;
         let size = self.pipeline.size;
         if undone.len() < bytes {

@@ -1,6 +1,6 @@
 //! The indexes of chunks.
 
-use super::arrays::{Extensible, FixedArray};
+use super::arrays::{ExtensibleArray, FixedArray};
 use super::error::{ReadResult, fail};
 use super::source::{Cursor, Hdf5Source};
 use super::trees::{self, CHUNKS};
@@ -36,7 +36,7 @@ pub(super) enum Index {
     Implicit(Option<u64>),
     Fixed(Option<u64>),
     /// With the direction that can grow.
-    Extensible(Option<u64>, usize),
+    ExtensibleArray(Option<u64>, usize),
     Tree(Option<u64>),
 }
 
@@ -66,7 +66,7 @@ impl Index {
                 let Some(growing) = space.most.iter().position(|&n| n == u64::MAX) else {
                     return fail("no direction grows, as the index of its chunks has it");
                 };
-                Self::Extensible(layout.skip(5)?.offset()?, growing)
+                Self::ExtensibleArray(layout.skip(5)?.offset()?, growing)
             }
             5 => Self::Tree(layout.skip(6)?.offset()?),
             kind => return fail(format!("its chunks have an index of kind {kind}, not known")),
@@ -97,8 +97,8 @@ impl Index {
                 let mut array = FixedArray::open(source, address)?;
                 each(grid, visit, 0, |number| entry(array.entry(number)?, grid))
             }
-            Self::Extensible(Some(address), growing) => {
-                let mut array = Extensible::open(source, address)?;
+            Self::ExtensibleArray(Some(address), growing) => {
+                let mut array = ExtensibleArray::open(source, address)?;
                 each(grid, visit, growing, |number| entry(array.entry(number)?, grid))
             }
             _ => Ok(()),

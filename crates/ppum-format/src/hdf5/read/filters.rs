@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use super::super::account::Account;
+use super::super::budget::ReadBudget;
 use super::chunks::ChunkLocation;
 use super::error::{ReadResult, fail};
 use super::inflate;
@@ -82,11 +82,11 @@ impl Pipeline {
 
     /// Pays for what [`undo`](Self::undo) does with a chunk: for the bytes that filters give, and
     /// for those of them that are kept for a while.
-    pub(super) fn pay(
+    pub(super) fn charge(
         &self,
         stored: ChunkLocation,
         keep: u64,
-        account: &Account,
+        budget: &ReadBudget,
     ) -> ReadResult<()> {
         let applied = self.applied(stored.mask);
         for (k, filter) in applied.iter().enumerate().rev() {
@@ -95,7 +95,7 @@ impl Pipeline {
                 SCALE_OFFSET | LZF => (self.bytes, self.most()),
                 _ => (0, stored.bytes),
             };
-            if !(account.pay_expanded(expanded) && account.has_memory(kept)) {
+            if !(budget.expanded.charge(expanded) && budget.has_memory(kept)) {
                 return fail(TOO_LARGE);
             }
         }
@@ -113,7 +113,12 @@ impl Pipeline {
 
     /// The elements of a chunk as they were before the filters, the first `keep` at least. It has
     /// been paid for.
-    pub(super) fn undo<'r>(&self, raw: &'r [u8], mask: u32, keep: u64) -> ReadResult<Undone<'r>> {
+    pub(super) fn undo<'r>(
+        &self,
+        raw: &'r [u8],
+        mask: u32,
+        keep: u64,
+    ) -> ReadResult<UnfilteredChunk<'r>> {
         let (applied, mut data) = (self.applied(mask), Cow::Borrowed(raw));
         for (k, filter) in applied.iter().enumerate().rev() {
             data = match filter.id {
@@ -121,15 +126,15 @@ impl Pipeline {
                 SHUFFLE if self.is_other_size(filter) => {
                     return fail("its chunks are shuffled by elements of another size");
                 }
-                SHUFFLE if k == 0 => return Ok(Undone { data, planes: self.size }),
-                SHUFFLE => Undone { data, planes: self.size }.all().into(),
+                SHUFFLE if k == 0 => return Ok(UnfilteredChunk { data, planes: self.size }),
+                SHUFFLE => UnfilteredChunk { data, planes: self.size }.all().into(),
                 FLETCHER32 => checked(data)?,
                 SCALE_OFFSET => scale_offset(&data, &filter.parameters, self.whole()?)?.into(),
                 LZF => unpacked(&data, self.whole()?)?.into(),
                 id => return fail(other(id)),
             };
         }
-        Ok(Undone { data, planes: 1 })
+        Ok(UnfilteredChunk { data, planes: 1 })
     }
 
     fn is_other_size(&self, shuffle: &Filter) -> bool {
@@ -174,13 +179,13 @@ fn planes(data: &[u8], [count, length, keep]: [u64; 3]) -> Option<Vec<u8>> {
 }
 
 /// A chunk before its filters, but that it may still be shuffled.
-pub(super) struct Undone<'r> {
+pub(super) struct UnfilteredChunk<'r> {
     data: Cow<'r, [u8]>,
     /// Planes that it is divided into: one if it is not shuffled.
     planes: usize,
 }
 
-impl Undone<'_> {
+impl UnfilteredChunk<'_> {
     pub(super) fn len(&self) -> usize {
         self.data.len()
     }

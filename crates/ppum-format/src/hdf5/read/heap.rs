@@ -74,7 +74,7 @@ impl<'f> Heap<'f> {
     }
 
     /// The object of an identifier, of which there are the first bytes at least.
-    pub(super) fn object(&self, id: &[u8]) -> ReadResult<&'f [u8]> {
+    pub(super) fn object(&self, id: &'f [u8]) -> ReadResult<&'f [u8]> {
         let Some((&head, rest)) =
             id.get(..id.len().min(self.id_length)).and_then(<[u8]>::split_first)
         else {
@@ -82,24 +82,14 @@ impl<'f> Heap<'f> {
         };
         match head >> 4 & 3 {
             MANAGED if head >> 6 == 0 => {
-                let (offset, length) = self.place(rest)?;
-                self.managed(offset, length)
+                let mut place = self.source.cursor(rest);
+                let offset = place.number(self.offset_width)?;
+                self.managed(offset, place.number(self.length_width)?)
             }
             HUGE if head >> 6 == 0 => self.huge(rest),
             TINY => fail("it has links or attributes within their numbers, which are not read"),
             _ => fail("an object of a heap is of an unknown kind"),
         }
-    }
-
-    fn place(&self, id: &[u8]) -> ReadResult<(u64, u64)> {
-        let number = |range: std::ops::Range<usize>| {
-            let bytes = id.get(range).filter(|bytes| bytes.len() <= 8)?;
-            Some(bytes.iter().rev().fold(0, |number, &byte| number << 8 | u64::from(byte)))
-        };
-        let end = self.offset_width + self.length_width;
-        number(0..self.offset_width)
-            .zip(number(self.offset_width..end))
-            .ok_or_else(|| "an object of a heap has an impossible number".into())
     }
 
     /// An object in a block of the heap: down from the root, through blocks of addresses.
@@ -160,7 +150,7 @@ impl<'f> Heap<'f> {
     }
 
     /// An object that stands by itself.
-    fn huge(&self, id: &[u8]) -> ReadResult<&'f [u8]> {
+    fn huge(&self, id: &'f [u8]) -> ReadResult<&'f [u8]> {
         let (address, length) = (self.source.offset_size(), self.source.length_size());
         // the number is the place itself if there is room for that
         if self.id_length > address + length {
@@ -177,17 +167,9 @@ impl<'f> Heap<'f> {
         }
     }
 
-    fn at_place(&self, place: &[u8]) -> ReadResult<&'f [u8]> {
-        let (address, length) = (self.source.offset_size(), self.source.length_size());
-        let number = |bytes: &[u8]| {
-            bytes.iter().rev().fold(0, |number: u64, &byte| number << 8 | u64::from(byte))
-        };
-        match place.split_at_checked(address) {
-            Some((place, rest)) if rest.len() >= length => {
-                Ok(self.source.at(number(place), number(&rest[..length]))?.rest())
-            }
-            _ => fail("an object of a heap has an impossible number"),
-        }
+    fn at_place(&self, place: &'f [u8]) -> ReadResult<&'f [u8]> {
+        let mut place = self.source.cursor(place);
+        Ok(self.source.at(place.address()?, place.length()?)?.rest())
     }
 }
 

@@ -81,7 +81,7 @@ fn old(mut table: Cursor, found: &mut Vec<(String, LinkTarget)>) -> ReadResult<(
                 Some(address) if kind != SOFT => LinkTarget::Object(address),
                 _ => LinkTarget::Elsewhere,
             };
-            if !source.account.pay_reading(raw.len() as u64) {
+            if !source.budget.charge_reading(raw.len() as u64) {
                 return fail("its names are longer than the file is worth");
             }
             found.push((name(raw)?, target));

@@ -2,33 +2,34 @@
 
 use std::borrow::Cow;
 
-use super::super::account::Account;
+use super::super::budget::ReadBudget;
 use super::error::{ReadResult, fail};
-use super::store::Bytes;
+use super::pages::PageCache;
 use crate::lookup3::lookup3;
 
 /// A file, with the widths of addresses and lengths in it.
 #[derive(Clone, Copy)]
 pub(super) struct Hdf5Source<'f> {
-    bytes: Bytes<'f>,
+    bytes: &'f PageCache<'f>,
     offset_size: usize,
     length_size: usize,
-    pub(super) account: &'f Account,
+    pub(super) budget: &'f ReadBudget,
 }
 
 /// Bytes of a checksum.
 const CHECKSUM: usize = 4;
 
 impl<'f> Hdf5Source<'f> {
-    pub(super) fn new(bytes: Bytes<'f>, sizes: (u8, u8), account: &'f Account) -> ReadResult<Self> {
-        if [sizes.0, sizes.1].iter().any(|size| ![2, 4, 8].contains(size)) {
-            return fail("its addresses or lengths have an unknown width");
-        }
-        Ok(Self { bytes, offset_size: sizes.0.into(), length_size: sizes.1.into(), account })
+    pub(super) fn new(
+        bytes: &'f PageCache<'f>,
+        [offset_size, length_size]: [usize; 2],
+        budget: &'f ReadBudget,
+    ) -> Self {
+        Self { bytes, offset_size, length_size, budget }
     }
 
     pub(super) fn length(self) -> u64 {
-        self.bytes.length()
+        self.bytes.length
     }
 
     /// Bytes of an address.
@@ -43,27 +44,27 @@ impl<'f> Hdf5Source<'f> {
 
     /// A part of the file, which is read now.
     pub(super) fn at(self, address: u64, length: u64) -> ReadResult<Cursor<'f>> {
-        self.pay(address, length)?;
-        Ok(Cursor { source: self, left: self.bytes.get(address, length, self.account)? })
+        self.charge(address, length)?;
+        Ok(Cursor { source: self, left: self.bytes.get(address, length, self.budget)? })
     }
 
     /// The bytes of values, which are read now and need not stay in memory.
     pub(super) fn values(self, address: u64, length: u64) -> ReadResult<Cow<'f, [u8]>> {
-        self.pay(address, length)?;
-        self.bytes.values(address, length, self.account)
+        self.charge(address, length)?;
+        self.bytes.values(address, length, self.budget)
     }
 
     /// Fills a buffer with the bytes of values.
     pub(super) fn fill(self, address: u64, buffer: &mut [u8]) -> ReadResult<()> {
-        self.pay(address, buffer.len() as u64)?;
-        self.bytes.fill(address, buffer, self.account)
+        self.charge(address, buffer.len() as u64)?;
+        self.bytes.fill(address, buffer, self.budget)
     }
 
-    fn pay(self, address: u64, length: u64) -> ReadResult<()> {
+    fn charge(self, address: u64, length: u64) -> ReadResult<()> {
         if address.checked_add(length).is_none_or(|end| end > self.length()) {
             return fail("it leads beyond the end of the file");
         }
-        if self.account.pay_reading(length) {
+        if self.budget.charge_reading(length) {
             return Ok(());
         }
         fail("it takes more readings than the file is worth")
@@ -112,10 +113,10 @@ impl<'f> Cursor<'f> {
 
     /// An unsigned number of so many bytes, at most eight.
     pub(super) fn number(&mut self, width: usize) -> ReadResult<u64> {
-        let mut bytes = [0; 8];
-        let Some(part) = bytes.get_mut(..width) else { return fail("a number is too wide") };
-        part.copy_from_slice(self.take(width)?);
-        Ok(u64::from_le_bytes(bytes))
+        if width > 8 {
+            return fail("a number is too wide");
+        }
+        self.take(width).map(little)
     }
 
     pub(super) fn u8(&mut self) -> ReadResult<u8> {
@@ -165,4 +166,9 @@ impl<'f> Cursor<'f> {
             version => fail(format!("{what} of version {version}, not {expected}")),
         }
     }
+}
+
+/// A number whose lowest byte comes first.
+pub(super) fn little(bytes: &[u8]) -> u64 {
+    bytes.iter().rev().fold(0, |number, &byte| number << 8 | u64::from(byte))
 }

@@ -8,20 +8,20 @@ use std::time::Duration;
 
 use ppum_testkit::processor::thread_time;
 
-use super::super::account::Account;
+use super::super::budget::ReadBudget;
 use super::chunks::ChunkLocation;
-use super::error::{Hdf5Error, ReadResult};
+use super::error::ReadResult;
 use super::filters::{Pipeline, filters};
 use super::header::Header;
 use super::packing::unpacked;
+use super::pages::{PAGE, PageCache, PageChain};
 use super::source::Hdf5Source;
-use super::store::{Bytes, PAGE};
 use super::trees::{CHUNKS, entries};
 use super::types::{DatatypeClass, Padding, Type};
 use super::{Outline, Ranges, TextCollections, arrays, from_bytes};
 use crate::content::{ArrayValues, step_path};
-use crate::decode::RESULTS;
 use crate::forge::{seal, sealed_parts};
+use crate::schema::RESULTS;
 
 const FIXED: &[u8] = include_bytes!("../../../tests/data/h5py/v110-fixed.h5");
 const GROWING: &[u8] = include_bytes!("../../../tests/data/h5py/v200-first.h5");
@@ -39,15 +39,21 @@ fn run_within_limit<T: Send>(work: impl FnOnce() -> T + Send) -> T {
     })
 }
 
+/// Reads from a file of these bytes.
+fn with_source<T>(bytes: &[u8], budget: &ReadBudget, read: impl FnOnce(Hdf5Source) -> T) -> T {
+    let chain = PageChain::default();
+    let parts = PageCache::new(&bytes, 0, bytes.len() as u64, &chain);
+    read(Hdf5Source::new(&parts, [8, 8], budget))
+}
+
 /// The reason why a structure in a file of these bytes is refused.
 fn refusal(bytes: &[u8], read: impl Fn(Hdf5Source) -> ReadResult<()> + Sync) -> String {
     run_within_limit(|| {
-        let account = Account::for_file(bytes.len() as u64);
-        let Ok(source) = Hdf5Source::new(Bytes::Memory(bytes), (8, 8), &account) else {
-            panic!("the widths are known")
-        };
-        let Err(Hdf5Error(mistake)) = read(source) else { panic!("it is not refused") };
-        mistake.into()
+        let budget = ReadBudget::for_file(bytes.len() as u64);
+        with_source(bytes, &budget, |source| {
+            let Err(message) = read(source) else { panic!("it is not refused") };
+            message.into()
+        })
     })
 }
 
@@ -56,8 +62,8 @@ fn refusal(bytes: &[u8], read: impl Fn(Hdf5Source) -> ReadResult<()> + Sync) -> 
 fn a_header_that_continues_in_itself() {
     let mut header = vec![1, 0, 1, 0, 1, 0, 0, 0, 24, 0, 0, 0, 0, 0, 0, 0];
     header.extend([0x10, 0, 16, 0, 0, 0, 0, 0, 16, 0, 0, 0, 0, 0, 0, 0, 24, 0, 0, 0, 0, 0, 0, 0]);
-    let mistake = refusal(&header, |source| Header::read(source, 0).map(drop));
-    assert!(mistake.contains("circle"), "{mistake}");
+    let message = refusal(&header, |source| Header::read(source, 0).map(drop));
+    assert!(message.contains("circle"), "{message}");
 }
 
 /// A node of an index whose only child is itself.
@@ -65,8 +71,8 @@ fn a_header_that_continues_in_itself() {
 fn a_tree_that_is_its_own_branch() {
     let mut node = b"TREE\x01\x05\x01\0".to_vec();
     node.resize(200, 0);
-    let mistake = refusal(&node, |source| entries(source, 0, CHUNKS, 24).map(drop));
-    assert!(mistake.contains("levels"), "{mistake}");
+    let message = refusal(&node, |source| entries(source, 0, CHUNKS, 24).map(drop));
+    assert!(message.contains("levels"), "{message}");
 }
 
 /// A node with as many children as it can have, all of them the same leaf, on many levels.
@@ -84,8 +90,8 @@ fn a_tree_whose_branches_are_all_the_same() {
         file.resize(1360 * usize::from(9 - level), 0);
     }
     file.resize(1 << 16, 0);
-    let mistake = refusal(&file, |source| entries(source, 0, CHUNKS, 24).map(drop));
-    assert!(mistake.contains("larger than the file"), "{mistake}");
+    let message = refusal(&file, |source| entries(source, 0, CHUNKS, 24).map(drop));
+    assert!(message.contains("larger than the file"), "{message}");
 }
 
 /// A file with one part changed by somebody who means it.
@@ -124,19 +130,21 @@ fn an_entry_far_out() {
     let parts = sealed_parts(&bytes);
     let header = parts.iter().find(|part| bytes[part.start..].starts_with(b"FAHD")).expect("there");
     let at = header.start as u64;
-    let mistake = refusal(&bytes, |source| {
+    let message = refusal(&bytes, |source| {
         arrays::FixedArray::open(source, at)?.entry((1 << 60) - 1).map(drop)
     });
-    assert!(mistake.contains("beyond the end"), "{mistake}");
+    assert!(message.contains("beyond the end"), "{message}");
 }
 
 /// Filters of a chunk, in the second version of their message.
 fn pipeline(ids: &[u8], bytes: u64) -> ReadResult<Pipeline> {
-    let account = Account::for_file(0);
+    let budget = ReadBudget::for_file(0);
     let mut message = vec![2, ids.len() as u8];
     ids.iter().for_each(|id| message.extend([*id, 0, 0, 0, 0, 0]));
-    let source = Hdf5Source::new(Bytes::Memory(&message), (8, 8), &account)?;
-    Ok(Pipeline { filters: filters(source.cursor(&message))?, size: 8, bytes })
+    with_source(&message, &budget, |source| {
+        let message = source.at(0, source.length())?;
+        Ok(Pipeline { filters: filters(message)?, size: 8, bytes })
+    })
 }
 
 /// Chunks that expand to more than the file is worth are refused before anything is expanded.
@@ -144,16 +152,16 @@ fn pipeline(ids: &[u8], bytes: u64) -> ReadResult<Pipeline> {
 fn bombs() {
     let stored = ChunkLocation { address: 0, bytes: 100, mask: 0 };
     for (ids, bytes) in [(&[2, 1][..], 1_u64 << 33), (&[2, 1], 1 << 50), (&[3, 1], 1 << 28)] {
-        let paid = |source: Hdf5Source| pipeline(ids, bytes)?.pay(stored, 5, source.account);
-        let mistake = refusal(&[0; 1000], paid);
-        assert!(mistake.contains("too large"), "{ids:?} {bytes}: {mistake}");
+        let paid = |source: Hdf5Source| pipeline(ids, bytes)?.charge(stored, 5, source.budget);
+        let message = refusal(&[0; 1000], paid);
+        assert!(message.contains("too large"), "{ids:?} {bytes}: {message}");
     }
     // two of 3 GiB are together too much, though each is not; neither can be decompressed
     let paid = |source: Hdf5Source| {
         let pipeline = pipeline(&[2, 1], 3 << 30)?;
-        assert!(pipeline.undo(&[0; 100], 0, 5).is_err_and(|e| e.0.contains("decompressed")));
-        assert!(pipeline.pay(stored, 5, source.account).is_ok());
-        pipeline.pay(stored, 5, source.account)
+        assert!(pipeline.undo(&[0; 100], 0, 5).is_err_and(|e| e.contains("decompressed")));
+        assert!(pipeline.charge(stored, 5, source.budget).is_ok());
+        pipeline.charge(stored, 5, source.budget)
     };
     assert!(refusal(&[0; 1000], paid).contains("too large"));
 }
@@ -173,10 +181,7 @@ fn packed_texts() {
 /// Texts of fixed length in the three ways of HDF5.
 #[test]
 fn paddings() {
-    let account = Account::for_file(0);
-    let Ok(source) = Hdf5Source::new(Bytes::Memory(&[]), (8, 8), &account) else {
-        panic!("the widths are known")
-    };
+    let budget = ReadBudget::for_file(0);
     for (padding, raw, expected) in [
         (Padding::Nuls, &b"ab \0\0"[..], Some("ab ")),
         (Padding::Nuls, b"a\0b\0\0", None),
@@ -185,14 +190,13 @@ fn paddings() {
         (Padding::Nuls, b"\xffb\0\0\0", None),
         (Padding::Nuls, b"\0\0\0\0\0", Some("")),
     ] {
-        let values = Type { kind: DatatypeClass::Text(padding), size: 5, is_big: false }.values(
-            1,
-            &mut TextCollections::new(source),
-            |bytes| {
+        let text = Type { kind: DatatypeClass::Text(padding), size: 5, is_big: false };
+        let values = with_source(&[], &budget, |source| {
+            text.values(1, &mut TextCollections::new(source), |bytes| {
                 bytes.copy_from_slice(raw);
                 Ok(())
-            },
-        );
+            })
+        });
         let expected = expected.map(|text| ArrayValues::Text(vec![text.to_owned()]));
         assert_eq!(values.ok(), expected, "{padding:?} {raw:?}");
     }
@@ -202,10 +206,11 @@ fn paddings() {
 /// by name.
 #[test]
 fn types_of_numbers() {
-    let account = Account::for_file(0);
+    let budget = ReadBudget::for_file(0);
     let name = |message: &[u8]| {
-        let source = Hdf5Source::new(Bytes::Memory(message), (8, 8), &account).ok()?;
-        Some(Type::parse(source.cursor(message)).ok()?.kind)
+        with_source(message, &budget, |source| {
+            Some(Type::parse(source.at(0, source.length()).ok()?).ok()?.kind)
+        })
     };
     let integer = |flags: u8, size: u8, bits: u8| [0x10, flags, 0, 0, size, 0, 0, 0, 0, 0, bits, 0];
     assert_eq!(name(&integer(0, 8, 64)), Some(DatatypeClass::U64));
@@ -231,7 +236,7 @@ struct CountingFile {
 impl Ranges for CountingFile {
     fn read(&self, at: u64, buffer: &mut [u8]) -> std::io::Result<()> {
         self.read.set(self.read.get() + buffer.len() as u64);
-        Ranges::read(&self.bytes, at, buffer)
+        Ranges::read(&self.bytes.as_slice(), at, buffer)
     }
 }
 
@@ -291,10 +296,10 @@ fn parts_are_the_whole() {
     for entry in std::fs::read_dir(folder).expect("a folder") {
         let bytes = std::fs::read(entry.expect("an entry").path()).expect("a file");
         let whole = from_bytes(&bytes).expect("a dataset");
-        let outline = Outline::read(&bytes, bytes.len() as u64).expect("a dataset");
+        let outline = Outline::read(&bytes.as_slice(), bytes.len() as u64).expect("a dataset");
         let mut parts = outline.content.clone();
         for path in outline.steps() {
-            let step = outline.step(&bytes, path, None).expect("a step");
+            let step = outline.step(&bytes.as_slice(), path, None).expect("a step");
             step.iter().for_each(|(name, array)| drop(parts.insert(name.clone(), array.clone())));
         }
         assert_eq!(*parts, *whole);

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::error::{ReadResult, fail};
-use super::source::Hdf5Source;
+use super::source::{Hdf5Source, little};
 
 /// The characters of a text of the format.
 pub(super) fn text(raw: &[u8]) -> ReadResult<String> {
@@ -18,7 +18,7 @@ const OBJECT_BYTES: u64 = 16;
 
 /// The collections that texts were found in, each parsed once as long as they fit.
 pub(super) struct TextCollections<'f> {
-    source: Hdf5Source<'f>,
+    pub(super) source: Hdf5Source<'f>,
     collections: BTreeMap<u64, BTreeMap<u16, &'f [u8]>>,
     /// Objects in the collections.
     known: u64,
@@ -43,7 +43,7 @@ impl<'f> TextCollections<'f> {
         let Some(raw) = found.and_then(|raw| raw.get(..length as usize)) else {
             return fail("a text is not where it should be");
         };
-        if !self.source.account.pay_memory(Some(length)) {
+        if !self.source.budget.memory.charge(length) {
             return fail("its texts are too long for the file's length");
         }
         text(&raw[..end_without(raw, 0)])
@@ -61,10 +61,6 @@ impl<'f> TextCollections<'f> {
         }
         Ok(&self.collections[&address])
     }
-}
-
-fn little(bytes: &[u8]) -> u64 {
-    bytes.iter().rev().fold(0, |number, &byte| number << 8 | u64::from(byte))
 }
 
 fn collection(source: Hdf5Source<'_>, address: u64) -> ReadResult<BTreeMap<u16, &[u8]>> {

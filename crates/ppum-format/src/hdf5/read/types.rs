@@ -2,10 +2,11 @@
 
 use bytemuck::Pod;
 
+use super::super::budget::memory;
 use super::error::{ReadResult, fail};
 use super::source::Cursor;
 use super::texts::{TextCollections, end_without, text};
-use crate::content::{ArrayValues, ElementType as _};
+use crate::content::{Array, ArrayValues, ElementType as _};
 
 /// An element type.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -83,6 +84,32 @@ impl Type {
 
     pub(super) fn is_text(&self) -> bool {
         matches!(self.kind, DatatypeClass::Text(_) | DatatypeClass::LongText)
+    }
+
+    /// An array of this type, whose bytes are put where they are wanted by `fill`. It is paid for
+    /// before anything is allocated.
+    pub(super) fn array(
+        &self,
+        space: Option<Dataspace>,
+        texts: &mut TextCollections,
+        fill: impl FnOnce(&Dataspace, &mut [u8]) -> ReadResult<()>,
+    ) -> ReadResult<Array> {
+        let Some(space) = space else {
+            return Ok(Array { shape: vec![], values: ArrayValues::Other("null".into()) });
+        };
+        if let DatatypeClass::Other(name) = &self.kind {
+            return Ok(Array { shape: space.shape, values: ArrayValues::Other(name.clone()) });
+        }
+        let (count, size) = (space.count(), self.size as u64);
+        let cost = count.and_then(|n| memory(n, size, self.is_text()));
+        if !cost.is_some_and(|cost| texts.source.budget.memory.charge(cost)) {
+            return fail(format!("its shape {:?} is too large for the file's length", space.shape));
+        }
+        // the bytes of all values fit into memory's numbers, too
+        let fits = |n: &u64| n.checked_mul(size).is_some_and(|n| usize::try_from(n).is_ok());
+        let Some(count) = count.filter(fits) else { return fail("its shape is too large") };
+        let values = self.values(count as usize, texts, |bytes| fill(&space, bytes))?;
+        Ok(Array { shape: space.shape, values })
     }
 
     /// So many values, whose bytes are put where they are wanted by `fill`.

@@ -1,20 +1,13 @@
-// Values with derivatives up to the constant ORDER, and their algebra: the twin of ppum::jet.
-// Members above ORDER stay 0.
+// Values, with slopes if the constant ORDER is 1, and their algebra: the twin of ppum::jet. Slopes
+// stay 0 if it is 0.
 
-struct Jet { v: f32, x: f32, y: f32, xx: f32, xy: f32, yy: f32 }
+struct Jet { v: f32, x: f32, y: f32 }
 
 // The components of a field side by side.
-struct Jets { v: Lanes, x: Lanes, y: Lanes, xx: Lanes, xy: Lanes, yy: Lanes }
+struct Jets { v: Lanes, x: Lanes, y: Lanes }
 
 // Up to four functions of one group.
-struct Functions {
-    v: vec4<f32>,
-    x: vec4<f32>,
-    y: vec4<f32>,
-    xx: vec4<f32>,
-    xy: vec4<f32>,
-    yy: vec4<f32>,
-}
+struct Functions { v: vec4<f32>, x: vec4<f32>, y: vec4<f32> }
 
 fn jet_plus(a: Jet, b: Jet) -> Jet {
     var out = Jet();
@@ -23,16 +16,11 @@ fn jet_plus(a: Jet, b: Jet) -> Jet {
         out.x = a.x + b.x;
         out.y = a.y + b.y;
     }
-    if ORDER >= 2u {
-        out.xx = a.xx + b.xx;
-        out.xy = a.xy + b.xy;
-        out.yy = a.yy + b.yy;
-    }
     return out;
 }
 
 fn jets_zero() -> Jets {
-    return Jets(Lanes(), Lanes(), Lanes(), Lanes(), Lanes(), Lanes());
+    return Jets(Lanes(), Lanes(), Lanes());
 }
 
 fn jets_plus(a: Jets, b: Jets) -> Jets {
@@ -41,11 +29,6 @@ fn jets_plus(a: Jets, b: Jets) -> Jets {
     if ORDER >= 1u {
         out.x = a.x + b.x;
         out.y = a.y + b.y;
-    }
-    if ORDER >= 2u {
-        out.xx = a.xx + b.xx;
-        out.xy = a.xy + b.xy;
-        out.yy = a.yy + b.yy;
     }
     return out;
 }
@@ -57,11 +40,6 @@ fn jets_times(a: Jet, b: Jets) -> Jets {
     if ORDER >= 1u {
         out.x = a.x * b.v + a.v * b.x;
         out.y = a.y * b.v + a.v * b.y;
-    }
-    if ORDER >= 2u {
-        out.xx = a.xx * b.v + a.v * b.xx + (a.x + a.x) * b.x;
-        out.xy = a.xy * b.v + a.v * b.xy + (a.x * b.y + a.y * b.x);
-        out.yy = a.yy * b.v + a.v * b.yy + (a.y + a.y) * b.y;
     }
     return out;
 }
@@ -75,11 +53,6 @@ fn jets_over(sum: Jets, s: Jet) -> Jets {
         out.x = (sum.x - out.v * s.x) * inverse;
         out.y = (sum.y - out.v * s.y) * inverse;
     }
-    if ORDER >= 2u {
-        out.xx = (sum.xx - (out.x + out.x) * s.x - out.v * s.xx) * inverse;
-        out.xy = (sum.xy - (out.x * s.y + out.y * s.x) - out.v * s.xy) * inverse;
-        out.yy = (sum.yy - (out.y + out.y) * s.y - out.v * s.yy) * inverse;
-    }
     return out;
 }
 
@@ -88,21 +61,15 @@ fn jets_over(sum: Jets, s: Jet) -> Jets {
 fn functions_turned(f: Functions, axis: vec2<f32>) -> Functions {
     let c = axis.x;
     let s = axis.y;
-    var out = Functions(f.v, vec4<f32>(), vec4<f32>(), vec4<f32>(), vec4<f32>(), vec4<f32>());
+    var out = Functions(f.v, vec4<f32>(), vec4<f32>());
     if ORDER >= 1u {
         out.x = c * f.x - s * f.y;
         out.y = s * f.x + c * f.y;
-    }
-    if ORDER >= 2u {
-        let twice = (2.0 * c * s) * f.xy;
-        out.xx = (c * c) * f.xx + (s * s) * f.yy - twice;
-        out.yy = (s * s) * f.xx + (c * c) * f.yy + twice;
-        out.xy = (c * s) * (f.xx - f.yy) + (c * c - s * s) * f.xy;
     }
     return out;
 }
 
 // One function of a group.
 fn functions_entry(f: Functions, k: u32) -> Jet {
-    return Jet(f.v[k], f.x[k], f.y[k], f.xx[k], f.xy[k], f.yy[k]);
+    return Jet(f.v[k], f.x[k], f.y[k]);
 }

@@ -96,11 +96,6 @@ fn times_constant(f: Jet, c: Lanes) -> Jets {
         out.x = f.x * c;
         out.y = f.y * c;
     }
-    if ORDER >= 2u {
-        out.xx = f.xx * c;
-        out.xy = f.xy * c;
-        out.yy = f.yy * c;
-    }
     return out;
 }
 

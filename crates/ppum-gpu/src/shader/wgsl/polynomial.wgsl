@@ -24,12 +24,8 @@ fn polynomial_with(
         // the factor of η^b with its derivatives by ξ
         var p = Lanes();
         var px = Lanes();
-        var pxx = Lanes();
         var k = 0u;
         loop {
-            if ORDER >= 2u {
-                pxx = pxx * xi.x + (px + px);
-            }
             if ORDER >= 1u {
                 px = px * xi.x + p;
             }
@@ -40,12 +36,6 @@ fn polynomial_with(
             if k > row {
                 break;
             }
-        }
-        if ORDER >= 2u {
-            // half the second derivative until the end
-            sum.yy = sum.yy * xi.y + sum.y;
-            sum.xy = sum.xy * xi.y + sum.x;
-            sum.xx = sum.xx * xi.y + pxx;
         }
         if ORDER >= 1u {
             sum.y = sum.y * xi.y + sum.v;
@@ -60,17 +50,12 @@ fn polynomial_with(
     return polynomial_in_world(sum, inverse);
 }
 
-// Derivatives by ξ, of which yy is half, as derivatives in the world.
+// Derivatives by ξ as derivatives in the world.
 fn polynomial_in_world(p: Jets, inverse: vec2<f32>) -> Jets {
     var out = p;
     if ORDER >= 1u {
         out.x = p.x * inverse.x;
         out.y = p.y * inverse.y;
-    }
-    if ORDER >= 2u {
-        out.xx = p.xx * inverse.x * inverse.x;
-        out.xy = p.xy * inverse.x * inverse.y;
-        out.yy = (p.yy + p.yy) * inverse.y * inverse.y;
     }
     return out;
 }

@@ -1,7 +1,7 @@
 // The three passes of Üffinger et al. 2011, section 4 and figure 3: patches drawn as quads.
 //
-//   1  S = Σ W_i and ∇S by additive blending                                 splat_weight
-//   2  φ_i v_i and ∇(φ_i v_i) = ∇φ_i v_i + φ_i ∇v_i, likewise, φ_i = W_i / S  splat_field
+//   1  S = Σ W_i and ∇S by additive blending                                 sum_weight
+//   2  φ_i v_i and ∇(φ_i v_i) = ∇φ_i v_i + φ_i ∇v_i, likewise, φ_i = W_i / S  sum_field
 //   3  the quantity of the sums, then its colour                             sample_of
 //
 // A quad is clipped to the view and its corners put on borders of pixels in double precision. Its
@@ -22,7 +22,7 @@ struct Quad {
 }
 
 @vertex
-fn splat_quad(@builtin(vertex_index) vertex: u32, quad: Instance) -> Quad {
+fn draw_quad(@builtin(vertex_index) vertex: u32, quad: Instance) -> Quad {
     let is_end = vec2<bool>((vertex & 1u) == 1u, vertex >= 2u);
     let corner = vec2<f32>(select(quad.first, quad.end, is_end));
     let at = corner / vec2<f32>(view.pixels) * 2.0 - 1.0;
@@ -47,17 +47,20 @@ fn quad_weight(support: Coordinates) -> Jet {
     return weight_tensor(support.xi, support.inverse);
 }
 
+// W with its slope and the number of patches; in the place of the slope W of the chosen patch,
+// where its φ is drawn, which needs no slope.
 @fragment
-fn splat_weight(quad: Quad) -> Weights {
+fn sum_weight(quad: Quad) -> Weights {
     let support = quad_coordinates(quad, quad.xi, quad.step);
     let w = quad_weight(support);
     let part = select(0.0, w.v, quad.body == view.chosen);
-    return weights_of(w, select(0.0, 1.0, covers(support.xi)), part);
+    let overlap = select(0.0, 1.0, covers(support.xi));
+    return Weights(vec4<f32>(w.v, select(w.x, part, HAS_PART), w.y, overlap));
 }
 
-// φ_i v_i of two components; a slot holds two of value, x, y, xx, xy, yy.
+// φ_i v_i of two components; a slot holds two of value, x, y.
 @fragment
-fn splat_field(quad: Quad) -> Fields {
+fn sum_field(quad: Quad) -> Fields {
     let pixel = pixel_at(vec2<u32>(quad.position.xy));
     let support = quad_coordinates(quad, quad.xi, quad.step);
     // on the very border W is 0, but its slope is not
@@ -99,27 +102,19 @@ fn view_reference() -> Reference {
 // Σ W_i with derivatives, from the first pass.
 fn weight_sum(index: vec2<u32>) -> Jet {
     let first = textureLoad(weights_0, index, 0);
-    var sum = Jet(first.x, first.y, first.z, 0.0, 0.0, 0.0);
-    if ORDER >= 2u {
-        let second = second_weights(index);
-        sum.xx = second.x;
-        sum.xy = second.y;
-        sum.yy = second.z;
-    }
-    return sum;
+    return Jet(first.x, first.y, first.z);
 }
 
 fn jet_over(a: Jet, b: Jet) -> Jet {
-    let sum = Jets(Lanes(a.v), Lanes(a.x), Lanes(a.y), Lanes(a.xx), Lanes(a.xy), Lanes(a.yy));
+    let sum = Jets(Lanes(a.v), Lanes(a.x), Lanes(a.y));
     let q = jets_over(sum, b);
-    return Jet(q.v.x, q.x.x, q.y.x, q.xx.x, q.xy.x, q.yy.x);
+    return Jet(q.v.x, q.x.x, q.y.x);
 }
 
 // Everything known at a pixel, from the first two passes.
-fn splatted(pixel: Pixel) -> Sample {
+fn summed(pixel: Pixel) -> Sample {
     let sum = weight_sum(pixel.index);
-    let overlap = textureLoad(weights_0, pixel.index, 0).w;
-    let part = second_weights(pixel.index).w;
+    let weights = textureLoad(weights_0, pixel.index, 0);
     let reference = view_reference();
     var u: array<Jets, GROUPS>;
     if HAS_FIELD {
@@ -128,7 +123,7 @@ fn splatted(pixel: Pixel) -> Sample {
             u[g].v += reference.high[g] + reference.low[g];
         }
     }
-    return Sample(view.center + pixel.offset, u, sum.v, overlap, part / sum.v);
+    return Sample(view.center + pixel.offset, u, sum.v, weights.w, weights.y / sum.v);
 }
 
 // The sums of a group of components; slot k of a pair of them holds two numbers of each.
@@ -139,14 +134,7 @@ fn jets_of(group: u32, index: vec2<u32>) -> Jets {
     out.v = v_x[0];
     if ORDER >= 1u {
         out.x = v_x[1];
-        let y_xx = slot_pairs(pair, 1u, index);
-        out.y = y_xx[0];
-        out.xx = y_xx[1];
-    }
-    if ORDER >= 2u {
-        let xy_yy = slot_pairs(pair, 2u, index);
-        out.xy = xy_yy[0];
-        out.yy = xy_yy[1];
+        out.y = slot_pairs(pair, 1u, index)[0];
     }
     return out;
 }

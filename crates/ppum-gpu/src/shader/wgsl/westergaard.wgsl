@@ -12,15 +12,7 @@ fn westergaard(p: TipPoint) -> Functions {
     let root = sqrt(r);
     let f = westergaard_on_circle(tip_half_angle(p, r), p.x / r, p.y / r);
     let slope = 1.0 / root;
-    let curvature = slope * slope * slope;
-    return Functions(
-        root * f.v,
-        slope * f.x,
-        slope * f.y,
-        curvature * f.xx,
-        curvature * f.xy,
-        curvature * f.yy,
-    );
+    return Functions(root * f.v, slope * f.x, slope * f.y);
 }
 
 fn westergaard_at_tip() -> Functions {
@@ -30,17 +22,11 @@ fn westergaard_at_tip() -> Functions {
         out.x = none;
         out.y = none;
     }
-    if ORDER >= 2u {
-        out.xx = none;
-        out.xy = none;
-        out.yy = none;
-    }
     return out;
 }
 
 // At r = 1 for (cos θ/2, sin θ/2), cos θ and sin θ. With C = Re z^½ and S = Im z^½ the functions
-// are C, S, S sin θ, C sin θ; derivatives of the roots are those of z^½, (z^½)′ = ½ z^{-½},
-// (z^½)″ = -¼ z^{-3/2}.
+// are C, S, S sin θ, C sin θ; derivatives of the roots are those of z^½, (z^½)′ = ½ z^{-½}.
 fn westergaard_on_circle(half: vec2<f32>, ct: f32, st: f32) -> Functions {
     let c = half.x;
     let s = half.y;
@@ -57,18 +43,6 @@ fn westergaard_on_circle(half: vec2<f32>, ct: f32, st: f32) -> Functions {
     if ORDER >= 1u {
         out.x = a_x * b + a * b_x;
         out.y = a_y * b + a * b_y;
-    }
-    if ORDER >= 2u {
-        let real = 0.25 * (s * st - c * ct);
-        let imaginary = 0.25 * (s * ct + c * st);
-        let a_xx = vec4<f32>(real, imaginary, imaginary, real);
-        let a_xy = vec4<f32>(-imaginary, real, real, -imaginary);
-        let b_xx = sine * (st * (2.0 * ct * ct - st * st));
-        let b_xy = sine * (ct * (2.0 * st * st - ct * ct));
-        let b_yy = sine * (-3.0 * st * ct * ct);
-        out.xx = a_xx * b + 2.0 * a_x * b_x + a * b_xx;
-        out.xy = a_xy * b + (a_x * b_y + a_y * b_x) + a * b_xy;
-        out.yy = -a_xx * b + 2.0 * a_y * b_y + a * b_yy;
     }
     return out;
 }

@@ -2,7 +2,7 @@ use ppum::crack::{Crack, CrackEnd, End, SegmentId, Side, TipId, tips};
 use ppum::dataset::Step;
 use ppum::formula::Table;
 use ppum::function::{
-    Cut, CutSide, Frame, Function, FunctionKind, FunctionTable, Slot, WESTERGAARD,
+    Cut, CutBranch, Frame, Function, FunctionKind, FunctionTable, Slot, WESTERGAARD,
 };
 use ppum::jet::Jet;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -48,11 +48,10 @@ fn view(step: &Step, frames: &[GroupFrame], order: usize) -> String {
 }
 
 const NUMBERS: &str = "
-    fn numbers(group: f32, x: f32, y: f32) -> array<f32, 25> {
+    fn numbers(group: f32, x: f32, y: f32) -> array<f32, 13> {
         let f = functions(u32(group), vec2<f32>(x, y));
-        return array<f32, 25>(
-            f.v.x, f.x.x, f.y.x, f.xx.x, f.xy.x, f.yy.x, f.v.y, f.x.y, f.y.y, f.xx.y, f.xy.y, f.yy.y,
-            f.v.z, f.x.z, f.y.z, f.xx.z, f.xy.z, f.yy.z, f.v.w, f.x.w, f.y.w, f.xx.w, f.xy.w, f.yy.w,
+        return array<f32, 13>(
+            f.v.x, f.x.x, f.y.x, f.v.y, f.x.y, f.y.y, f.v.z, f.x.z, f.y.z, f.v.w, f.x.w, f.y.w,
             select(0.0, 1.0, is_one(u32(group))));
     }";
 
@@ -110,24 +109,23 @@ fn compare(functions: &[Function], groups: &FunctionGroups, tables: &[Arc<Table>
         for (index, function) in (0..).zip(functions) {
             let [group, entry] = groups.slot(index);
             let all = call(&shader, "numbers", &[group as f32, offset[0], offset[1]]);
-            assert_eq!(all[24] == 1.0, function.kind == FunctionKind::One, "{}", function.name);
-            let found = &all[6 * entry as usize..][..6];
+            assert_eq!(all[12] == 1.0, function.kind == FunctionKind::One, "{}", function.name);
+            let found = &all[3 * entry as usize..][..3];
             let mut jets = [Jet::constant(1.0); 4];
             let entry = match table.of(index) {
                 Slot::One => 0,
                 Slot::Jet { group, entry } => {
                     let at = offset.map(f64::from);
-                    local.evaluate::<f64, 2>(group as usize, at, Side::Above, &mut jets);
+                    local.evaluate::<f64, 1>(group as usize, at, Side::Above, &mut jets);
                     entry
                 }
             };
             let jet = jets[entry as usize];
-            let count = [1, 3, 6][order];
-            let expected = [jet.v, jet.x, jet.y, jet.xx, jet.xy, jet.yy];
+            let count = [1, 3][order];
+            let expected = [jet.v, jet.x, jet.y];
             for (k, (a, b)) in found.iter().zip(expected).enumerate() {
                 let b = if k < count { b } else { 0.0 };
-                // offsets and origins of single precision, derivatives of size 1/r and 1/r² near
-                // a tip
+                // offsets and origins of single precision, derivatives of size 1/r near a tip
                 assert!(
                     (a - b).abs() <= 2e-5 * (1.0 + b.abs()),
                     "{} derivative {k} at {offset:?}: {a:e} {b:e}",
@@ -161,10 +159,10 @@ fn component() -> FunctionKind {
     let cut =
         |crack, segment, left, right| Cut { segment: SegmentId { crack, segment }, left, right };
     let cuts = vec![
-        cut(0, 1, CutSide::Cut(1), CutSide::Cut(2)),
-        cut(1, 0, CutSide::Outside, CutSide::Inside),
-        cut(0, 0, CutSide::Outside, CutSide::Cut(3)),
-        cut(1, 0, CutSide::Outside, CutSide::Inside),
+        cut(0, 1, CutBranch::Cut(1), CutBranch::Cut(2)),
+        cut(1, 0, CutBranch::Outside, CutBranch::Inside),
+        cut(0, 0, CutBranch::Outside, CutBranch::Cut(3)),
+        cut(1, 0, CutBranch::Outside, CutBranch::Inside),
     ];
     FunctionKind::Component { cuts }
 }
@@ -180,7 +178,7 @@ fn tables() -> Vec<Arc<Table>> {
 #[test]
 fn functions_of_every_kind() {
     let functions = recipe(all_kinds());
-    for order in 0..=2 {
+    for order in 0..=1 {
         compare(&functions, &FunctionGroups::new(&functions), &tables(), order);
     }
 }
@@ -227,7 +225,7 @@ fn kernels_are_shared() {
     functions.push(Function { name: "side".into(), kind: FunctionKind::Side { crack: 3 } });
     let groups = FunctionGroups::new(&functions);
     assert_eq!(groups.count(), 1 + 145 + 50 + 288 + 288);
-    let (_, text) = shader(&functions, &groups, &cracks, &[], 2);
+    let (_, text) = shader(&functions, &groups, &cracks, &[], 1);
     assert_eq!(text.matches("fn functions_").count(), 5);
     assert_eq!(text.matches("if group <").count(), 4);
     assert_eq!(text.matches("fn formulas_").count(), 1);
@@ -238,7 +236,7 @@ fn random_recipes_are_valid() {
     for seed in 0..4 {
         let recipe = Recipe::random(seed);
         let functions = recipe.functions();
-        for order in 0..=2 {
+        for order in 0..=1 {
             shader(&functions, &FunctionGroups::new(&functions), &recipe.cracks, &[], order);
         }
     }

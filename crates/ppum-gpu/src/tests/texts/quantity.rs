@@ -36,12 +36,12 @@ fn surroundings(components: usize) -> String {
     };
     let jets = |group| {
         let [v, x, y] = ["v", "x", "y"].map(|member| vector(member, group));
-        format!("Jets({v}, {x}, {y}, Lanes(), Lanes(), Lanes())")
+        format!("Jets({v}, {x}, {y})")
     };
     let all: Vec<String> = (0..groups).map(jets).collect();
     format!(
         "alias Lanes = vec{lanes}<f32>;
-        struct Jets {{ v: Lanes, x: Lanes, y: Lanes, xx: Lanes, xy: Lanes, yy: Lanes }}
+        struct Jets {{ v: Lanes, x: Lanes, y: Lanes }}
         struct Sample {{ position: vec2<f32>, u: array<Jets, {groups}>, weight_sum: f32, overlap: f32, part: f32 }}
         fn test(x: f32, y: f32, {}) -> f32 {{
             let u = array<Jets, {groups}>({});

@@ -1,11 +1,12 @@
 //! The two sides of a cut: the parts along it, and what lies between them.
 
-use super::region::SegmentPiece;
-use crate::geometry::rim_crossings;
 use ppum::domain::Hole;
 use ppum::line::Line;
 use ppum::segment::Segment;
 use ppum::vec2::Vec2;
+
+use super::region::SegmentPiece;
+use crate::geometry::rim_crossings;
 
 /// An interval of places on a line.
 type LineInterval = [f64; 2];

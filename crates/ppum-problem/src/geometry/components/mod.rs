@@ -13,12 +13,13 @@ mod coverage;
 mod region;
 mod tree;
 
-use coverage::CutSides;
 use ppum::crack::SegmentId;
 use ppum::domain::Hole;
 use ppum::function::Cut;
 use ppum::segment::Segment;
 use ppum::vec2::Rect;
+
+use coverage::CutSides;
 use region::{ConvexRegion, SegmentPiece};
 use tree::{ComponentNode, CutTree};
 

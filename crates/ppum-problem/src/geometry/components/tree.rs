@@ -1,7 +1,7 @@
 //! The tree of cuts.
 
 use ppum::crack::SegmentId;
-use ppum::function::{Cut, CutSide};
+use ppum::function::{Cut, CutBranch};
 
 /// Cuts and leaves; the first node is the root.
 #[derive(Debug, Default)]
@@ -14,12 +14,6 @@ pub(super) enum ComponentNode {
     Cut { segment: SegmentId, left: usize, right: usize },
     /// A convex part of the box, by its number.
     Leaf(usize),
-}
-
-/// A tree in which equal neighbours are one.
-enum PrunedTree {
-    Leaf(bool),
-    Cut(SegmentId, Box<[PrunedTree; 2]>),
 }
 
 impl CutTree {
@@ -35,42 +29,30 @@ impl CutTree {
     /// The cuts that part the leaves inside from the others, each before those that follow from it.
     pub(super) fn cuts(&self, is_inside: &dyn Fn(usize) -> bool) -> Vec<Cut> {
         let mut cuts = Vec::new();
-        self.pruned(0, is_inside).write(&mut cuts);
+        self.write(0, is_inside, &mut cuts);
         cuts
     }
 
-    fn pruned(&self, node: usize, is_inside: &dyn Fn(usize) -> bool) -> PrunedTree {
-        match self.0[node] {
-            ComponentNode::Leaf(leaf) => PrunedTree::Leaf(is_inside(leaf)),
-            ComponentNode::Cut { segment, left, right } => {
-                match [left, right].map(|next| self.pruned(next, is_inside)) {
-                    [PrunedTree::Leaf(a), PrunedTree::Leaf(b)] if a == b => PrunedTree::Leaf(a),
-                    both => PrunedTree::Cut(segment, Box::new(both)),
-                }
-            }
+    /// Adds the cuts from a node on, without those that part nothing.
+    fn write(
+        &self,
+        node: usize,
+        is_inside: &dyn Fn(usize) -> bool,
+        cuts: &mut Vec<Cut>,
+    ) -> CutBranch {
+        let (segment, next) = match self.0[node] {
+            ComponentNode::Leaf(leaf) if is_inside(leaf) => return CutBranch::Inside,
+            ComponentNode::Leaf(_) => return CutBranch::Outside,
+            ComponentNode::Cut { segment, left, right } => (segment, [left, right]),
+        };
+        let at = cuts.len();
+        cuts.push(Cut { segment, left: CutBranch::Outside, right: CutBranch::Outside });
+        let [left, right] = next.map(|node| self.write(node, is_inside, cuts));
+        if left == right && !matches!(left, CutBranch::Cut(_)) {
+            cuts.truncate(at);
+            return left;
         }
-    }
-}
-
-impl PrunedTree {
-    fn write(&self, cuts: &mut Vec<Cut>) -> CutSide {
-        match self {
-            Self::Leaf(is_inside) => {
-                if *is_inside {
-                    CutSide::Inside
-                } else {
-                    CutSide::Outside
-                }
-            }
-            Self::Cut(segment, both) => {
-                let at = cuts.len();
-                let new =
-                    Cut { segment: *segment, left: CutSide::Outside, right: CutSide::Outside };
-                cuts.push(new);
-                cuts[at].left = both[0].write(cuts);
-                cuts[at].right = both[1].write(cuts);
-                CutSide::Cut(at as u32)
-            }
-        }
+        cuts[at] = Cut { segment, left, right };
+        CutBranch::Cut(at as u32)
     }
 }

@@ -1,4 +1,4 @@
-"""What all importers share: elements and polynomials from the values that a library gives at reference places."""
+"""The shared part of importers: elements and polynomials from a library's values at reference places."""
 
 import inspect
 from collections.abc import Callable, Mapping, Sequence
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from .._blocks import MAX_DEGREE, exponents
 from .._checks import Ragged
 from .._dataset import Dataset
-from .._errors import BuildError
+from .._errors import BuildError, require
 from .._head import BuildOptions
 from .._mesh import Clip, Mesh
 from .._options import Option
@@ -21,6 +21,18 @@ from .._units import Floats
 from ..build import dataset
 
 _P = ParamSpec("_P")
+
+#: What needs a package, and how to get it, where that is not pip with the name of the package.
+PACKAGES = {
+    "dolfinx": ("fields of DOLFINx", "fenics-dolfinx", "conda install -c conda-forge"),
+    "getfem": ("fields of GetFEM", "python3-getfem", "apt install"),
+    "meshio": ("meshes of meshio", "meshio"),
+    "mfem": ("fields of MFEM", "mfem"),
+    "ngsolve": ("fields of NGSolve", "ngsolve"),
+    "skfem": ("fields of scikit-fem", "scikit-fem"),
+    "vtk": ("files of VTK", "vtk"),
+    "xfem": ("fields of ngsxfem", "xfem"),
+}
 
 #: Reference places of each shape, (k, 2).
 Places = Mapping[int, Floats]
@@ -32,21 +44,15 @@ SEED = 1
 
 @dataclass(frozen=True)
 class Group:
-    """Elements of one shape, and what a library gives at the same reference places of each.
-
-    Attributes:
-        shape: Of the elements.
-        elements: Their numbers, (n,).
-        points: The points that the places have, (n, k, 2).
-        values: Values of the field there, (n, k, c).
-        places: The reference places, (k, 2).
-        order: The highest degree that the places fix.
-    """
+    """Elements of one shape, with a library's values at the same reference places of each."""
 
     shape: int
+    #: The numbers of the elements, (n,).
     elements: NDArray[np.int64]
+    #: The points of the places, (n, k, 2), and the values of the field there, (n, k, c).
     points: Floats
     values: Floats
+    #: The reference places, (k, 2), and the highest degree that they fix.
     places: Floats
     order: int = MAX_DEGREE
 
@@ -58,7 +64,7 @@ Values = Callable[[NDArray[np.int64], Floats], tuple[Floats, Floats]]
 
 
 class ImportOptions(BuildOptions, total=False):
-    """Labels of an imported field, how it is verified, and what is said of its dataset."""
+    """The labels of an imported field, its verification, and the data of its dataset."""
 
     name: Annotated[str | None, Option(None, "name of the field; by default `u`, of files that of the data")]
     components: Annotated[list[str] | None, Option(None, "names of its components, see `Coefficients`")]
@@ -66,17 +72,26 @@ class ImportOptions(BuildOptions, total=False):
     verify: Annotated[int, Option(1000, "number of random points at which the dataset is compared with the library")]
 
 
+def imported(module: str) -> Any:
+    """Import a module of a library."""
+    what, *remedy = PACKAGES[module.split(".")[0]]
+    return require(module, remedy[0], what, *remedy[1:])
+
+
 def importer(
-    state: Callable[_P, State], name: str, library: str, version: Callable[..., str] = lambda *_, **__: ""
+    state: Callable[_P, State], name: str, library: str, package: str = "", version: Callable[..., str] = lambda *_, **__: ""
 ) -> Callable[_P, Dataset]:
-    """The function of this name that builds the dataset of a state, and has its arguments."""
+    """Make the function of this name that builds the dataset of a state, and has its arguments.
+
+    The program of the dataset is the library with the version of its package, or that of the arguments.
+    """
 
     def load(*args: _P.args, **options: _P.kwargs) -> Dataset:
         # a library that is missing is said first
-        program = f"{library} {version(*args, **options)}".strip()
+        of = getattr(imported(package), "__version__", "") if package else version(*args, **options)
         made = state(*args, **options)
         others: Any = {key: options[key] for key in BuildOptions.__annotations__ if key in options}
-        return dataset(made, **{"program": program} | others)
+        return dataset(made, **{"program": f"{library} {of}".strip()} | others)
 
     load.__signature__ = inspect.signature(state).replace(return_annotation=Dataset)  # type: ignore[attr-defined]
     load.__name__, load.__qualname__, load.__module__, load.__doc__ = name, name, state.__module__, state.__doc__
@@ -99,7 +114,7 @@ class Elements:
         self.maps = Ragged(np.concatenate([m.values for m in maps]), np.concatenate([m.sizes for m in maps]))
 
     def _maps(self, group: Group, geometry: int) -> tuple[NDArray[np.str_], Ragged, Floats]:
-        """Space, coefficients and constants of each map, of the least degree that it has."""
+        """Return space, coefficients and constants of each map, of the least degree that it has."""
         geometry = min(geometry, group.order)
         powers = exponents(geometry, group.shape == SQUARE)
         found = interpolated(group.points, group.places, powers)
@@ -109,21 +124,15 @@ class Elements:
         return *_least(found[:, 1:], powers[1:], geometry, group.shape), found[:, 0]
 
     def mesh(self, patches: Sequence[int] | None = None, clips: Mapping[int, Sequence[Clip]] | None = None) -> Mesh:
-        """The mesh of the elements with these places in their order, by default of all."""
+        """Return the mesh of the elements with these places in their order, by default of all."""
         order = self.order if patches is None else self.order[list(patches)]
         shapes = np.concatenate([np.full(len(group.elements), group.shape) for group in self.groups])
         numbers = np.concatenate([group.elements for group in self.groups])
-        return Mesh(
-            shapes[order],
-            self.origins[order],
-            self.maps.at(order),
-            space=self.spaces[order].tolist(),
-            element=numbers[order],
-            clips=clips,
-        )
+        space, element = self.spaces[order].tolist(), numbers[order]
+        return Mesh(shapes[order], self.origins[order], self.maps.at(order), space=space, element=element, clips=clips)
 
     def polynomials(self, order: int, columns: slice = slice(None)) -> Ragged:
-        """Coefficients (m, c) on each element, of total degree on triangles and tensor products on squares."""
+        """Return coefficients (m, c) on each element, of total degree on triangles and tensor products on squares."""
         parts = []
         for group, turned in zip(self.groups, self.turned):
             powers = exponents(min(order, group.order), group.shape == SQUARE)
@@ -133,7 +142,7 @@ class Elements:
 
 
 def _turned(found: Floats, powers: Sequence[tuple[int, int]], turned: NDArray[np.bool_]) -> Floats:
-    """The coefficients with ξ and η exchanged on some elements, so that their nodes go counter-clockwise."""
+    """Exchange ξ and η in the coefficients of some elements, so that their nodes go counter-clockwise."""
     if not turned.any():
         return found
     exchanged = [powers.index((j, i)) for i, j in powers]
@@ -141,7 +150,7 @@ def _turned(found: Floats, powers: Sequence[tuple[int, int]], turned: NDArray[np
 
 
 def _least(c: Floats, powers: Sequence[tuple[int, int]], degree: int, shape: int) -> tuple[NDArray[np.str_], Ragged]:
-    """Spaces and coefficients of maps without the higher powers that are rounding."""
+    """Return spaces and coefficients of maps without the higher powers that are rounding."""
     largest = STRAIGHT * np.abs(c).max(axis=(1, 2))
     spaces, left = np.full(len(c), "tensor"), np.arange(len(c))
     parts, of = [], []
@@ -157,15 +166,13 @@ def _least(c: Floats, powers: Sequence[tuple[int, int]], degree: int, shape: int
 
 
 def checked(order: int) -> int:
-    """A degree that the format has."""
     if not 0 <= order <= MAX_DEGREE:
         raise BuildError(f"order: is {order}; polynomials on elements have degrees 0 to {MAX_DEGREE}")
     return order
 
 
 def compared(sampler: Sampler, count: int, keep: Callable[[Floats], Any] | None = None) -> Sampled | None:
-    """At most `count` random points and the library's own values there; `keep` takes values of shape (k, c) and says which
-    points are left."""
+    """Return at most `count` random points and the library's values there; `keep` takes values (k, c) and selects points."""
     if count <= 0:
         return None
     random = np.random.default_rng(SEED)
@@ -185,24 +192,22 @@ def compared(sampler: Sampler, count: int, keep: Callable[[Floats], Any] | None 
 
 
 def off_level(level: Floats) -> Any:
-    """True for points that do not lie on a level set, where rounding decides their side."""
+    """Return True for points off a level set, on which rounding decides their side."""
     return np.abs(level) > 1e-9 * np.abs(level).max()
 
 
 def smooth(sampler: Sampler, options: ImportOptions, order: int, geometry: int, verify: Sampled | None) -> State:
-    """The state of a field that is one polynomial on each element; `verify` are points and values of the library."""
+    """Return the state of a field that is one polynomial on each element."""
     elements = Elements(sampler, order, geometry)
     return State(elements.mesh(), labelled(options, {"one": elements.polynomials(order)}, verify))
 
 
 def labelled(options: ImportOptions, blocks: Mapping[str, Any], verify: Sampled | None) -> Coefficients:
-    """A field of blocks with its labels."""
     return Coefficients(options["name"] or "u", blocks, options["components"], options["unit"], verify=verify)
 
 
 def group_by_shape(shapes: NDArray[np.int64], among: NDArray[np.int64], places: Places, values: Values) -> list[Group]:
-    """Groups of elements of each shape by what is known at places of the triangle (0, 0), (1, 0), (0, 1) or the square
-    [0, 1]²: points and values."""
+    """Group elements by shape, with points and values at places of the triangle (0, 0), (1, 0), (0, 1) or the square [0, 1]²."""
     groups = []
     for k in (TRIANGLE, SQUARE):
         elements = among[shapes[among] == k]
@@ -212,10 +217,10 @@ def group_by_shape(shapes: NDArray[np.int64], among: NDArray[np.int64], places: 
 
 
 def from_unit(shape: int, places: Floats) -> Floats:
-    """Places of the triangle (0, 0), (1, 0), (0, 1) or the square [0, 1]² in ours."""
+    """Convert places of the triangle (0, 0), (1, 0), (0, 1) or the square [0, 1]² to ours."""
     return 2 * places - 1 if shape == SQUARE else 1.5 * places - 0.5
 
 
 def to_unit(shape: int, places: Floats) -> Floats:
-    """Our places in the triangle (0, 0), (1, 0), (0, 1) or the square [0, 1]²."""
+    """Convert our places to the triangle (0, 0), (1, 0), (0, 1) or the square [0, 1]²."""
     return (places + 1) / 2 if shape == SQUARE else (places + 0.5) / 1.5

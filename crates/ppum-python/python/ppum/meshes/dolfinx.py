@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._checks import real
-from .._errors import BuildError, require
+from .._errors import BuildError
 from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import State
@@ -15,15 +15,15 @@ from ._elements import Group, ImportOptions, Places, Sampler, compared, importer
 
 __all__ = ["from_dolfinx", "state"]
 
-BY = "conda install -c conda-forge"
 SHAPES = {"triangle": TRIANGLE, "quadrilateral": SQUARE}
 REMEDY = "interpolate the field into discontinuous Lagrange elements of its degree"
 
 
 @takes(ImportOptions, "from_dolfinx()")
 def state(u: Any, **options: Unpack[ImportOptions]) -> State:
-    """The dataset of a Function of DOLFINx in a Lagrange space, continuous or not, of scalars or vectors: degrees of
-    freedom times basix's shape functions, on triangles or quadrilaterals of any order.
+    """Import a Function of DOLFINx in a Lagrange space, continuous or not, of scalars or vectors.
+
+    Degrees of freedom multiply basix's shape functions, on triangles or quadrilaterals of any order.
 
     Args:
         u: The Function; parts of mixed ones by ``u.sub(k).collapse()``.
@@ -35,13 +35,11 @@ def state(u: Any, **options: Unpack[ImportOptions]) -> State:
     return smooth(sampler(u, False), options, order, geometry, compared(sampler(u, True), options["verify"]))
 
 
-from_dolfinx = importer(
-    state, "from_dolfinx", "DOLFINx", lambda *_, **__: require("dolfinx", "fenics-dolfinx", "fields of DOLFINx", BY).__version__
-)
+from_dolfinx = importer(state, "from_dolfinx", "DOLFINx", "dolfinx")
 
 
 def _element(u: Any) -> Any:
-    """The element of a component, whose functions are mapped without a change of value."""
+    """Return the element of a component, whose functions are mapped without a change of value."""
     space = u.function_space.element
     if space.needs_dof_transformations:
         raise BuildError(f"u: its degrees of freedom are turned from cell to cell; {REMEDY}")
@@ -56,7 +54,7 @@ def _element(u: Any) -> Any:
 
 
 def _degree(element: Any) -> int:
-    """The degree on triangles, on quadrilaterals in each variable; the names are those of basix before and since 0.8."""
+    """Return the degree, on quadrilaterals in each variable; the names are those of basix before and since 0.8."""
     names = ("embedded_superdegree", "highest_degree")
     if "quadrilateral" in str(element.cell_type):
         names = ("embedded_subdegree", "highest_complete_degree")
@@ -73,12 +71,12 @@ def _cells(mesh: Any) -> int:
 
 
 def _rows(mesh: Any, table: Any) -> NDArray[np.int64]:
-    """The numbers that each cell has, which early versions have in an adjacency list."""
+    """Return the numbers that each cell has, which early versions have in an adjacency list."""
     return np.asarray(getattr(table, "array", table), np.int64).reshape(_cells(mesh), -1)
 
 
 def sampler(u: Any, evaluate: bool) -> Sampler:
-    """Values by the degrees of freedom, or by the evaluation of DOLFINx."""
+    """Sample by the degrees of freedom, or by the evaluation of DOLFINx."""
     space, element = u.function_space, _element(u)
     mesh, block = space.mesh, int(space.dofmap.bs)
     name = getattr(mesh.topology, "cell_name", None)

@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from .._blocks import MAX_DEGREE, exponents
 from .._checks import check_type, real
-from .._errors import BuildError, require
+from .._errors import BuildError
 from .._functions import TIP, Formula
 from .._options import takes
 from .._shapes import SQUARE, TRIANGLE, random_places
 from .._state import Coefficients, State
 from .._units import Floats
-from ._elements import Elements, Group, ImportOptions, Places, compared, importer, labelled, off_level, to_unit
+from ._elements import Elements, Group, ImportOptions, Places, compared, imported, importer, labelled, off_level, to_unit
 
 __all__ = ["Crack", "from_getfem", "state"]
 
@@ -46,8 +46,9 @@ class Crack:
 
 @takes(ImportOptions, "from_getfem()")
 def state(mf: Any, u: Any, crack: Crack | None = None, **options: Unpack[ImportOptions]) -> State:
-    """The dataset of a field of GetFEM: degrees of freedom times the shape functions of the elements, tip functions in the
-    frame of the interpolated level sets. Cut elements are two patches.
+    """Import a field of GetFEM: degrees of freedom times shape functions, tip functions in the frame of level sets.
+
+    Level sets are interpolated; cut elements are two patches.
 
     Args:
         mf: The MeshFem of the field.
@@ -79,15 +80,11 @@ def state(mf: Any, u: Any, crack: Crack | None = None, **options: Unpack[ImportO
     return State(elements.mesh(None, clips), [labelled(options, blocks, known), *levels], functions=functions)
 
 
-from_getfem = importer(state, "from_getfem", "GetFEM", lambda *_, **__: str(_library() and ""))
-
-
-def _library() -> Any:
-    return require("getfem", "python3-getfem", "fields of GetFEM", "apt install")
+from_getfem = importer(state, "from_getfem", "GetFEM", "getfem")
 
 
 class _Space:
-    """What is known of a MeshFem's cells, asked for once: the elements' kinds, and the degrees of freedom."""
+    """The elements and degrees of freedom of a MeshFem's cells, asked for once."""
 
     def __init__(self, mf: Any, cells: NDArray[np.int64]) -> None:
         self.fems, self.kinds = _several(mf.fem(cells))
@@ -95,24 +92,21 @@ class _Space:
         self._dofs = dofs
 
     def dofs(self, k: int) -> NDArray[np.int64]:
-        """Those of the cell with this place in the list."""
         return self._dofs[self._starts[k] : self._starts[k + 1]]
 
     def order(self, shapes: NDArray[np.int64]) -> int:
-        """The highest degree of the elements."""
         pairs = np.unique(np.column_stack([self.kinds, shapes]), axis=0).tolist()
         return max(_degree(self.fems[kind], shape) for kind, shape in pairs)
 
 
 def _several(found: tuple[Any, Any]) -> tuple[list[Any], NDArray[np.int64]]:
-    """The objects that cells have, and which one each has; GetFEM gives a single object without a list."""
+    """Return the objects that cells have, and which one each has; GetFEM gives a single object without a list."""
     objects, which = found
     return list(objects) if isinstance(objects, (list, tuple)) else [objects], np.ravel(which).astype(np.int64)
 
 
 class _Source:
-    """What GetFEM knows of the field, patch by patch: the values of its smooth part, of what multiplies each tip function,
-    and of the level sets."""
+    """The field by patches: values of its smooth part, of the factors of tip functions, and of the level sets."""
 
     def __init__(self, mf: Any, u: Floats, crack: Crack | None) -> None:
         self.mf, self.u, self.crack, self.mesh = mf, u, crack, mf.linked_mesh()
@@ -151,18 +145,18 @@ class _Source:
         return self._space(mf).dofs(self.place[cell])
 
     def columns(self, part: int) -> slice:
-        """Columns of the smooth part, 0, or of a tip function."""
+        """Return the columns of the smooth part, 0, or of a tip function."""
         return slice(part * self.count, (part + 1) * self.count)
 
     def levels(self) -> list[tuple[str, int]]:
-        """Names and columns of the level fields."""
+        """Return names and columns of the level fields."""
         assert self.crack
         tips = len(self.crack.functions) if self.crack.tip else 0
         at = (1 + tips) * self.count
         return [("phi", at), *([("psi", at + 1)] if self.crack.tip else [])]
 
     def table(self, mf: Any, cell: int, at: Floats) -> Floats:
-        """Shape functions of a cell at places of GetFEM's element, (k, functions)."""
+        """Return shape functions of a cell at places of GetFEM's element, (k, functions)."""
         space = self._space(mf)
         fem = space.fems[space.kinds[self.place[cell]]]
         key = fem.char(), at.tobytes()
@@ -171,7 +165,7 @@ class _Source:
         return self.tables[key]
 
     def points(self, cells: Sequence[int], at: Floats) -> Floats:
-        """The points of places in cells, (n, k, 2); maps are linear in the nodes."""
+        """Return the points of places in cells, (n, k, 2); maps are linear in the nodes."""
         of = np.array([self.place[cell] for cell in cells])
         found = np.empty((len(of), len(at), 2))
         for kind in np.unique(self.kinds[of]).tolist():
@@ -198,7 +192,7 @@ class _Source:
         return groups
 
     def _smooth(self, cells: Sequence[int], dofs: Sequence[NDArray[np.int64]], at: Floats) -> Floats:
-        """The smooth part by its degrees of freedom on each patch, (n, k, c)."""
+        """Return the smooth part by its degrees of freedom on each patch, (n, k, c)."""
         kinds = self._space(self.base).kinds[[self.place[cell] for cell in cells]]
         found = np.empty((len(cells), len(at), self.count))
         for kind in np.unique(kinds).tolist():
@@ -208,7 +202,7 @@ class _Source:
         return found
 
     def _others(self, cell: int, at: Floats) -> Floats:
-        """The columns of tip functions and of level sets on a patch."""
+        """Return the columns of tip functions and of level sets on a patch."""
         assert self.crack
         columns = self._tips(cell, at) if self.crack.tip else []
         levelset = self.crack.levelset
@@ -219,13 +213,13 @@ class _Source:
         return np.hstack(columns)
 
     def _vertices(self, cell: int) -> list[int]:
-        """The local numbers of the enriched degrees of freedom."""
+        """Return the local numbers of the enriched degrees of freedom."""
         if not self.crack or not self.crack.tip:
             return []
         return [i for i, dof in enumerate(self._dofs(self.crack.tip[0], cell)) if int(dof) in self.near]
 
     def _tips(self, cell: int, at: Floats) -> list[Floats]:
-        """What multiplies the tip functions: they stand behind the degrees of freedom of `jump`, vertex by vertex."""
+        """Return the factors of the tip functions, which stand behind the degrees of freedom of `jump`, vertex by vertex."""
         assert self.crack and self.crack.tip
         count, vertices = len(self.crack.functions), self._vertices(cell)
         if not vertices:
@@ -241,7 +235,7 @@ class _Source:
         return [hats @ own[k::count] for k in range(count)]
 
     def _parts(self, crack: Crack) -> list[tuple[int, int, NDArray[np.int64]]]:
-        """Cell, side (0 for both) and degrees of freedom of each patch."""
+        """Return cell, side (0 for both) and degrees of freedom of each patch."""
         count = {k: len(self._dofs(self.base, k)) for k in self.cells}
         doubled = [k for k in self.cells if len(self._dofs(crack.jump, k)) > count[k]]
         zones = self._zones(crack, doubled)
@@ -258,11 +252,11 @@ class _Source:
         return parts
 
     def _of_sum(self, cell: int, local: list[int]) -> NDArray[np.int64]:
-        """The degrees of freedom of the sum for some of `jump`, with their components."""
+        """Return the degrees of freedom of the sum for some of `jump`, with their components."""
         return self._dofs(self.mf, cell).reshape(-1, self.count)[local].ravel()
 
     def _zones(self, crack: Crack, cells: list[int]) -> dict[tuple[int, int], set[int]]:
-        """The degrees of freedom of `jump` that are felt on each side of doubled cells, by one point on each side."""
+        """Return the degrees of freedom of `jump` that are felt on each side of doubled cells, by one point on each side."""
         asked, points, random = [], [], np.random.default_rng(0)
         for cell in cells:
             at = to_unit(self.shape[cell], random_places(random, self.shape[cell], TRIED))
@@ -275,7 +269,7 @@ class _Source:
                     points.append(self.points([cell], at[k : k + 1])[0, 0])
         if not asked:
             return {}
-        matrix = _library().asm("interpolation matrix", crack.jump, np.array(points).T)
+        matrix = imported("getfem").asm("interpolation matrix", crack.jump, np.array(points).T)
         zones: dict[tuple[int, int], set[int]] = {key: set() for key in asked}
         starts, row = map(np.ravel, matrix.csc_ind())
         column, felt = np.repeat(np.arange(len(starts) - 1), np.diff(starts)), np.ravel(matrix.csc_val()) != 0
@@ -284,8 +278,8 @@ class _Source:
         return zones
 
     def evaluate(self, places: Places) -> list[Group]:
-        """GetFEM's own values at the points of places, before the columns of the level sets."""
-        interpolate, groups = _library().compute_interpolate_on, []
+        """Return GetFEM's own values at the points of places, before the columns of the level sets."""
+        interpolate, groups = imported("getfem").compute_interpolate_on, []
         for group in self.sample(places):
             flat = group.points.reshape(-1, 2)
             found = np.asarray(interpolate(self.mf, self.u, flat.T)).reshape(self.count, -1)
@@ -296,14 +290,13 @@ class _Source:
         return groups
 
     def off(self, values: Floats) -> Any:
-        """True for points that do not lie on the crack or its extension."""
+        """Return True for points that do not lie on the crack or its extension."""
         if self.crack is None:
             return np.ones(len(values), bool)
         return off_level(values[:, self.count])
 
 
 def _shape(geotrans: Any) -> int:
-    """Triangle or square, by the transformation of a cell."""
     name = str(geotrans.char())
     if "GT_PK(2" in name:
         return TRIANGLE
@@ -313,7 +306,7 @@ def _shape(geotrans: Any) -> int:
 
 
 def _geometry(geotrans: Any, shape: int) -> int:
-    """The degree of a transformation by its number of nodes."""
+    """Return the degree of a transformation by its number of nodes."""
     count = int(geotrans.nbpts())
     for degree in range(1, MAX_DEGREE + 1):
         if len(exponents(degree, shape == SQUARE)) >= count:
@@ -322,7 +315,7 @@ def _geometry(geotrans: Any, shape: int) -> int:
 
 
 def _degree(fem: Any, shape: int) -> int:
-    """The degree of an element; that of squares counts both variables."""
+    """Return the degree of an element; that of squares counts both variables."""
     name, total, count = str(fem.char()), int(fem.estimated_degree()), int(fem.nbdof())
     if not fem.is_equivalent() or not fem.is_polynomial() or int(fem.target_dim()) != 1:
         raise BuildError(f"mf: {name} has no polynomials that are the same on all elements; interpolate on a Lagrange element")

@@ -7,20 +7,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .._checks import check_type, real
-from .._errors import BuildError, require
+from .._errors import BuildError
 from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import State
 from .._units import Floats
-from ._elements import SEED, ImportOptions, Sampler, compared, group_by_shape, importer, smooth
+from ._elements import SEED, ImportOptions, Sampler, compared, group_by_shape, imported, importer, smooth
 
 __all__ = ["from_mfem", "state"]
 
 
 @takes(ImportOptions, "from_mfem()")
 def state(gf: Any, order: int | None = None, **options: Unpack[ImportOptions]) -> State:
-    """The dataset of a GridFunction of MFEM, sampled at reference points of each element: H1 and L2 of any order on
-    straight and curved meshes, with hanging nodes too.
+    """Import a GridFunction of MFEM: H1 and L2 of any order on straight and curved meshes, with hanging nodes too.
+
+    It is sampled at reference points of each element.
 
     Args:
         gf: A GridFunction of PyMFEM.
@@ -38,23 +39,17 @@ def state(gf: Any, order: int | None = None, **options: Unpack[ImportOptions]) -
     return smooth(sampler(gf, mesh), options, order, geometry, known)
 
 
-from_mfem = importer(
-    state, "from_mfem", "MFEM", lambda *_, **__: getattr(require("mfem", "mfem", "fields of MFEM"), "__version__", "")
-)
+from_mfem = importer(state, "from_mfem", "MFEM", "mfem")
 
 
 def _shapes(mesh: Any) -> NDArray[np.int64]:
-    mfem = _library()
+    mfem = imported("mfem.ser")
     shapes = {mfem.Geometry.TRIANGLE: TRIANGLE, mfem.Geometry.SQUARE: SQUARE}
     return np.array([shapes[mesh.GetElementGeometry(k)] for k in range(mesh.GetNE())])
 
 
-def _library() -> Any:
-    return require("mfem.ser", "mfem", "fields of MFEM")
-
-
 def sampler(gf: Any, mesh: Any) -> Sampler:
-    """Values by the degrees of freedom where these are values, else by the evaluation of MFEM."""
+    """Sample by the degrees of freedom where these are values, else by the evaluation of MFEM."""
     fields = [gf] if mesh.GetNodes() is None else [gf, mesh.GetNodes()]
     elements = [(field.FESpace(), field.FESpace().GetFE(0)) for field in fields if mesh.GetNE()]
     is_plain = [e.GetMapType() == e.VALUE and e.GetRangeType() == e.SCALAR and s.GetNURBSext() is None for s, e in elements]
@@ -72,9 +67,9 @@ Table = Callable[[NDArray[np.int64], Floats], Floats]
 
 
 def _tabulated(gf: Any) -> Table:
-    """Degrees of freedom times shape functions, for elements with as many of them at once."""
+    """Multiply degrees of freedom with shape functions, for elements with as many of them at once."""
     space, data, count = gf.FESpace(), real("gf", gf.GetDataArray()), int(gf.VectorDim())
-    by_component = space.GetOrdering() == _library().Ordering.byNODES
+    by_component = space.GetOrdering() == imported("mfem.ser").Ordering.byNODES
     data = data.reshape(count, -1).T if by_component else data.reshape(-1, count)
     dofs, starts = _dofs(space)
 
@@ -94,16 +89,16 @@ def _tabulated(gf: Any) -> Table:
 
 
 def _dofs(space: Any) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The elements' degrees of freedom, one element after the other, and where each begins."""
-    table, array = space.GetElementToDofTable(), _library().intArray
+    """Return the elements' degrees of freedom, one element after the other, and where each begins."""
+    table, array = space.GetElementToDofTable(), imported("mfem.ser").intArray
     dofs = array((table.GetJ(), table.Size_of_connections())).GetDataArray()
     starts = array((table.GetI(), table.Size() + 1)).GetDataArray()
     return dofs.astype(np.int64), starts.astype(np.int64)
 
 
 def _table(element: Any, at: Floats) -> Floats:
-    """Shape functions at places, (k, functions)."""
-    shapes, rows = _library().Vector(element.GetDof()), []
+    """Return shape functions at places, (k, functions)."""
+    shapes, rows = imported("mfem.ser").Vector(element.GetDof()), []
     for place in _rule(at):
         element.CalcShape(place, shapes)
         rows.append(shapes.GetDataArray().copy())
@@ -111,8 +106,8 @@ def _table(element: Any, at: Floats) -> Floats:
 
 
 def _straight(mesh: Any) -> Table:
-    """Points of straight elements by their vertices."""
-    mfem, corners = _library(), np.array([mesh.GetVertexArray(k)[:2] for k in range(mesh.GetNV())])
+    """Return points of straight elements by their vertices."""
+    mfem, corners = imported("mfem.ser"), np.array([mesh.GetVertexArray(k)[:2] for k in range(mesh.GetNV())])
     linear = mfem.H1_FECollection(1, 2)
     vertices, starts = _dofs(mfem.FiniteElementSpace(mesh, linear))
 
@@ -128,7 +123,7 @@ def _straight(mesh: Any) -> Table:
 
 
 def evaluator(gf: Any, mesh: Any, most: int | None = None) -> Sampler:
-    """Points and values by the evaluation of MFEM, on all elements or on so many random ones."""
+    """Return points and values by the evaluation of MFEM, on all elements or on so many random ones."""
     shape = _shapes(mesh)
     chosen = np.sort(np.random.default_rng(SEED).permutation(len(shape))[:most])
     # a space of vectors is not the same as a vector of spaces
@@ -151,7 +146,7 @@ def evaluator(gf: Any, mesh: Any, most: int | None = None) -> Sampler:
 def _rule(places: Floats) -> list[Any]:
     rule = []
     for x, y in places.tolist():
-        rule.append(_library().IntegrationPoint())
+        rule.append(imported("mfem.ser").IntegrationPoint())
         rule[-1].Set2(x, y)
     return rule
 
@@ -159,6 +154,6 @@ def _rule(places: Floats) -> list[Any]:
 def _value(gf: Any, element: int, place: Any, count: int) -> list[float]:
     if count == 1:
         return [float(gf.GetValue(element, place))]
-    vector = _library().Vector(count)
+    vector = imported("mfem.ser").Vector(count)
     gf.GetVectorValue(element, place, vector)
     return [float(vector[k]) for k in range(count)]

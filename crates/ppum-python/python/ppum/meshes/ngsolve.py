@@ -5,19 +5,20 @@ from typing import Any, Unpack
 import numpy as np
 
 from .._checks import check_type, real
-from .._errors import BuildError, require
+from .._errors import BuildError
 from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import State
-from ._elements import Group, ImportOptions, Places, Sampler, compared, importer, smooth, to_unit
+from ._elements import Group, ImportOptions, Places, Sampler, compared, imported, importer, smooth, to_unit
 
 __all__ = ["from_ngsolve", "state"]
 
 
 @takes(ImportOptions, "from_ngsolve()")
 def state(gf: Any, order: int | None = None, *, mesh: Any = None, **options: Unpack[ImportOptions]) -> State:
-    """The dataset of a field of NGSolve, sampled at reference points of each element and exact for any space whose
-    functions are polynomials there: H1, L2, VectorH1, facet bubbles, hp; H(div) and H(curl) on straight elements.
+    """Import a field of NGSolve, exact for any space whose functions are polynomials on elements.
+
+    These are H1, L2, VectorH1, facet bubbles, hp; H(div) and H(curl) on straight elements.
 
     Args:
         gf: A GridFunction, or a CoefficientFunction that is polynomial on each element.
@@ -25,19 +26,15 @@ def state(gf: Any, order: int | None = None, *, mesh: Any = None, **options: Unp
         mesh: The mesh of a CoefficientFunction.
     """
     mesh = mesh_of(gf, mesh)
-    if order is None:
-        order = order_of(gf)
+    order = order_of(gf) if order is None else order
     sample = sampler(mesh, [gf])
     return smooth(sample, options, order, int(mesh.GetCurveOrder()), compared(sample, options["verify"]))
 
 
-from_ngsolve = importer(
-    state, "from_ngsolve", "NGSolve", lambda *_, **__: require("ngsolve", "ngsolve", "fields of NGSolve").__version__
-)
+from_ngsolve = importer(state, "from_ngsolve", "NGSolve", "ngsolve")
 
 
 def mesh_of(gf: Any, mesh: Any) -> Any:
-    """The mesh of a field, in two dimensions."""
     check_type("gf", gf, callable(gf), "a GridFunction or a CoefficientFunction of NGSolve")
     # a vector has as many dimensions as components, a compound field one
     if int(gf.dim) < len(getattr(gf, "components", ())):
@@ -52,15 +49,14 @@ def mesh_of(gf: Any, mesh: Any) -> Any:
 
 
 def order_of(gf: Any) -> int:
-    """The highest order of a field's spaces."""
     if not hasattr(gf, "space"):
         raise BuildError("order: a CoefficientFunction knows no order; give order=")
     return max(int(part.space.globalorder) for part in (gf.components or [gf]))
 
 
 def sampler(mesh: Any, fields: list[Any]) -> Sampler:
-    """Values of several fields, one after the other."""
-    ngs = require("ngsolve", "ngsolve", "fields of NGSolve")
+    """Sample several fields, one after the other."""
+    ngs = imported("ngsolve")
     shapes = {ngs.ET.TRIG: TRIANGLE, ngs.ET.QUAD: SQUARE}
     shape = np.array([shapes[element.type] for element in mesh.Elements(ngs.VOL)])
 

@@ -4,10 +4,9 @@ from typing import Any, Unpack
 
 import numpy as np
 
-from .._errors import require
 from .._options import takes
 from .._state import Coefficients, Sampled, State
-from ._elements import Elements, ImportOptions, compared, importer, labelled, off_level
+from ._elements import Elements, ImportOptions, compared, imported, importer, labelled, off_level
 from .ngsolve import mesh_of, order_of, sampler
 
 __all__ = ["from_ngsxfem", "state"]
@@ -17,13 +16,13 @@ __all__ = ["from_ngsxfem", "state"]
 def state(
     negative: Any, positive: Any, levelset: Any, order: int | None = None, **options: Unpack[ImportOptions]
 ) -> State:
-    """The dataset of a field of ngsxfem, which is one field of NGSolve where a level set is negative and another one where
-    it is positive: cut elements are two patches, on each side with the field's own polynomial.
+    """Import a field of ngsxfem: one field of NGSolve where a level set is negative, another where it is positive.
+
+    Cut elements are two patches, on each side with the field's own polynomial.
 
     Args:
         negative, positive: GridFunctions, such as the components of a compound one.
-        levelset: The interpolant of degree 1 that was integrated with, a GridFunction of H1, order 1. The dataset has it
-            as a field ``level``.
+        levelset: The interpolant that was integrated with, a GridFunction of H1, order 1; the dataset's field ``level``.
         order: Degree of the polynomials; by default the higher one of the spaces.
     """
     mesh = mesh_of(negative, None)
@@ -43,25 +42,23 @@ def state(
     return State(elements.mesh(of, clips), [field, levels])
 
 
-from_ngsxfem = importer(
-    state, "from_ngsxfem", "ngsxfem, NGSolve", lambda *_, **__: require("ngsolve", "xfem", "fields of ngsxfem").__version__
-)
+from_ngsxfem = importer(state, "from_ngsxfem", "ngsxfem, NGSolve", "ngsolve")
 
 
 def _signs(mesh: Any, levelset: Any) -> list[tuple[bool, bool]]:
-    """Whether each element has a negative and a positive side, as ngsxfem decides it."""
-    xfem = require("xfem", "xfem", "fields of ngsxfem")
+    """Return whether each element has a negative and a positive side, as ngsxfem decides it."""
+    xfem = imported("xfem")
     cuts = xfem.CutInfo(mesh, levelset)
     has = [cuts.GetElementsOfType(kind) for kind in (xfem.HASNEG, xfem.HASPOS)]
     return [(bool(has[0][k]), bool(has[1][k])) for k in range(mesh.ne)]
 
 
 def _patches(signs: list[tuple[bool, bool]]) -> list[tuple[int, int, bool]]:
-    """Element, side and whether it is cut, for each patch."""
+    """Return element, side and whether it is cut, for each patch."""
     return [(k, side, all(has)) for k, has in enumerate(signs) for side in (0, 1) if has[side]]
 
 
 def _halves(known: Sampled, count: int) -> Sampled:
-    """The values of the side on which each point lies."""
+    """Return the values of the side on which each point lies."""
     lower, upper = known.values[:, :count], known.values[:, count : 2 * count]
     return known._replace(values=np.where(known.values[:, -1:] > 0, upper, lower))

@@ -5,7 +5,7 @@ from typing import Any, Unpack
 import numpy as np
 
 from .._checks import real
-from .._errors import BuildError, require
+from .._errors import BuildError
 from .._options import takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import State
@@ -17,7 +17,7 @@ __all__ = ["from_skfem", "state"]
 
 @takes(ImportOptions, "from_skfem()")
 def state(basis: Any, u: Any, order: int | None = None, **options: Unpack[ImportOptions]) -> State:
-    """The dataset of a field of scikit-fem: degrees of freedom times the shape functions of the elements.
+    """Import a field of scikit-fem: degrees of freedom times the shape functions of the elements.
 
     Args:
         basis: A Basis on triangles or quadrilaterals.
@@ -25,19 +25,15 @@ def state(basis: Any, u: Any, order: int | None = None, **options: Unpack[Import
         order: Degree of the polynomials, on squares in each variable; by default the one of the element.
     """
     shape = shape_of(basis.mesh)
-    if order is None:
-        order = _degree(basis.elem, shape)
+    order = _degree(basis.elem, shape) if order is None else order
     sample = sampler(basis, u)
     return smooth(sample, options, order, _degree(basis.mesh.elem(), shape), compared(sample, options["verify"]))
 
 
-from_skfem = importer(
-    state, "from_skfem", "scikit-fem", lambda *_, **__: require("skfem", "scikit-fem", "fields of scikit-fem").__version__
-)
+from_skfem = importer(state, "from_skfem", "scikit-fem", "skfem")
 
 
 def shape_of(mesh: Any) -> int:
-    """The shape of a mesh of triangles or of quadrilaterals."""
     known = {"RefTri": TRIANGLE, "RefQuad": SQUARE}
     name = getattr(mesh.elem.refdom, "__name__", "")
     if name not in known:
@@ -46,13 +42,12 @@ def shape_of(mesh: Any) -> int:
 
 
 def _degree(element: Any, shape: int) -> int:
-    """The degree of an element; that of quadrilaterals counts both variables."""
+    """Return the degree of an element; that of quadrilaterals counts both variables."""
     degree = int(element.maxdeg)
     return (degree + 1) // 2 if shape == SQUARE else degree
 
 
 def _dofs(basis: Any, u: Any) -> Floats:
-    """The degrees of freedom, as many as the basis has."""
     values = real("u", u)
     if values.shape != (basis.N,):
         raise BuildError(

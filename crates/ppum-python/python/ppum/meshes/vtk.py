@@ -9,7 +9,7 @@ from typing import Annotated, Any, Unpack
 import numpy as np
 from numpy.typing import NDArray
 
-from .._blocks import MAX_DEGREE, exponents
+from .._blocks import DEGREES, MAX_DEGREE, TENSOR
 from .._checks import check_type, numbers, sequence
 from .._errors import BuildError, require
 from .._head import components_of
@@ -17,7 +17,7 @@ from .._options import Option, takes
 from .._shapes import SQUARE, TRIANGLE
 from .._state import Sampled, State
 from .._units import Floats
-from ._elements import SEED, Group, ImportOptions, Places, compared, from_unit, importer, smooth, to_unit
+from ._elements import SEED, Group, ImportOptions, Places, compared, from_unit, imported, importer, smooth, to_unit
 
 __all__ = ["from_meshio", "from_vtu", "meshio_state", "vtu_state"]
 
@@ -32,17 +32,14 @@ NAMES = {
 PASSED_OVER = {1, 2, 3, 4, 21, 68}
 SERENDIPITY = 23
 
+
 @dataclass(frozen=True)
 class Kind:
-    """Cells of one of VTK's types with one number of nodes.
+    """Cells of one of VTK's types with one number of nodes."""
 
-    Attributes:
-        type: VTK's number.
-        cells: The cells' numbers, (n,).
-        nodes: Their nodes, (n, k).
-    """
-
+    #: The number of the type in VTK.
     type: int
+    #: The numbers of the cells, (n,), and of their nodes, (n, k).
     cells: NDArray[np.int64]
     nodes: NDArray[np.int64]
 
@@ -58,12 +55,13 @@ class PointOptions(ImportOptions, total=False):
 
 @takes(PointOptions, "from_vtu()")
 def vtu_state(path: str | os.PathLike[str], data: str | None = None, **options: Unpack[PointOptions]) -> State:
-    """The dataset of point data of a file .vtu or .vtkhdf: linear, quadratic and Lagrange cells of orders up to 8, with the
-    values of the nodes. Needs vtk, or for .vtu meshio, with which the dataset is compared at nodes.
+    """Import point data of a file .vtu or .vtkhdf: linear, quadratic and Lagrange cells of orders up to 8.
+
+    Needs vtk, or for .vtu meshio, with which the dataset is compared at nodes.
 
     Args:
         path: The file.
-        data: Name of the point data; may be left out if there is one array.
+        data: Name of the point data, if there are several arrays.
     """
     check_type("path", path, isinstance(path, (str, os.PathLike)), "the path of a file .vtu or .vtkhdf")
     if importlib.util.find_spec("vtk") is None and not os.fspath(path).endswith(".vtkhdf"):
@@ -84,8 +82,9 @@ def vtu_state(path: str | os.PathLike[str], data: str | None = None, **options: 
 
 @takes(PointOptions, "from_meshio()")
 def meshio_state(mesh: Any, data: str | None = None, **options: Unpack[PointOptions]) -> State:
-    """The dataset of point data of a mesh of meshio: triangles and quadrilaterals, linear, quadratic and of VTK's Lagrange
-    cells. Data and columns are as of `from_vtu`; the dataset is compared at nodes, since meshio evaluates no fields.
+    """Import point data of a mesh of meshio: linear, quadratic and VTK's Lagrange triangles and quadrilaterals.
+
+    Data and columns are as of `from_vtu`; the dataset is compared at nodes, since meshio evaluates no fields.
     """
     check_type("mesh", mesh, hasattr(mesh, "point_data"), "a meshio.Mesh, as by meshio.read(path)")
     chosen = _chosen(data, list(mesh.point_data))
@@ -103,14 +102,12 @@ def meshio_state(mesh: Any, data: str | None = None, **options: Unpack[PointOpti
     return _state(points, kinds, values, _named(options, chosen), _at_nodes(points, kinds, values, options["verify"]))
 
 
-from_vtu = importer(vtu_state, "from_vtu", "VTK file", lambda path, *_, **__: os.path.basename(os.fspath(path)))
-from_meshio = importer(
-    meshio_state, "from_meshio", "meshio", lambda *_, **__: require("meshio", "meshio", "meshes of meshio").__version__
-)
+from_vtu = importer(vtu_state, "from_vtu", "VTK file", version=lambda path, *_, **__: os.path.basename(os.fspath(path)))
+from_meshio = importer(meshio_state, "from_meshio", "meshio", "meshio")
 
 
 def _values(name: str, given: Any, options: PointOptions) -> Floats:
-    """The columns of point data that are the components, (n, c)."""
+    """Return the columns of point data that are the components, (n, c)."""
     place = f"data {name!r}"
     values = numbers(place, given)
     values = values.reshape(len(values), -1)
@@ -125,7 +122,6 @@ def _values(name: str, given: Any, options: PointOptions) -> Floats:
 
 
 def _check_columns(count: int, equation: Any) -> None:
-    """Refuses data with more or fewer columns than the equation has components."""
     wanted = components_of(equation)
     if wanted and count != len(wanted):
         raise BuildError(
@@ -135,7 +131,6 @@ def _check_columns(count: int, equation: Any) -> None:
 
 
 def _check_nodes(kinds: Sequence[Kind], count: int) -> None:
-    """Refuses numbers of nodes that there are not."""
     for kind in kinds:
         wrong = ((kind.nodes < 0) | (kind.nodes >= count)).any(axis=1)
         if wrong.any():
@@ -149,7 +144,6 @@ def _named(options: PointOptions, data: str) -> PointOptions:
 
 
 def _chosen(data: str | None, known: Sequence[str]) -> str:
-    """The name of point data."""
     if data is None and len(known) == 1:
         return known[0]
     if data not in known:
@@ -160,8 +154,7 @@ def _chosen(data: str | None, known: Sequence[str]) -> str:
 
 
 def _grid(path: str | os.PathLike[str]) -> Any:
-    """The unstructured grid of a file."""
-    vtk, name = require("vtk", "vtk", "files of VTK"), os.fspath(path)
+    vtk, name = imported("vtk"), os.fspath(path)
     if not os.path.exists(path):
         raise FileNotFoundError(f"{name}: there is no such file")
     if not name.endswith((".vtu", ".vtkhdf")):
@@ -181,8 +174,7 @@ def _grid(path: str | os.PathLike[str]) -> Any:
 
 
 def _numpy(array: Any) -> NDArray[Any]:
-    support = require("vtk.util.numpy_support", "vtk", "files of VTK")
-    return np.asarray(support.vtk_to_numpy(array))
+    return np.asarray(imported("vtk.util.numpy_support").vtk_to_numpy(array))
 
 
 def _kinds_of(grid: Any) -> list[Kind]:
@@ -197,7 +189,6 @@ def _kinds_of(grid: Any) -> list[Kind]:
 
 
 def _state(points: Floats, kinds: Sequence[Kind], values: Floats, options: PointOptions, verify: Sampled | None) -> State:
-    """The state of nodes and their values."""
     if np.ptp(points[:, 2:]) if points.shape[1] > 2 else 0:
         raise BuildError("points: do not lie in a plane z = constant; give a mesh of the x-y plane")
     _check_columns(values.shape[1], options["equation"])
@@ -207,7 +198,7 @@ def _state(points: Floats, kinds: Sequence[Kind], values: Floats, options: Point
 
 
 def _plane(kinds: Sequence[Kind]) -> list[Kind]:
-    """The cells that are areas."""
+    """Return the cells that are areas."""
     for kind in kinds:
         if kind.type not in CELLS and kind.type not in PASSED_OVER:
             raise BuildError(
@@ -228,24 +219,24 @@ def _group(kind: Kind, points: Floats, values: Floats) -> Group:
 
 
 def _order(kind: int, count: int, cell: int) -> tuple[int, int]:
-    """Shape and order of a cell by its type and number of nodes."""
+    """Return shape and order of a cell by its type and number of nodes."""
     shape, fixed = CELLS[kind]
-    for order in [fixed] if fixed else range(1, MAX_DEGREE + 1):
-        if count + (kind == SERENDIPITY) == len(exponents(order, shape == SQUARE)):
-            return shape, order
+    order = (TENSOR if shape == SQUARE else DEGREES).get(count + (kind == SERENDIPITY))
+    if order and order == (fixed or order):
+        return shape, order
     raise BuildError(
         f"cells[{cell}]: has {count} nodes, which no cell of VTK's type {kind} has with one order, at most {MAX_DEGREE}"
     )
 
 
 def _with_centre(nodes: Floats) -> Floats:
-    """Quadrilaterals of eight nodes with the ninth, where their functions have the value ½ Σ middles − ¼ Σ corners."""
+    """Add the ninth node to eight, where their functions have the value ½ Σ middles − ¼ Σ corners."""
     centre = nodes[:, 4:].sum(axis=1) / 2 - nodes[:, :4].sum(axis=1) / 4
     return np.concatenate([nodes, centre[:, None]], axis=1)
 
 
 def places_of(shape: int, order: int) -> Floats:
-    """Nodes of VTK's Lagrange cells in its parametric coordinates, in their order: corners, edges, the inside."""
+    """Return the nodes of VTK's Lagrange cells in its parametric coordinates: corners, edges, the inside."""
     whole = _square(order) if shape == SQUARE else _triangle(order)
     return np.array(whole, float) / order
 
@@ -258,7 +249,7 @@ def _square(n: int) -> list[tuple[int, int]]:
 
 
 def _triangle(n: int) -> list[tuple[int, int]]:
-    """The inside has the order of a triangle again."""
+    """Return the nodes of a triangle, whose inside has the order of a triangle again."""
     if n == 0:
         return [(0, 0)]
     inner = range(1, n)
@@ -268,7 +259,7 @@ def _triangle(n: int) -> list[tuple[int, int]]:
 
 
 def _interpolated(grid: Any, kinds: Sequence[Kind], points: Floats, values: Floats, places: Places) -> list[Group]:
-    """VTK's own interpolation in each cell at places."""
+    """Return VTK's own interpolation in each cell at places."""
     groups = []
     for kind in _plane(kinds):
         shape = CELLS[kind.type][0]
@@ -280,7 +271,6 @@ def _interpolated(grid: Any, kinds: Sequence[Kind], points: Floats, values: Floa
 
 
 def _weights(cell: Any, places: Floats) -> Floats:
-    """VTK's shape functions of a cell."""
     rows = []
     for x, y in places.tolist():
         weights = [0.0] * cell.GetNumberOfPoints()
@@ -290,7 +280,7 @@ def _weights(cell: Any, places: Floats) -> Floats:
 
 
 def _at_nodes(points: Floats, kinds: Sequence[Kind], values: Floats, count: int) -> Sampled | None:
-    """Values of the file at nodes that stand at no other's place."""
+    """Return values of the file at nodes that stand at no other's place."""
     used = np.unique(np.concatenate([kind.nodes.reshape(-1) for kind in kinds if kind.type in CELLS] or [np.empty(0, int)]))
     _, first, repeated = np.unique(points[used][:, :2], axis=0, return_index=True, return_counts=True)
     alone = np.random.default_rng(SEED).permutation(used[first[repeated == 1]])[:count]

@@ -9,10 +9,11 @@
 //! Predicates are exact, so a crack that ends on the boundary cuts it, however the cells lie. A
 //! point on a face of a crack belongs to the triangle on that side of the edge that it lies on.
 
-use super::rigid::RigidModes;
+use crate::law::RigidModes;
 use crate::quadrature::{CrackFace, EdgeRule};
 use ppum::crack::{Crack, CrackEnd, End, SegmentId, Side};
 use ppum::domain::{Domain, Hole};
+use ppum::equation::Equation;
 use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::is_on_rim;
@@ -92,9 +93,9 @@ impl BodyPieces {
 
     /// The rigid-body modes of the pieces. Those of a body in one piece are about the centre of
     /// its box: they stay the same to the last bit where cracks grow.
-    pub(crate) fn rigid_modes(&self, components: usize) -> Vec<RigidModes> {
+    pub(crate) fn rigid_modes(&self, equation: &Equation) -> Vec<RigidModes> {
         let modes =
-            |piece: &BodyPiece| RigidModes::new(piece.centroid, piece.area.sqrt(), components);
+            |piece: &BodyPiece| RigidModes::new(piece.centroid, piece.area.sqrt(), equation);
         match self.all.as_slice() {
             [_] => vec![modes(&BodyPiece::of_box(&self.bounds))],
             several => several.iter().map(modes).collect(),
@@ -150,7 +151,7 @@ impl BodyPieces {
     }
 
     /// The piece that a point of a rule along an edge belongs to.
-    pub(crate) fn of_border(&self, rule: &EdgeRule, point: usize) -> usize {
+    pub(crate) fn of_boundary(&self, rule: &EdgeRule, point: usize) -> usize {
         let p = rule.anchor + rule.offsets[point];
         match rule.face.filter(|face| self.is_cut_by(face.segment.crack)) {
             Some(face) => self.beside(face, p),
@@ -229,13 +230,13 @@ impl BodyPiece {
 
 /// The points of a crack, its mouths on rims moved into their holes by more than rounding.
 fn into_holes(crack: &Crack, bounds: &Rect) -> Vec<Vec2> {
-    let on_border = |p: Vec2| {
+    let on_boundary = |p: Vec2| {
         p.x == bounds.min.x || p.x == bounds.max.x || p.y == bounds.min.y || p.y == bounds.max.y
     };
     let mut points = crack.points.clone();
     let last = points.len() - 1;
     for (end, at, kind) in [(End::Start, 0, crack.ends[0]), (End::Last, last, crack.ends[1])] {
-        if kind == CrackEnd::Mouth && !on_border(points[at]) {
+        if kind == CrackEnd::Mouth && !on_boundary(points[at]) {
             let farther = crack.growth_direction(end) * (INWARD * bounds.size().length());
             points[at] = points[at] + farther;
         }
@@ -267,7 +268,7 @@ fn gap_edges(cracks: &[Crack], bounds: &Rect) -> Vec<[Vec2; 2]> {
     found
 }
 
-/// The point of a segment nearest to a point.
+/// The point of a segment nearest to a point; exactly an end where that is nearest.
 fn foot(segment: &[Vec2], p: Vec2) -> Vec2 {
     let (a, d) = (segment[0], segment[1] - segment[0]);
     match (d.dot(p - a) / d.dot(d)).clamp(0.0, 1.0) {

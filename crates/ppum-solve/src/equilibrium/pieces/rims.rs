@@ -1,7 +1,7 @@
 //! Rims of holes as polygons that cut the body as the holes do.
 
 use ppum::domain::{Domain, Hole};
-use ppum::line::Line;
+use ppum::line::{Line, circles_meet};
 use ppum::vec2::{Vec2, vec2};
 use std::f64::consts::TAU;
 
@@ -32,7 +32,8 @@ fn in_circle(center: Vec2, radius: f64, segments: &[[Vec2; 2]], holes: &[Hole]) 
     }
     for hole in holes {
         if let Hole::Circle { center: other, radius: reach } = hole {
-            common(*other - center, radius, *reach).into_iter().for_each(&mut add);
+            let meet = circles_meet((Vec2::ZERO, radius), (*other - center, *reach));
+            meet.into_iter().flatten().for_each(&mut add);
         }
     }
     angles.sort_by(f64::total_cmp);
@@ -45,15 +46,4 @@ fn crossings(ends: [Vec2; 2], radius: f64) -> Vec<Vec2> {
     let line = Line::through(ends);
     let places = line.meets_circle(Vec2::ZERO, radius).into_iter().flatten();
     places.filter(|s| (0.0..=1.0).contains(s)).map(|s| line.at(s)).collect()
-}
-
-/// Crossings of the circle around the origin and one around another point; none if they do
-/// not meet.
-fn common(other: Vec2, radius: f64, reach: f64) -> Vec<Vec2> {
-    let distance = other.length();
-    let along = 0.5 * (distance + (radius - reach) * (radius + reach) / distance);
-    let across = (radius * radius - along * along).sqrt();
-    let axis = other / distance;
-    let points = [across, -across].map(|side| axis * along + axis.left() * side);
-    points.into_iter().filter(|p| p.is_finite()).collect()
 }

@@ -38,7 +38,8 @@ fn tips_cut_nothing() {
     assert_eq!(found.of(vec2(0.3, 0.3)), 0);
 }
 
-/// Three strips between kinked cracks from border to border; their areas and centroids are known.
+/// Three strips between kinked cracks from boundary to boundary; their areas and centroids are
+/// known.
 #[test]
 fn cracks_from_border_to_border() {
     let found =
@@ -53,7 +54,7 @@ fn cracks_from_border_to_border() {
     assert!((found.all()[below].centroid - vec2(0.0, -0.75)).length() < 1e-14);
     all.sort_unstable();
     assert_eq!(all, [0, 1, 2]);
-    // the border of each, seen from outside, down to the corner between crack and border
+    // the boundary of each, seen from outside, down to the corner between crack and boundary
     assert_eq!(found.behind(vec2(-1.0, 0.25 + 1e-7), vec2(-1.0, 0.0)), above);
     assert_eq!(found.behind(vec2(-1.0, 0.25 - 1e-7), vec2(-1.0, 0.0)), middle);
     // the faces of a crack
@@ -61,7 +62,8 @@ fn cracks_from_border_to_border() {
     assert_eq!(found.behind(vec2(0.3, -0.5), vec2(0.0, 1.0)), below);
 }
 
-/// Cracks at many slopes and places: one that ends on the border cuts it whatever its numbers are.
+/// Cracks at many slopes and places: one that ends on the boundary cuts it whatever its numbers
+/// are.
 #[test]
 fn any_slope_cuts() {
     let mut random = ppum_testkit::random::Random(3);
@@ -75,7 +77,7 @@ fn any_slope_cuts() {
     }
 }
 
-/// A hole and cracks from it to the borders cut; one crack alone does not.
+/// A hole and cracks from it to the boundaries cut; one crack alone does not.
 #[test]
 fn holes_and_cracks() {
     let hole = square(vec2(0.1, 0.0), 0.25);
@@ -91,8 +93,8 @@ fn holes_and_cracks() {
     assert_eq!(found.of(vec2(-0.5, 0.5)), found.of(vec2(0.1, 0.3)));
 }
 
-/// A bar of holes from border to border cuts without any crack; holes that reach over the border
-/// are notches.
+/// A bar of holes from boundary to boundary cuts without any crack; holes that reach over the
+/// boundary are notches.
 #[test]
 fn holes_alone() {
     let bar = vec![vec2(-2.0, -0.1), vec2(2.0, -0.1), vec2(2.0, 0.1), vec2(-2.0, 0.1)];
@@ -105,7 +107,7 @@ fn holes_alone() {
 }
 
 /// A chain of round holes cuts if they overlap, by however little. The first one reaches
-/// the border.
+/// the boundary.
 #[test]
 fn chains_of_holes() {
     let hole = |x: f64, radius| Hole::Circle { center: vec2(x, 0.1), radius };

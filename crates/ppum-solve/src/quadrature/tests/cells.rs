@@ -72,7 +72,7 @@ fn uniform_covers_have_nine_rectangles_in_a_cell_and_no_kinks() {
     let cell = case.partition.cell[inner];
     let rules = case
         .quadrature(Orders::for_degree(2))
-        .cell(&cell, &covering_patches(&case.partition, &cell));
+        .cell(covered(&cell, &covering_patches(&case.partition, &cell)));
     assert_eq!(rules.len(), 9);
     let mut counts: Vec<_> = rules.iter().map(|r| (r.patches.len(), r.offsets.len())).collect();
     counts.sort_unstable();

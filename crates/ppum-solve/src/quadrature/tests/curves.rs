@@ -1,6 +1,6 @@
 //! Curved kinks.
 
-use super::adapt::{IntegrandDemand, Subregion as _, refined};
+use super::adapt::{IntegrandDemand, refined};
 use super::chart::CellChart;
 use super::curve::{ChartWindow, cut_all};
 use super::piece::SmoothPiece;
@@ -296,9 +296,8 @@ fn strips_are_divided_where_a_curve_bends() {
         left: &left,
     };
     let mut below = 0.0;
-    for part in refined(windows.into_iter().map(SmoothPiece::Window).collect(), &demand).regions {
-        part.nodes(gauss, 6, &mut |x, w| below += if bend(x) < 0.0 { w } else { 0.0 });
-    }
+    let parts = windows.into_iter().map(SmoothPiece::Window).collect();
+    refined(parts, &demand, &mut |x, w| below += if bend(x) < 0.0 { w } else { 0.0 });
     assert_near(below, 0.5, 1e-9, "area below");
 }
 

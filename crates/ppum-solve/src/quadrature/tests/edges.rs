@@ -14,8 +14,9 @@ fn edges_of(
     normal: Vec2,
 ) -> Vec<EdgeRule> {
     let quadrature = Quadrature::new(geometry, orders);
-    let cell =
-        |c: &Rect| quadrature.edge(c, &covering_patches(geometry.partition, c), ends, normal);
+    let cell = |c: &Rect| {
+        quadrature.edge(covered(c, &covering_patches(geometry.partition, c)), ends, normal)
+    };
     geometry.partition.cell.iter().flat_map(cell).collect()
 }
 
@@ -236,7 +237,9 @@ fn faces_keep_their_resultants() {
         let (geometry, quadrature) = (case.geometry(), case.quadrature(Orders::for_degree(2)));
         for side in [Side::Above, Side::Below] {
             let face = CrackFace { segment: SegmentId { crack: 0, segment: 0 }, side };
-            let of = |c: &Rect| quadrature.face(c, &covering_patches(geometry.partition, c), face);
+            let of = |c: &Rect| {
+                quadrature.face(covered(c, &covering_patches(geometry.partition, c)), face)
+            };
             let rules: Vec<_> = geometry.partition.cell.iter().flat_map(of).collect();
             let (mut sum, mut moment) = (0.0, Vec2::ZERO);
             for rule in &rules {
@@ -275,7 +278,7 @@ fn shortest_parts_have_the_patches_of_their_cells() {
         let normal = (ends[1] - ends[0]).unit().left();
         for (k, cell) in (0..).zip(cells) {
             let covering_patches = covering_patches(&case.partition, cell);
-            for rule in quadrature.edge(cell, &covering_patches, ends, normal) {
+            for rule in quadrature.edge(covered(cell, &covering_patches), ends, normal) {
                 assert!(rule.patches.contains(&k), "{ends:?} in {cell:?}: {:?}", rule.patches);
             }
         }

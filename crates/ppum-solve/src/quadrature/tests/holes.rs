@@ -19,11 +19,11 @@ fn with_holes(case: &GeometryCase, holes: &[Hole]) -> (Vec<CellRule>, Vec<EdgeRu
     let quadrature = Quadrature::new(geometry, Orders::for_degree(2));
     let cells =
         || geometry.partition.cell.iter().map(|c| (c, covering_patches(geometry.partition, c)));
-    let areas = cells().flat_map(|(c, patches)| quadrature.cell(c, &patches)).collect();
+    let areas = cells().flat_map(|(c, patches)| quadrature.cell(covered(c, &patches))).collect();
     let rim = |(c, patches): (&Rect, Vec<u32>)| {
         holes
             .iter()
-            .flat_map(|hole| quadrature.rim(c, &patches, hole, |_| true))
+            .flat_map(|hole| quadrature.rim(covered(c, &patches), hole, |_| true))
             .collect::<Vec<_>>()
     };
     (areas, cells().flat_map(rim).collect())
@@ -54,7 +54,7 @@ fn round_holes_inside() {
     }
 }
 
-/// Green: the area between rims and border from their rules, ∫ x n_x ds.
+/// Green: the area between rims and boundary from their rules, ∫ x n_x ds.
 #[test]
 fn rims_close_the_area() {
     let mut random = Random(6);
@@ -144,7 +144,9 @@ fn cracks_from_holes() {
             .partition
             .cell
             .iter()
-            .flat_map(|c| quadrature.face(c, &covering_patches(geometry.partition, c), face))
+            .flat_map(|c| {
+                quadrature.face(covered(c, &covering_patches(geometry.partition, c)), face)
+            })
             .collect();
         assert_near(length(&faces), 0.77 - 0.3, 1e-13, "the face outside of the hole");
         let sum: f64 = faces

@@ -70,6 +70,10 @@ fn graded(random: &mut Random, weight: WeightFunction) -> BoxPartition {
     partition(cells, weight)
 }
 
+fn covered<'a>(rect: &'a Rect, patches: &'a [u32]) -> CoveredCell<'a> {
+    CoveredCell { rect, patches }
+}
+
 /// Patches whose open supports meet the open cell.
 fn covering_patches(partition: &BoxPartition, cell: &Rect) -> Vec<u32> {
     let meets = |&i: &u32| partition.support(i as usize).overlaps(cell);
@@ -116,7 +120,7 @@ impl GeometryCase {
 /// The rules of all cells.
 fn rules(geometry: SmoothnessGeometry<'_>, orders: Orders) -> Vec<CellRule> {
     let quadrature = Quadrature::new(geometry, orders);
-    let cell = |c: &Rect| quadrature.cell(c, &covering_patches(geometry.partition, c));
+    let cell = |c: &Rect| quadrature.cell(covered(c, &covering_patches(geometry.partition, c)));
     geometry.partition.cell.iter().flat_map(cell).collect()
 }
 

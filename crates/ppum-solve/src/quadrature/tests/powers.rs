@@ -7,7 +7,7 @@ use super::*;
 /// ∫ |z|^q.
 fn error(lambda: f64, powers: [f64; 4], orders: Orders) -> f64 {
     let mut worst: f64 = 0.0;
-    // along the axes the closed form keeps its digits, be the tip on the border of the cell
+    // along the axes the closed form keeps its digits, be the tip on the boundary of the cell
     let axes = [vec2(1.0, 0.0), vec2(0.0, 1.0), vec2(-1.0, 0.0), vec2(0.0, -1.0)];
     for ((cell, tip, _), axis) in tip_positions(&mut Random(5)).into_iter().zip(axes.iter().cycle())
     {

@@ -264,7 +264,10 @@ fn energy_in_a_disc_with_a_smooth_cut_off() {
         .cell
         .iter()
         .flat_map(|c| {
-            quadrature.disc(c, &covering_patches(&case.partition, c), Disc::even(tip, radius, 14))
+            quadrature.disc(
+                covered(c, &covering_patches(&case.partition, c)),
+                Disc::even(tip, radius, 14),
+            )
         })
         .collect();
     assert!(rules.iter().all(|r| r.anchor == tip));

@@ -78,7 +78,8 @@ fn discs_honour_kinks_and_probes() {
     let geometry = SmoothnessGeometry { kinks: &kinks, common_kinks: &[0, 1], ..case.geometry() };
     let quadrature = Quadrature::new(geometry, Orders::for_degree(1));
     let disc = |c: &Rect| {
-        quadrature.disc(c, &covering_patches(&case.partition, c), Disc::even(tip, radius, 14))
+        quadrature
+            .disc(covered(c, &covering_patches(&case.partition, c)), Disc::even(tip, radius, 14))
     };
     let rules: Vec<CellRule> = case.partition.cell.iter().flat_map(disc).collect();
     let density = |x: Vec2| {

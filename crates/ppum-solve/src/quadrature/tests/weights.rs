@@ -105,7 +105,8 @@ fn only_overlaps_are_divided_and_only_where_functions_vary() {
     let inner = case.partition.cell.iter().position(|c| c.min == vec2(-0.25, -0.25)).expect("cell");
     let cell = case.partition.cell[inner];
     let orders = Orders { parts: 3, ..Orders::for_degree(2) };
-    let rules = case.quadrature(orders).cell(&cell, &covering_patches(&case.partition, &cell));
+    let rules =
+        case.quadrature(orders).cell(covered(&cell, &covering_patches(&case.partition, &cell)));
     let mut counts: Vec<_> = rules.iter().map(|r| (r.patches.len(), r.offsets.len())).collect();
     counts.sort_unstable();
     assert_eq!(counts[0], (1, 9));
@@ -120,7 +121,10 @@ fn discs_have_the_points_that_the_weight_needs() {
         let quadrature = case.quadrature(orders);
         let (center, radius) = (vec2(0.1, 0.2), 0.5);
         let rules = |c: &Rect| {
-            quadrature.disc(c, &covering_patches(&case.partition, c), Disc::even(center, radius, 8))
+            quadrature.disc(
+                covered(c, &covering_patches(&case.partition, c)),
+                Disc::even(center, radius, 8),
+            )
         };
         let rules: Vec<CellRule> = case.partition.cell.iter().flat_map(rules).collect();
         let (overlaps, rest): (Vec<_>, Vec<_>) =

@@ -1,6 +1,6 @@
 //! The sets on which constants of the material and given strains may jump.
 
-use crate::law::Law;
+use crate::law::{Law, Strain};
 use crate::quadrature::LevelFunction;
 use ppum::crack::Crack;
 use ppum::dataset::Equation;
@@ -68,10 +68,10 @@ impl<'e> Interfaces<'e> {
 
     /// The entries of minus the given strains, and the coefficient of expansion by a temperature of
     /// the field.
-    pub(super) fn given(&self, p: Vec2) -> [[f64; 4]; 2] {
-        let [x, y] = self.law.at(p).elastic(&[Vec2::ZERO; 2]);
+    pub(super) fn given(&self, p: Vec2) -> [Vec<f64>; 2] {
+        let Strain(strain) = self.law.at(p).elastic(&Strain::default());
         let expansion = self.expansion.map_or(0.0, |expansion| expansion.value(p));
-        [[x.x, x.y, y.x, y.y], [expansion, 0.0, 0.0, 0.0]]
+        [strain.as_flattened().to_vec(), vec![expansion]]
     }
 
     /// The largest of them at points all over the body.

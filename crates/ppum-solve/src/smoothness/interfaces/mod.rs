@@ -12,13 +12,13 @@
 //! Whether the constants really jump is seen by looking at both sides.
 
 mod interface;
-mod place;
-mod trouble;
+mod point;
+mod unresolved;
 
 pub use interface::Interfaces;
 pub(crate) use interface::{Interface, proportional};
-pub(crate) use place::{BESIDE, InterfacePoint};
-pub use trouble::{Cause, UnresolvedKink};
+pub(crate) use point::{BESIDE, InterfacePoint};
+pub use unresolved::{UnresolvedCause, UnresolvedInterface};
 
 #[cfg(test)]
 mod tests;

@@ -3,7 +3,7 @@
 mod maps;
 pub(crate) mod range;
 
-use std::sync::{Arc, Weak};
+use std::sync::Arc;
 
 use egui::{DragValue, Ui};
 use ppum_render::colormap::{Colormap, Rgb};
@@ -17,22 +17,22 @@ use crate::controls::Controls;
 use crate::controls::facts::Facts;
 use crate::frames::{FaultOrigin, RenderedFrame};
 use crate::panel_context::PanelContext;
-use crate::stage::ViewPane;
+use crate::viewport::ViewState;
 use crate::widgets::note_of;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
-    let default = stage.frames.newest().map(|frame| frame.default_map());
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let (pane, viewport) = context.active();
+    let default = viewport.frames.newest().map(|frame| frame.default_map());
     let default = default.unwrap_or(ColorOptions::default_map(None));
     let colors = &mut pane.scene.colors;
-    map(ui, colors, &mut stage.controls, default);
+    map(ui, colors, &mut viewport.controls, default);
     scale(ui, colors);
-    range::show(ui, pane, stage);
+    range::show(ui, pane, viewport);
     beyond(ui, &mut pane.scene.colors);
     without_value(ui, &mut pane.scene.colors);
-    colors_note(ui, stage);
-    failure(ui, stage, FaultOrigin::Colors);
+    colors_note(ui, viewport);
+    failure(ui, viewport, FaultOrigin::Colors);
 }
 
 /// The map: which, reversed, in steps.
@@ -105,14 +105,15 @@ fn without_value(ui: &mut Ui, colors: &mut ColorOptions) {
 }
 
 /// Shows the meaning of the colours, and the bounds of all other values.
-fn colors_note(ui: &mut Ui, stage: &mut ViewPane) {
-    let Some(frame) = stage.frames.newest() else { return };
-    let Controls { colors_told, facts, .. } = &mut stage.controls;
-    let is_told = |(of, _): &(Weak<RenderedFrame>, _)| of.as_ptr() == Arc::as_ptr(frame);
-    if !colors_told.as_ref().is_some_and(is_told) {
-        *colors_told = Some((Arc::downgrade(frame), words(frame, facts)));
+fn colors_note(ui: &mut Ui, viewport: &mut ViewState) {
+    let Some(frame) = viewport.frames.newest() else { return };
+    let Controls { color_note, facts, .. } = &mut viewport.controls;
+    // a weak one, which keeps no image
+    let key = Arc::downgrade(frame);
+    if !color_note.as_ref().is_some_and(|(of, _)| of.ptr_eq(&key)) {
+        *color_note = Some((key, words(frame, facts)));
     }
-    if let Some((_, text)) = colors_told {
+    if let Some((_, text)) = color_note {
         note_of(ui, text, LINES);
     }
 }

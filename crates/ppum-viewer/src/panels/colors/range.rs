@@ -12,15 +12,15 @@ use crate::controls::range::{digits, parse, set};
 use crate::controls::whole::Whole;
 use crate::panels::{note, wrong};
 use crate::session::Pane;
-use crate::stage::ViewPane;
+use crate::viewport::ViewState;
 
 /// Digits of a bound that is shown, at least: all that a range has that was found are not read.
 const DIGITS: usize = 5;
 
 /// Shows it.
-pub(super) fn show(ui: &mut Ui, pane: &mut Pane, stage: &mut ViewPane) {
+pub(super) fn show(ui: &mut Ui, pane: &mut Pane, viewport: &mut ViewState) {
     let colors = &mut pane.scene.colors;
-    let bounds = stage.frames.newest().map(|frame| {
+    let bounds = viewport.frames.newest().map(|frame| {
         let norm = &frame.picture.normalization;
         [norm.min(), norm.max()]
     });
@@ -29,7 +29,7 @@ pub(super) fn show(ui: &mut Ui, pane: &mut Pane, stage: &mut ViewPane) {
     if let RangeChoice::Percentiles(p, q) = colors.range {
         percentiles(ui, colors, [p, q]);
     } else {
-        fixed(ui, colors, stage, bounds);
+        fixed(ui, colors, viewport, bounds);
     }
     ui.horizontal_wrapped(|ui| {
         let colors = &mut pane.scene.colors;
@@ -37,7 +37,7 @@ pub(super) fn show(ui: &mut Ui, pane: &mut Pane, stage: &mut ViewPane) {
         if is_symmetric.on_hover_text(tooltip("symmetric")).changed() && colors.symmetric {
             mirror(colors);
         }
-        whole(ui, pane, stage);
+        whole(ui, pane, viewport);
     });
 }
 
@@ -79,7 +79,7 @@ fn percentiles(ui: &mut Ui, colors: &mut ColorOptions, [mut p, mut q]: [f64; 2])
 }
 
 /// The two ends as numbers, those that were found too: whoever changes one fixes both.
-fn fixed(ui: &mut Ui, colors: &mut ColorOptions, stage: &mut ViewPane, bounds: [f64; 2]) {
+fn fixed(ui: &mut Ui, colors: &mut ColorOptions, viewport: &mut ViewState, bounds: [f64; 2]) {
     let mut ends = match colors.range {
         RangeChoice::Fixed(min, max) => [min, max],
         _ => bounds,
@@ -97,9 +97,9 @@ fn fixed(ui: &mut Ui, colors: &mut ColorOptions, stage: &mut ViewPane, bounds: [
         }
     });
     if let Some(end) = changed {
-        stage.controls.refused = set(colors, ends, end).err();
+        viewport.controls.refused = set(colors, ends, end).err();
     }
-    if let Some(refused) = &stage.controls.refused {
+    if let Some(refused) = &viewport.controls.refused {
         ui.label(RichText::new(refused).color(wrong(ui)));
     }
 }
@@ -113,9 +113,9 @@ fn mirror(colors: &mut ColorOptions) {
 }
 
 /// The range of the whole body, found in the background.
-fn whole(ui: &mut Ui, pane: &Pane, stage: &mut ViewPane) {
-    let Some(opened) = &stage.opened else { return };
-    let controls = &mut stage.controls;
+fn whole(ui: &mut Ui, pane: &Pane, viewport: &mut ViewState) {
+    let Some(opened) = &viewport.opened else { return };
+    let controls = &mut viewport.controls;
     let count = opened.dataset.steps.len();
     let step = pane.scene.subject.step_of(&opened.dataset);
     let here = ("whole plate", "Finds the range of the whole plate and fixes it", step..step + 1);
@@ -129,7 +129,7 @@ fn whole(ui: &mut Ui, pane: &Pane, stage: &mut ViewPane) {
         controls.whole = match controls.whole {
             Some(_) => None,
             None => {
-                let shown = (&pane.scene, stage.pair.minus().cloned());
+                let shown = (&pane.scene, viewport.pair.minus().cloned());
                 Some(Whole::new(ui.ctx(), &opened.dataset, shown, steps))
             }
         };

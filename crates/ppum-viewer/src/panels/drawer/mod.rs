@@ -14,9 +14,11 @@ use crate::session::DrawerPage;
 use crate::widgets::button;
 
 /// Shows the names of all pages, and the open one below them.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let Some(page) = desk.session.drawer else {
-        Panel::bottom("pages").resizable(false).show(ui, |ui| ui.horizontal(|ui| tabs(ui, desk)));
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let Some(page) = context.session.drawer else {
+        Panel::bottom("pages")
+            .resizable(false)
+            .show(ui, |ui| ui.horizontal(|ui| tabs(ui, context)));
         return;
     };
     let most = (0.7 * ui.available_height()).max(120.0);
@@ -24,9 +26,9 @@ pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
         Panel::bottom("drawer").resizable(true).default_size(280.0).size_range(120.0..=most);
     panel.show(ui, |ui| {
         ui.horizontal(|ui| {
-            tabs(ui, desk);
+            tabs(ui, context);
             if button(ui, "✗", "Close the drawer").clicked() {
-                desk.session.drawer = None;
+                context.session.drawer = None;
             }
         });
         ui.separator();
@@ -35,22 +37,22 @@ pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
         ui.allocate_ui(room, |ui| {
             ui.set_min_size(room);
             match page {
-                DrawerPage::Plot => plot::show(ui, desk),
-                DrawerPage::Tips => tips::show(ui, desk),
-                DrawerPage::Series => series::show(ui, desk),
-                DrawerPage::Solver => solver::show(ui, desk),
-                DrawerPage::Problem => problem::show(ui, desk),
+                DrawerPage::Plot => plot::show(ui, context),
+                DrawerPage::Tips => tips::show(ui, context),
+                DrawerPage::Series => series::show(ui, context),
+                DrawerPage::Solver => solver::show(ui, context),
+                DrawerPage::Problem => problem::show(ui, context),
             }
         });
     });
 }
 
 /// The names of the pages; a click opens one, or closes it.
-fn tabs(ui: &mut Ui, desk: &mut PanelContext<'_>) {
+fn tabs(ui: &mut Ui, context: &mut PanelContext<'_>) {
     for page in DrawerPage::ALL {
-        let is_open = desk.session.drawer == Some(page);
+        let is_open = context.session.drawer == Some(page);
         if ui.selectable_label(is_open, name(page)).clicked() {
-            desk.actions.push(Action::Drawer(page));
+            context.actions.push(Action::Drawer(page));
         }
     }
 }

@@ -3,29 +3,29 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::{Align2, Color32, ComboBox, DragValue, FontId, Rect, Sense, Stroke, Ui, vec2};
+use egui::{Align2, Color32, ComboBox, DragValue, FontId, Rect, Stroke, Ui, vec2};
 use ppum::crack::{Crack, tips};
-use ppum_figure::plot::{LEAST, Plot, PlotArea, plot};
+use ppum_figure::plot::{LEAST, Plot, plot};
 use ppum_scene::profile::ProfileCurve;
 
+use crate::measure::plot_request::{CurveValues, PlotRequest};
+use crate::measure::tool::Tool;
 use crate::panel_context::PanelContext;
-use crate::reading::plot_request::{CurveValues, PlotRequest};
-use crate::reading::tool::Tool;
+use crate::save_target::{SaveTarget, has_extension, replace};
 use crate::session::Pane;
-use crate::shapes::{self, ImagePlacement};
-use crate::stage::ViewPane;
-use crate::widgets::chart::darkened;
+use crate::viewport::ViewState;
+use crate::widgets::chart::{PlotWidget, scaled_chart};
 use crate::widgets::entry::entry;
 use crate::widgets::wrong;
 use crate::widgets::{button, note_folder};
 
 /// Shows the page.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
-    ui.horizontal_wrapped(|ui| chooser(ui, pane, stage));
-    stage.reading.marked = None;
-    let Some(frame) = stage.frames.newest().cloned() else { return };
-    if frame.subtracted.is_some() {
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let (pane, viewport) = context.active();
+    ui.horizontal_wrapped(|ui| chooser(ui, pane, viewport));
+    viewport.tools.marked = None;
+    let Some(frame) = viewport.frames.newest().cloned() else { return };
+    if frame.left.is_some() {
         ui.weak("Of the view on the right alone: a curve is of one field.");
     }
     let Some(asked) = PlotRequest::of(pane, &frame.field) else {
@@ -33,8 +33,8 @@ pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
         return;
     };
     let theirs = asked.clone();
-    stage.reading.plot.ask(&asked, false, ui.ctx(), move |watcher| theirs.find(watcher));
-    let newest = stage.reading.plot.newest().cloned();
+    viewport.tools.plot.ask(&asked, false, ui.ctx(), move |watcher| theirs.find(watcher));
+    let newest = viewport.tools.plot.newest().cloned();
     let Some((known, found)) = newest else {
         ui.spinner();
         return;
@@ -44,27 +44,27 @@ pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
         ui.ctx().request_repaint_after(std::time::Duration::from_millis(15));
     }
     if found.is_ok() {
-        stage.reading.good = Some((known.along, Arc::clone(&found)));
+        viewport.tools.good = Some((known.along, Arc::clone(&found)));
     }
-    let good = stage.reading.good.clone().filter(|(along, _)| *along == asked.along);
+    let good = viewport.tools.good.clone().filter(|(along, _)| *along == asked.along);
     let values = good.as_ref().and_then(|(_, found)| found.as_ref().as_ref().ok());
     let page = values.map(|values| values.plot(pane.plot.log));
     ui.horizontal_wrapped(|ui| {
         settings(ui, pane);
         if let (Some(values), Some(page)) = (values, &page) {
-            save(ui, stage, values, page);
+            save(ui, viewport, values, page);
         }
     });
     if let Err(reason) = &*found {
         ui.colored_label(ui.visuals().error_fg_color, reason);
     }
     if let (Some(values), Some(page)) = (values, &page) {
-        graph(ui, pane, stage, values, page);
+        graph(ui, pane, viewport, values, page);
     }
 }
 
 /// Buttons for the files of a plot.
-fn save(ui: &mut Ui, stage: &mut ViewPane, values: &CurveValues, drawn: &Plot) {
+fn save(ui: &mut Ui, viewport: &mut ViewState, values: &CurveValues, drawn: &Plot) {
     let page = || plot(drawn, PAGE);
     let files: [(&str, &dyn Fn() -> Vec<u8>); 4] = [
         ("csv", &|| values.table.csv().into_bytes()),
@@ -72,25 +72,25 @@ fn save(ui: &mut Ui, stage: &mut ViewPane, values: &CurveValues, drawn: &Plot) {
         ("pdf", &|| page().pdf(96.0, &[])),
         ("png", &|| ppum_render::png::encode_at(&page().image(), None, &[]).unwrap_or_default()),
     ];
-    outputs(ui, stage, ("plot", &files), &|| values.table.csv());
+    outputs(ui, viewport, ("plot", &files), &|| values.table.csv());
 }
 
 /// Size of the page of a plot that is written to a file, as `ppum plot` has it.
 const PAGE: [u32; 2] = [900, 600];
 
 /// Which curve.
-fn chooser(ui: &mut Ui, pane: &mut Pane, stage: &mut ViewPane) {
-    let cracks = stage.cracks(pane);
+fn chooser(ui: &mut Ui, pane: &mut Pane, viewport: &mut ViewState) {
+    let cracks = viewport.cracks(pane);
     let cracks = cracks.as_deref().unwrap_or_default();
     let chosen = pane.curve.as_ref().map_or("no curve".into(), name);
     let list = ComboBox::from_id_salt("curve").selected_text(chosen).width(150.0);
     let list = list.show_ui(ui, |ui| {
         let before = pane.curve;
-        for (along, name) in choices(cracks, stage) {
+        for (along, name) in choices(cracks, viewport) {
             ui.selectable_value(&mut pane.curve, along, name);
         }
         if pane.curve != before {
-            stage.reading.refused = None;
+            viewport.tools.refused = None;
             let is_ray = matches!(pane.curve, Some(ProfileCurve::Ray { .. }));
             pane.plot.log = [is_ray; 2];
         }
@@ -102,24 +102,24 @@ fn chooser(ui: &mut Ui, pane: &mut Pane, stage: &mut ViewPane) {
         (Tool::Ray, "Ray", "Draw a ray"),
         (Tool::Crack, "Crack", "Click a crack"),
     ] {
-        let is_on = stage.reading.tool == Some(tool);
+        let is_on = viewport.tools.tool == Some(tool);
         let chosen = ui.selectable_label(is_on, sign).on_hover_text(tool.hint());
         chosen.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_on, name));
         if chosen.clicked() {
-            stage.reading.tool = (!is_on).then_some(tool);
+            viewport.tools.tool = (!is_on).then_some(tool);
             if tool == Tool::Ray {
                 pane.plot.log = [true; 2];
             }
         }
     }
-    numbers(ui, pane, stage);
+    numbers(ui, pane, viewport);
 }
 
 /// The curves of a step that need no drawing.
-fn choices(cracks: &[Crack], stage: &ViewPane) -> Vec<(Option<ProfileCurve>, String)> {
+fn choices(cracks: &[Crack], viewport: &ViewState) -> Vec<(Option<ProfileCurve>, String)> {
     const MOST: usize = 100;
     let mut all = vec![None];
-    all.push(stage.middle());
+    all.push(viewport.middle());
     all.extend((0..cracks.len().min(MOST)).map(|index| Some(ProfileCurve::Crack { index })));
     for tip in 0..tips(cracks).count().min(MOST) {
         all.push(Some(ProfileCurve::Around { tip, radius: None }));
@@ -143,7 +143,7 @@ fn name(along: &ProfileCurve) -> String {
 }
 
 /// The numbers of the curve, to be edited.
-fn numbers(ui: &mut Ui, pane: &mut Pane, stage: &mut ViewPane) {
+fn numbers(ui: &mut Ui, pane: &mut Pane, viewport: &mut ViewState) {
     let Some(along) = pane.curve else { return };
     let (hint, values): (&str, Vec<f64>) = match along {
         ProfileCurve::Line { from, to, .. } => ("x, y to x, y", [from, to].concat()),
@@ -165,12 +165,12 @@ fn numbers(ui: &mut Ui, pane: &mut Pane, stage: &mut ViewPane) {
     if let Some(text) = entry(ui, "Numbers of the curve", &texts.join(", "), hint, 190.0) {
         let changed = with_numbers(along, &text, &values)
             .ok_or_else(|| format!("“{}” is not what is needed: {hint}", text.trim()));
-        match changed.and_then(|along| stage.refusal(pane, &along).map_or(Ok(along), Err)) {
-            Ok(changed) => (pane.curve, stage.reading.refused) = (Some(changed), None),
-            Err(reason) => stage.reading.refused = Some(reason),
+        match changed.and_then(|along| viewport.refusal(pane, &along).map_or(Ok(along), Err)) {
+            Ok(changed) => (pane.curve, viewport.tools.refused) = (Some(changed), None),
+            Err(reason) => viewport.tools.refused = Some(reason),
         }
     }
-    if let Some(reason) = &stage.reading.refused {
+    if let Some(reason) = &viewport.tools.refused {
         ui.colored_label(wrong(ui), reason);
     }
 }
@@ -230,64 +230,62 @@ fn settings(ui: &mut Ui, pane: &mut Pane) {
 /// Ends of names of files, and what is written into them.
 type PlotFiles<'a> = [(&'a str, &'a dyn Fn() -> Vec<u8>)];
 
-/// Buttons that copy and write files, with what became of the last one; they go beside the dataset
+/// Buttons that copy and write files, with the result of the last one; they go beside the dataset
 /// and are named after it and what they hold unless another name is given.
 pub(crate) fn outputs(
     ui: &mut Ui,
-    stage: &mut ViewPane,
-    (what, files): (&str, &PlotFiles<'_>),
+    viewport: &mut ViewState,
+    (what, files): (&'static str, &PlotFiles<'_>),
     text: &dyn Fn() -> String,
 ) {
     if ui.button("Copy CSV").clicked() {
         ui.ctx().copy_text(text());
-        stage.tell("Copied: the table, with all digits");
+        viewport.tell("Copied: the table, with all digits");
     }
-    write(ui, stage, what, files);
-}
-
-fn write(ui: &mut Ui, stage: &mut ViewPane, what: &str, files: &PlotFiles<'_>) {
-    let input = stage.opened.as_ref().and_then(|opened| opened.path.clone());
-    let inputs: Vec<&Path> = input.as_deref().into_iter().collect();
+    let input = viewport.opened.as_ref().and_then(|opened| opened.path.clone());
     let dataset = input.clone().unwrap_or_else(|| PathBuf::from("solution"));
-    let stem = dataset.file_stem().unwrap_or_default().to_string_lossy();
-    let name = format!("{stem}-{what}");
-    let output = &mut stage.reading.output;
-    output.propose(dataset.with_file_name(&name));
+    let name = format!("{}-{what}", dataset.file_stem().unwrap_or_default().display());
+    let target = viewport.tools.targets.entry(what).or_default();
     let label = ui.label("File");
-    let field = egui::TextEdit::singleline(&mut output.path).hint_text(&name).desired_width(150.0);
+    let field = egui::TextEdit::singleline(&mut target.name).hint_text(&name).desired_width(150.0);
     ui.add(field).labelled_by(label.id);
+    let written = target.name.trim();
+    let file = dataset.with_file_name(if written.is_empty() { &name } else { written });
     for (end, bytes) in files {
         let end_shown = end.to_uppercase();
         if button(ui, &end_shown, &format!("Save {end_shown}")).clicked() {
-            output.save(end, &bytes(), &inputs);
+            target.result = Some(save_table(target, &file, (end, bytes), input.as_deref()));
         }
     }
-    match output.told() {
-        Some(Ok(path)) => {
-            ui.add(egui::Label::new(format!("Saved {path}")).truncate()).on_hover_text(path);
-        }
-        Some(Err(reason)) => {
-            ui.colored_label(ui.visuals().error_fg_color, reason);
-        }
-        None => note_folder(ui, &output.file()),
+    match &target.result {
+        Some(Ok(text)) => drop(ui.add(egui::Label::new(text).truncate()).on_hover_text(text)),
+        Some(Err(_)) => target.show_result(ui),
+        None => note_folder(ui, &file),
     }
 }
 
-/// The plot; the pointer in it marks the point on the body and reads the values there.
-fn graph(ui: &mut Ui, pane: &Pane, stage: &mut ViewPane, values: &CurveValues, drawn: &Plot) {
-    let room = ui.available_size().max(vec2(LEAST[0] as f32, LEAST[1] as f32) * SMALLER);
-    let (rect, response) = ui.allocate_exact_size(room, Sense::hover());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Plotted curves"));
-    let size = [rect.width(), rect.height()].map(|points| ((points / SMALLER) as u32).max(1));
-    let placed = ImagePlacement::new(rect.min, SMALLER);
-    let painter = ui.painter_at(rect);
-    let mut page = plot(drawn, size);
-    if ui.visuals().dark_mode {
-        page = darkened(page);
+/// Writes a file under a name with an end of its own.
+fn save_table(
+    target: &mut SaveTarget,
+    file: &Path,
+    (end, bytes): (&str, &dyn Fn() -> Vec<u8>),
+    dataset: Option<&Path>,
+) -> Result<String, String> {
+    let has_end = has_extension(file, &[end]);
+    let path = if has_end { file.to_owned() } else { file.with_added_extension(end) };
+    if let Some(reason) = target.refuses(&path, &[end], dataset) {
+        return Err(reason);
     }
-    painter.rect_filled(rect, 0.0, shapes::color(page.paper));
-    shapes::draw(&painter, placed, &page.items);
-    let area = PlotArea::new(drawn, size);
+    let written = replace(&path, &bytes()).map(|()| format!("Saved {}", path.display()));
+    written.map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// The plot; the pointer in it marks the point on the body and reads the values there.
+fn graph(ui: &mut Ui, pane: &Pane, viewport: &mut ViewState, values: &CurveValues, drawn: &Plot) {
+    let room = ui.available_size().max(vec2(LEAST[0] as f32, LEAST[1] as f32) * SMALLER);
+    let PlotWidget { response, placed, area } =
+        scaled_chart(ui, "Plotted curves", drawn, room, SMALLER);
+    let (rect, painter) = (response.rect, ui.painter_at(response.rect));
     let Some(at) = response.hover_pos() else { return };
     let column = f64::from((at.x - rect.min.x) / SMALLER);
     let Some((row, spot)) = values.nearest(area.across(column), pane.plot.log[0]) else { return };
@@ -299,7 +297,7 @@ fn graph(ui: &mut Ui, pane: &Pane, stage: &mut ViewPane, values: &CurveValues, d
             painter.circle(at, 3.5, ink, Stroke::NONE);
         }
     }
-    stage.reading.marked = Some(spot);
+    viewport.tools.marked = Some(spot);
     lettered(ui, &painter, rect, &values.words(row));
 }
 

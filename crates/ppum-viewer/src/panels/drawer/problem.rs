@@ -18,39 +18,41 @@ use crate::shapes;
 use crate::solving::marks::HighlightStyle;
 use crate::solving::preview::Preview;
 use crate::solving::{
-    Mark, PHASES, RunningSolution, SolutionOutcome, SolverPane, editor_id, phase_number,
+    Mark, PHASES, RunningSolution, SolutionOutcome, SolverState, editor_id, phase_number,
 };
-use crate::stage::ViewPane;
+use crate::viewport::ViewState;
 use crate::widgets::{button, elided};
 
 /// Longest text that is written in a window: every image lays all of it out.
 pub const MAX_LENGTH: usize = 200_000;
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let Some(mut draft) = desk.session.draft.take() else {
-        let has_dataset = desk.active().1.opened.is_some();
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let Some(mut draft) = context.session.draft.take() else {
+        let has_dataset = context.active().1.opened.is_some();
         let empty =
             if has_dataset { "This dataset holds no problem." } else { "No problem is open." };
         ui.label(empty);
         ui.horizontal(|ui| {
             if ui.button("Open a problem file…").clicked() {
-                desk.actions.push(Action::Open);
+                context.actions.push(Action::Open);
             }
         });
-        return texts_aside(ui, desk);
+        return texts_aside(ui, context);
     };
-    desk.solving.check(&draft);
+    context.solving.check(&draft);
     let room = ui.available_size();
     let is_wide = room.x > 640.0;
     let beside = if is_wide { (0.36 * room.x).clamp(230.0, 460.0) } else { room.x };
     let width = if is_wide { room.x - beside - 12.0 } else { room.x };
     let height = if is_wide { room.y } else { (0.5 * room.y).max(60.0) };
     let both = |ui: &mut Ui| {
-        ui.allocate_ui(vec2(width, height), |ui| editor(ui, &mut draft, desk.solving));
+        ui.allocate_ui(vec2(width, height), |ui| editor(ui, &mut draft, context.solving));
         ui.vertical(|ui| {
             ui.set_width(beside);
-            ScrollArea::vertical().id_salt("told").show(ui, |ui| solution_panel(ui, &draft, desk));
+            ScrollArea::vertical()
+                .id_salt("told")
+                .show(ui, |ui| solution_panel(ui, &draft, context));
         });
     };
     if is_wide {
@@ -58,11 +60,11 @@ pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
     } else {
         ui.vertical(both);
     }
-    desk.session.draft = Some(draft);
+    context.session.draft = Some(draft);
 }
 
 /// The text with the numbers of its lines.
-fn editor(ui: &mut Ui, draft: &mut ProblemDraft, solving: &mut SolverPane) {
+fn editor(ui: &mut Ui, draft: &mut ProblemDraft, solving: &mut SolverState) {
     if draft.text.len() > MAX_LENGTH {
         ui.label("This text is too long to be written here. Its file is watched: save it elsewhere, and it is read again.");
         return;
@@ -95,7 +97,7 @@ fn editor(ui: &mut Ui, draft: &mut ProblemDraft, solving: &mut SolverPane) {
             egui::WidgetInfo::labeled(egui::Role::MultilineTextInput, true, "Text of the problem")
         });
         numbers(ui, &shown, &font, gutter);
-        if let Some(place) = solving.wanted.take() {
+        if let Some(place) = solving.jump.take() {
             go(ui, &mut shown, &draft.text, place);
         }
     });
@@ -156,25 +158,25 @@ fn still_there(before: &str, now: &str, marks: &[Mark]) -> Vec<Mark> {
 }
 
 /// Buttons for the text, and the state of its solution.
-fn solution_panel(ui: &mut Ui, draft: &ProblemDraft, desk: &mut PanelContext<'_>) {
-    buttons(ui, draft, desk);
-    texts_aside(ui, desk);
-    if let Some(running) = desk.solving.running() {
+fn solution_panel(ui: &mut Ui, draft: &ProblemDraft, context: &mut PanelContext<'_>) {
+    buttons(ui, draft, context);
+    texts_aside(ui, context);
+    if let Some(running) = context.solving.running() {
         progress(ui, running);
     }
-    let checked = desk.solving.checked().cloned();
+    let checked = context.solving.checked().cloned();
     if let Some(checked) = &checked {
-        mistakes(ui, &checked.marks, desk.solving);
+        mistakes(ui, &checked.marks, context.solving);
     }
-    failure(ui, desk);
-    solutions(ui, desk);
-    let opened = desk.active().1.opened.as_ref();
+    failure(ui, context);
+    solutions(ui, context);
+    let opened = context.active().1.opened.as_ref();
     let solved = opened.and_then(|opened| opened.dataset.problem.as_ref());
     if solved.is_some_and(|text| *text != draft.text) {
         ui.horizontal_wrapped(|ui| {
             ui.label("What is shown was solved from another text.");
             if ui.button("Show that text").clicked() {
-                desk.actions.push(Action::ShowText);
+                context.actions.push(Action::ShowText);
             }
         });
     }
@@ -184,17 +186,17 @@ fn solution_panel(ui: &mut Ui, draft: &ProblemDraft, desk: &mut PanelContext<'_>
 }
 
 /// Changed texts that have made place for others.
-fn texts_aside(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    for (number, text) in desk.files.texts().iter().enumerate() {
+fn texts_aside(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    for (number, text) in context.files.texts().iter().enumerate() {
         ui.horizontal(|ui| {
             let name = format!("Back to {} *", elided(&text.name(), LONGEST_NAME));
             let hint =
                 "A changed text that made place for another one; it is kept when the window closes";
             if ui.button(name).on_hover_text(hint).clicked() {
-                desk.actions.push(Action::TakeText(number));
+                context.actions.push(Action::TakeText(number));
             }
             if button(ui, "✗", "Discard these changes").clicked() {
-                desk.actions.push(Action::DiscardText(number));
+                context.actions.push(Action::DiscardText(number));
             }
         });
     }
@@ -204,9 +206,10 @@ fn texts_aside(ui: &mut Ui, desk: &mut PanelContext<'_>) {
 const LONGEST_NAME: usize = 28;
 
 /// Why the last solution has left nothing.
-fn failure(ui: &mut Ui, desk: &PanelContext<'_>) {
-    let Some(outcome) = &desk.solving.outcome else { return };
-    let mut shown = desk.stages.iter().filter_map(|stage| stage.opened.as_ref()?.solution.as_ref());
+fn failure(ui: &mut Ui, context: &PanelContext<'_>) {
+    let Some(outcome) = &context.solving.outcome else { return };
+    let mut shown =
+        context.viewports.iter().filter_map(|viewport| viewport.opened.as_ref()?.solution.as_ref());
     if shown.any(|solution| solution.outcome == *outcome) {
         // it is told of what is shown
         return;
@@ -224,18 +227,18 @@ fn failure(ui: &mut Ui, desk: &PanelContext<'_>) {
 
 /// Shows the solution, if it was solved here or no file has it: each solution has its own button,
 /// which goes once it is saved.
-fn solutions(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let are_two = desk.stages.len() > 1;
-    for (pane, stage) in desk.stages.iter().enumerate() {
-        let Some(opened) = &stage.opened else { continue };
-        let is_same = |other: &ViewPane| {
+fn solutions(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let are_two = context.viewports.len() > 1;
+    for (pane, viewport) in context.viewports.iter().enumerate() {
+        let Some(opened) = &viewport.opened else { continue };
+        let is_same = |other: &ViewState| {
             other.opened.as_ref().is_some_and(|o| Arc::ptr_eq(&o.dataset, &opened.dataset))
         };
         let outcome = opened.solution.as_ref().map(|solution| &solution.outcome);
-        if desk.stages[..pane].iter().any(is_same) {
+        if context.viewports[..pane].iter().any(is_same) {
             continue;
         }
-        if opened.path.is_some() && (outcome.is_none() || pane != desk.session.active) {
+        if opened.path.is_some() && (outcome.is_none() || pane != context.session.active) {
             continue;
         }
         let place = match pane {
@@ -246,7 +249,7 @@ fn solutions(ui: &mut Ui, desk: &mut PanelContext<'_>) {
         ui.horizontal_wrapped(|ui| {
             ui.label(sentence(&place, outcome, opened.path.is_none()));
             if opened.path.is_none() && ui.button("Save the dataset…").clicked() {
-                desk.actions.push(Action::SaveDatasetOf(pane));
+                context.actions.push(Action::SaveDatasetOf(pane));
             }
         });
         match outcome {
@@ -296,12 +299,12 @@ fn show_preview(ui: &mut Ui, preview: &Preview) {
     shapes::draw(&ui.painter_at(rect), shapes::ImagePlacement::new(rect.min, 1.0), &items);
 }
 
-fn buttons(ui: &mut Ui, draft: &ProblemDraft, desk: &mut PanelContext<'_>) {
+fn buttons(ui: &mut Ui, draft: &ProblemDraft, context: &mut PanelContext<'_>) {
     ui.horizontal_wrapped(|ui| {
-        let is_running = desk.solving.running().is_some();
+        let is_running = context.solving.running().is_some();
         let solve = ui.add_enabled(!is_running, egui::Button::new("Solve"));
         if solve.on_hover_text("Ctrl+Enter").clicked() {
-            desk.actions.push(Action::Solve);
+            context.actions.push(Action::Solve);
         }
         let is_changed = draft.is_changed();
         let can_save = draft.path.is_some() && is_changed;
@@ -310,19 +313,19 @@ fn buttons(ui: &mut Ui, draft: &ProblemDraft, desk: &mut PanelContext<'_>) {
             .on_hover_text("The text into its file")
             .clicked()
         {
-            desk.actions.push(Action::SaveProblem);
+            context.actions.push(Action::SaveProblem);
         }
         if ui.button("Save as…").clicked() {
-            desk.actions.push(Action::SaveProblemAs);
+            context.actions.push(Action::SaveProblemAs);
         }
         let name = draft.path.as_deref().map_or("no file yet".to_owned(), crate::files::name);
         ui.weak(if is_changed { format!("{name} *") } else { name });
         if button(ui, "✗", "Close the problem").clicked() {
-            desk.actions.push(Action::CloseProblem);
+            context.actions.push(Action::CloseProblem);
         }
         // the last one, so that a second click on it meets nothing
         if is_running && ui.button("Cancel").clicked() {
-            desk.solving.cancel();
+            context.solving.cancel();
         }
     });
 }
@@ -350,7 +353,7 @@ fn progress(ui: &mut Ui, running: &RunningSolution) {
 /// Errors that are listed: nobody reads more of them at a time.
 const SHOWN: Range<usize> = 0..50;
 
-fn mistakes(ui: &mut Ui, marks: &[Mark], solving: &mut SolverPane) {
+fn mistakes(ui: &mut Ui, marks: &[Mark], solving: &mut SolverState) {
     for mark in &marks[SHOWN.start..SHOWN.end.min(marks.len())] {
         let text = match mark.at {
             Some([line, column]) => format!("{line}:{column}  {}", mark.message),
@@ -359,7 +362,7 @@ fn mistakes(ui: &mut Ui, marks: &[Mark], solving: &mut SolverPane) {
         let text = egui::RichText::new(text).color(ui.visuals().error_fg_color);
         let label = ui.add(egui::Button::new(text).wrap().frame(false));
         if label.on_hover_text("Go there").clicked() {
-            solving.wanted = mark.at;
+            solving.jump = mark.at;
         }
     }
     if marks.len() > SHOWN.end {

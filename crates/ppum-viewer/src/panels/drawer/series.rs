@@ -1,7 +1,5 @@
 //! Stress intensity factors and lengths of cracks against the steps of a series.
 
-use std::sync::Arc;
-
 use egui::{ScrollArea, Ui, vec2};
 use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, TipIntensity};
@@ -11,22 +9,19 @@ use crate::panel_context::PanelContext;
 use crate::widgets::chart::chart;
 
 /// Values of each step, as a curve.
-type StepValues = Vec<(String, Vec<[f64; 2]>)>;
+pub(super) type StepValues = Vec<(String, Vec<[f64; 2]>)>;
 
 /// Shows it; a click goes to the step.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
-    let Some(opened) = &stage.opened else { return };
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let (pane, viewport) = context.active();
+    let Some(opened) = &viewport.opened else { return };
     let dataset = &opened.dataset;
     if dataset.steps.len() < 2 {
-        ui.label("This dataset has one step. A series shows its course here.");
+        ui.label("This dataset has one step. Of a series its history is plotted here.");
         return;
     }
-    let known = &mut stage.controls.courses;
-    if known.as_ref().is_none_or(|(of, _)| !Arc::ptr_eq(of, dataset)) {
-        *known = Some((Arc::clone(dataset), plots(dataset)));
-    }
-    let plots = known.clone().map(|(_, plots)| plots).unwrap_or_default();
+    let plots = || plots(dataset);
+    let plots = viewport.controls.histories.get_or_make(dataset.into(), plots).clone();
     let step = pane.scene.subject.step_of(dataset);
     let range = [-0.5, dataset.steps.len() as f64 - 0.5];
     let room = ui.available_size() - vec2(0.0, 14.0);
@@ -71,14 +66,14 @@ pub fn plots(dataset: &Dataset) -> Vec<(&'static str, Plot)> {
         (
             "Load against the steps",
             "load",
-            vec![("load".into(), course(dataset, |step| step.load))],
+            vec![("load".into(), over_steps(dataset, |step| step.load))],
         ),
     ];
     let some = all.into_iter().filter(|(.., values)| values.iter().any(|(_, v)| !v.is_empty()));
     some.map(|(name, label, values)| (name, plot(label, values))).collect()
 }
 
-fn plot(label: &str, values: StepValues) -> Plot {
+pub(super) fn plot(label: &str, values: StepValues) -> Plot {
     let is_one = values.len() == 1;
     let curve = |(name, points): (String, Vec<[f64; 2]>)| {
         let name = if is_one { String::new() } else { name };
@@ -90,7 +85,7 @@ fn plot(label: &str, values: StepValues) -> Plot {
 }
 
 /// A value of each step against its number.
-fn course(dataset: &Dataset, value: impl Fn(&Step) -> f64) -> Vec<[f64; 2]> {
+pub(super) fn over_steps(dataset: &Dataset, value: impl Fn(&Step) -> f64) -> Vec<[f64; 2]> {
     dataset.steps.iter().enumerate().map(|(k, step)| [k as f64, value(step)]).collect()
 }
 
@@ -99,7 +94,7 @@ fn by_tip(dataset: &Dataset, value: impl Fn(&Step, usize) -> Option<f64>) -> Ste
     let count = dataset.steps.iter().map(|step| tips(&step.cracks).count()).max().unwrap_or(0);
     let count = count.min(MOST);
     let curve = |number: usize| {
-        let points = course(dataset, |step| value(step, number).unwrap_or(f64::NAN));
+        let points = over_steps(dataset, |step| value(step, number).unwrap_or(f64::NAN));
         let is_known = points.iter().any(|[_, v]| v.is_finite());
         is_known.then(|| (format!("tip {number}"), points))
     };
@@ -112,7 +107,7 @@ fn by_crack(dataset: &Dataset) -> StepValues {
     let count = count.min(MOST);
     let curve = |number: usize| {
         let length = |step: &Step| step.cracks.get(number).map_or(f64::NAN, |c| c.length());
-        (format!("crack {number}"), course(dataset, length))
+        (format!("crack {number}"), over_steps(dataset, length))
     };
     (0..count).map(curve).collect()
 }

@@ -5,31 +5,32 @@ use egui::{Grid, ScrollArea, Ui, vec2};
 use ppum::dataset::{Dataset, Record, Step, Warning};
 use ppum::quantity::Quantity;
 use ppum::text::trimmed;
-use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve};
+use ppum_figure::plot::Plot;
 use ppum_render::cells;
-use ppum_scene::plots::adaptation;
+use ppum_scene::plots::{NamedDataset, SolverWork, adaptation, history as history_of};
 use ppum_scene::scene::OF_PATCHES;
 use ppum_solve::report;
 
+use super::series::{over_steps, plot};
 use crate::panel_context::PanelContext;
 use crate::session::VisibleRegion;
 use crate::widgets::chart::chart;
 use crate::widgets::{elided, note};
 
 /// Shows it.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
-    let Some(dataset) = stage.opened.as_ref().map(|o| std::sync::Arc::clone(&o.dataset)) else {
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let (pane, viewport) = context.active();
+    let Some(dataset) = viewport.opened.as_ref().map(|o| std::sync::Arc::clone(&o.dataset)) else {
         return;
     };
     let Some(step) = dataset.steps.get(pane.scene.subject.step_of(&dataset)) else { return };
-    patches(ui, desk);
+    patches(ui, context);
     ui.separator();
     let room = ui.available_height();
     ScrollArea::horizontal().id_salt("solver").show(ui, |ui| {
         ui.horizontal_top(|ui| {
             numbers(ui, step, room);
-            warnings(ui, desk, &dataset, step, room);
+            warnings(ui, context, &dataset, step, room);
             if step.record(STOP).is_some() && dataset.steps.len() == 1 {
                 ui.allocate_ui(vec2(180.0, room), |ui| ui.label(ONE_STEP));
             }
@@ -52,9 +53,9 @@ const MOST: usize = 30;
 const LETTERS: usize = 30;
 
 /// Buttons that colour the patches by one of their values.
-fn patches(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
-    let Some(frame) = stage.frames.newest() else { return };
+fn patches(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let (pane, viewport) = context.active();
+    let Some(frame) = viewport.frames.newest() else { return };
     let field = frame.field.field();
     ui.horizontal_wrapped(|ui| {
         ui.label("Colour the patches by");
@@ -126,44 +127,38 @@ const ADAPTATION: &str = "Estimated error against unknowns";
 /// The history of an adaptation; seconds of the phases; of a series residuals and unknowns.
 #[must_use]
 pub fn plots(dataset: &Dataset, step: &Step) -> Vec<(&'static str, Plot)> {
-    let times: Vec<&Record> = step.history.iter().filter(|r| r.unit == "s").collect();
     let history = adaptation(dataset).map(|plot| (ADAPTATION, plot));
     let mut plots: Vec<_> = history.into_iter().collect();
-    if !times.is_empty() {
-        let names = times.iter().map(|record| record.name.clone()).collect();
-        let bars = times.iter().enumerate().map(|(k, record)| [k as f64, record.value]).collect();
-        let x = PlotAxis { names, ..PlotAxis::new("phase", "") };
-        let curves = vec![PlotCurve::new("", bars).with_look(CurveStyle::Bars)];
-        let y = PlotAxis::new("time", "s");
-        plots.push(("Seconds of the phases", Plot { title: String::new(), x, y, curves }));
+    let index = dataset.steps.iter().position(|other| std::ptr::eq(other, step));
+    let named = [NamedDataset { name: "", dataset }];
+    if let Ok(mut phases) = history_of(&named, SolverWork::Seconds, index) {
+        (phases.title, phases.x.label) = (String::new(), "phase".into());
+        plots.push(("Seconds of the phases", phases));
     }
     for (title, name) in
         [("Residual against the steps", "residual"), ("Unknowns against the steps", "unknowns")]
     {
-        let points: Vec<[f64; 2]> = course(dataset, name);
+        let mut points = over_steps(dataset, |step| step.record(name).unwrap_or(f64::NAN));
+        points.retain(|[_, value]| !value.is_nan());
         if points.len() > 1 {
-            let y = PlotAxis::new(name, "");
-            let y = if name == "residual" { y.logarithmic() } else { y };
-            let curves = vec![PlotCurve::new("", points).with_look(CurveStyle::Dotted)];
-            plots.push((
-                title,
-                Plot { title: String::new(), x: PlotAxis::new("step", ""), y, curves },
-            ));
+            let mut plot = plot(name, vec![(String::new(), points)]);
+            if name == "residual" {
+                plot.y = plot.y.logarithmic();
+            }
+            plots.push((title, plot));
         }
     }
     plots
 }
 
-/// A number of the solver in all steps that have it.
-fn course(dataset: &Dataset, name: &str) -> Vec<[f64; 2]> {
-    let value =
-        |step: &Step| step.history.iter().find(|record| record.name == name).map(|r| r.value);
-    let steps = dataset.steps.iter().enumerate();
-    steps.filter_map(|(k, step)| Some([k as f64, value(step)?])).collect()
-}
-
 /// Shows the warnings of the diagnostics; a click flies there.
-fn warnings(ui: &mut Ui, desk: &mut PanelContext<'_>, dataset: &Dataset, step: &Step, height: f32) {
+fn warnings(
+    ui: &mut Ui,
+    context: &mut PanelContext<'_>,
+    dataset: &Dataset,
+    step: &Step,
+    height: f32,
+) {
     ScrollArea::vertical().id_salt("warnings").max_height(height).show(ui, |ui| {
         ui.vertical(|ui| {
             ui.set_width(if step.warnings.is_empty() { 90.0 } else { 320.0 });
@@ -174,16 +169,16 @@ fn warnings(ui: &mut Ui, desk: &mut PanelContext<'_>, dataset: &Dataset, step: &
                 let text = format!("⚠ {}", warning.message);
                 let label = ui.add(egui::Button::new(text).wrap().frame(false));
                 if label.on_hover_text("Fly there").clicked() {
-                    fly(desk, dataset, warning);
+                    fly(context, dataset, warning);
                 }
             }
         });
     });
 }
 
-fn fly(desk: &mut PanelContext<'_>, dataset: &Dataset, warning: &Warning) {
+fn fly(context: &mut PanelContext<'_>, dataset: &Dataset, warning: &Warning) {
     let Some(at) = warning.at else { return };
     let size = dataset.domain.bounds.size();
-    let (pane, stage) = desk.active();
-    stage.fly_to(pane, Some(VisibleRegion { center: at.into(), width: 0.2 * size.x.max(size.y) }));
+    let width = 0.2 * size.x.max(size.y);
+    context.active().1.camera.fly_to(Some(VisibleRegion { center: at.into(), width }));
 }

@@ -8,31 +8,31 @@ use ppum_scene::table::{Column, NumberTable};
 
 use super::plot::outputs;
 use crate::actions::Action;
+use crate::measure::words::number;
 use crate::panel_context::PanelContext;
-use crate::reading::words::number;
 use crate::widgets::button;
 
 /// Shows the table; a click on a line flies to its tip.
-pub fn show(ui: &mut Ui, desk: &mut PanelContext<'_>) {
-    let (pane, stage) = desk.active();
-    let Some(opened) = stage.opened.clone() else { return };
-    stage.controls.facts.look_up(&opened.dataset, pane.scene.subject.step_of(&opened.dataset));
-    let tips = std::mem::take(&mut stage.controls.facts.tips);
-    let places = stage.controls.facts.places.unwrap_or_else(|| places(&opened.dataset));
-    rows(ui, desk, &places, &tips);
-    desk.active().1.controls.facts.tips = tips;
+pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let (pane, viewport) = context.active();
+    let Some(opened) = viewport.opened.clone() else { return };
+    viewport.controls.facts.look_up(&opened.dataset, pane.scene.subject.step_of(&opened.dataset));
+    let tips = std::mem::take(&mut viewport.controls.facts.tips);
+    let places = viewport.controls.facts.places.unwrap_or_else(|| places(&opened.dataset));
+    rows(ui, context, &places, &tips);
+    context.active().1.controls.facts.tips = tips;
 }
 
 /// The rows that are seen: there may be thousands.
-fn rows(ui: &mut Ui, desk: &mut PanelContext<'_>, places: &LocationText, tips: &[Tip]) {
+fn rows(ui: &mut Ui, context: &mut PanelContext<'_>, places: &LocationText, tips: &[Tip]) {
     if tips.is_empty() {
         ui.label("This step has no crack tips.");
         return;
     }
     let csv = || table(tips).csv();
     let bytes = || csv().into_bytes();
-    let (_, stage) = desk.active();
-    ui.horizontal_wrapped(|ui| outputs(ui, stage, ("tips", &[("csv", &bytes)]), &csv));
+    let (_, viewport) = context.active();
+    ui.horizontal_wrapped(|ui| outputs(ui, viewport, ("tips", &[("csv", &bytes)]), &csv));
     let area = ScrollArea::both().auto_shrink([false, false]);
     // the heads go along
     let (height, all) = (ui.spacing().interact_size.y, tips.len() + 1);
@@ -51,7 +51,7 @@ fn rows(ui: &mut Ui, desk: &mut PanelContext<'_>, places: &LocationText, tips: &
             for (number, tip) in tips.iter().enumerate().take(last).skip(seen.start) {
                 let name = format!("Fly to tip {number}");
                 if button(ui, &number.to_string(), &name).clicked() {
-                    desk.actions.push(Action::Tip(number));
+                    context.actions.push(Action::Tip(number));
                 }
                 row(ui, tip, &places.show(tip.at.into()));
             }
@@ -79,23 +79,9 @@ fn row(ui: &mut Ui, tip: &Tip, at: &str) {
 /// The tips with all digits.
 #[must_use]
 pub fn table(tips: &[Tip]) -> NumberTable {
-    let names = [
-        "tip",
-        "crack",
-        "x",
-        "y",
-        "angle",
-        "k1",
-        "k2",
-        "t_stress",
-        "j",
-        "g",
-        "growth_angle",
-        "relative_error",
-        "spread",
-    ];
+    let names = "tip crack x y angle k1 k2 t_stress j g growth_angle relative_error spread";
     let units = |name: &str| if name.ends_with("angle") { "rad" } else { "" };
-    let columns = names.map(|name| Column::new(name, units(name))).to_vec();
+    let columns = names.split(' ').map(|name| Column::new(name, units(name))).collect();
     let row = |(number, tip): (usize, &Tip)| {
         let Tip { crack, at: [x, y], angle, .. } = *tip;
         let error = tip.relative_error();

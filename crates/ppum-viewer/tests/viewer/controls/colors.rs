@@ -52,7 +52,7 @@ fn scales_are_chosen_and_one_that_cannot_be_is_told() {
     assert_eq!(frame(&window).picture.normalization.scale(), Scale::Linear);
     assert!(window.query_by_label_contains("a logarithmic scale cannot begin at").is_some());
     click(&mut window, "auto");
-    let failure = window.state().stages[0].frames.failure();
+    let failure = window.state().viewports[0].frames.failure();
     assert_eq!(frame(&window).picture.normalization.scale(), Scale::Log, "{failure:?}");
     assert!(window.query_by_label_contains("a logarithmic scale cannot").is_none());
 }

@@ -14,7 +14,7 @@ use crate::kit::settle;
 /// The quantity of the picture beside a tip, and that of the plate with something replaced.
 fn both(window: &super::Window, replacements: &Replacements) -> [f64; 2] {
     let frame = frame(window);
-    let view = frame.wanted.view;
+    let view = frame.request.view;
     let tip = view.pixel_of_offset(ppum::vec2::vec2(0.5, 0.0) - view.center);
     // close to the border of two cells, where patches overlap and the weight matters
     let [i, j] = [tip.x as u32 + 8, tip.y as u32 - 30];
@@ -99,7 +99,7 @@ fn a_quantity_of_the_file_is_replaced() {
     write(&mut window, "Formula of spread", "exx + 1");
     assert_eq!(scene(&window).subject.defined("spread"), Some("exx + 1"));
     let frame_of = frame(&window);
-    let view = frame_of.wanted.view;
+    let view = frame_of.request.view;
     let ppum_scene::drawing::RasterValues::Double(raster) = &frame_of.drawn.values else {
         panic!("pictures are of double precision")
     };

@@ -31,7 +31,7 @@ pub(crate) fn scene(window: &Window) -> SceneRequest {
 }
 
 pub(crate) fn frame(window: &Window) -> Arc<RenderedFrame> {
-    let newest = window.state().stages[0].frames.newest();
+    let newest = window.state().viewports[0].frames.newest();
     Arc::clone(newest.expect("there is a picture"))
 }
 

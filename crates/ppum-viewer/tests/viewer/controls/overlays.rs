@@ -87,7 +87,7 @@ fn the_deformed_plate_leaves_out_what_it_does_not_have() {
     click(&mut window, "patches");
     window.key_press(Key::D);
     settle(&mut window);
-    assert!(window.state().stages[0].frames.failure().is_none());
+    assert!(window.state().viewports[0].frames.failure().is_none());
     assert!(frame(&window).factor.is_some());
     assert!(window.get_by_label("rings").accesskit_node().is_disabled());
     assert!(!window.get_by_label("cells").accesskit_node().is_disabled());

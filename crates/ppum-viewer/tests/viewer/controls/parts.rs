@@ -41,7 +41,7 @@ fn a_patch_is_picked_on_the_plate() {
     let mut window = plate_window();
     open(&mut window, "Parts");
     click(&mut window, "Pick a patch on the plate");
-    let view = window.state().stages[0].view.expect("a plate is shown");
+    let view = window.state().viewports[0].camera.view.expect("a plate is shown");
     let plate = window.get_by_label("Plate").rect();
     let pixel = vec2(f64::from(view.pixels[0]) * 0.3, f64::from(view.pixels[1]) * 0.4);
     let place = view.center + view.offset_at(pixel);

@@ -11,7 +11,7 @@ use crate::kit::settle;
 /// The value in the middle of the picture, and that of a quantity at the same place.
 fn values(window: &Window, text: &str) -> [f64; 2] {
     let frame = frame(window);
-    let view = frame.wanted.view;
+    let view = frame.request.view;
     let [i, j] = [view.pixels[0] / 3, view.pixels[1] / 3];
     let ppum_scene::drawing::RasterValues::Double(raster) = &frame.drawn.values else {
         panic!("pictures are of double precision")

@@ -78,8 +78,8 @@ fn any_changes_give_a_picture_or_a_reason_and_can_be_taken_back() {
         change(&mut window.state_mut().session.pane_mut().scene, &mut random);
         steps += usize::from(scene(&window) != before);
         settle(&mut window);
-        let frames = &window.state().stages[0].frames;
-        let is_new = frames.newest().is_some_and(|f| f.wanted.scene == scene(&window).drawn());
+        let frames = &window.state().viewports[0].frames;
+        let is_new = frames.newest().is_some_and(|f| f.request.scene == scene(&window).drawn());
         let reason = frames.failure().map(|failure| failure.message.clone());
         assert!(is_new != reason.is_some(), "{:?} {reason:?}", scene(&window));
         assert!(reason.as_ref().is_none_or(|reason| !reason.is_empty()));
@@ -92,5 +92,5 @@ fn any_changes_give_a_picture_or_a_reason_and_can_be_taken_back() {
     }
     assert_eq!(scene(&window), first);
     settle(&mut window);
-    assert!(window.state().stages[0].frames.failure().is_none());
+    assert!(window.state().viewports[0].frames.failure().is_none());
 }

@@ -7,7 +7,7 @@ use std::time::Duration;
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2, vec2};
 use egui_kittest::kittest::NodeT as _;
-use ppum_viewer::actions::{ALL as ACTIONS, Action};
+use ppum_viewer::actions::{Action, ActionEntry, all};
 use ppum_viewer::window::WindowStart;
 
 use super::Hands;
@@ -187,7 +187,7 @@ impl Hands {
     }
 
     fn shortcut(&mut self) {
-        let keys: Vec<_> = ACTIONS.iter().filter_map(|entry| entry.key).collect();
+        let keys: Vec<_> = all().filter_map(ActionEntry::shortcut).collect();
         let shortcut = self.random.pick(&keys);
         self.doing = format!("press {shortcut:?}");
         self.press(shortcut.modifiers, shortcut.logical_key);
@@ -216,7 +216,7 @@ impl Hands {
 
     /// Finds an action in the palette by its name.
     fn find(&mut self) {
-        let entry = self.random.pick(ACTIONS);
+        let entry = self.random.pick(&all().collect::<Vec<_>>());
         if entry.action == Action::Quit {
             return;
         }

@@ -71,10 +71,10 @@ impl Eyes {
         }
         look_for_nowhere(lab, output, doing);
         let viewer = lab.viewer();
-        assert_eq!(viewer.session.panes.len(), viewer.stages.len(), "{doing}");
-        assert!(viewer.session.active < viewer.stages.len(), "{doing}");
-        for stage in &viewer.stages {
-            let failure = stage.frames.failure();
+        assert_eq!(viewer.session.panes.len(), viewer.viewports.len(), "{doing}");
+        assert!(viewer.session.active < viewer.viewports.len(), "{doing}");
+        for viewport in &viewer.viewports {
+            let failure = viewport.frames.failure();
             let is_ours = failure.is_some_and(|failure| failure.fault == FaultOrigin::Program);
             assert!(!is_ours, "{doing}: {:?}", viewer.session);
         }
@@ -85,9 +85,9 @@ impl Eyes {
 
     /// No solution goes, and no solver is stopped, unless that was asked for.
     fn look_for_losses(&mut self, viewer: &Viewer, doing: &str) {
-        let opened = |k: usize| viewer.stages[k].opened.as_ref().map(|opened| &opened.dataset);
+        let opened = |k: usize| viewer.viewports[k].opened.as_ref().map(|opened| &opened.dataset);
         let is_there = |(pane, weak): &(usize, Weak<Dataset>)| {
-            let mut all = (0..viewer.stages.len()).filter_map(opened);
+            let mut all = (0..viewer.viewports.len()).filter_map(opened);
             // or that of the text, solved once more, has come at once
             all.any(|there| weak.as_ptr() == Arc::as_ptr(there)) || viewer.is_unsaved(*pane)
         };
@@ -97,7 +97,7 @@ impl Eyes {
         let has_ended = solving.running().is_some() || solving.outcome.is_some();
         let is_stopped = !self.was_asking && self.was_solving && !has_ended;
         assert!(!is_stopped, "{doing}: a solver is stopped");
-        let all = 0..viewer.stages.len();
+        let all = 0..viewer.viewports.len();
         let kept = all.filter(|&k| viewer.is_unsaved(k) && !viewer.is_given_up(k));
         let weak = |k: usize| opened(k).map(|dataset| (k, Arc::downgrade(dataset)));
         self.unsaved = kept.filter_map(weak).collect();

@@ -40,7 +40,7 @@ impl Looked {
         loop {
             self.show();
             let viewer = self.lab.viewer();
-            let is_reading = viewer.stages.iter().any(|stage| stage.reading.is_working());
+            let is_reading = viewer.viewports.iter().any(|viewport| viewport.tools.is_working());
             if !viewer.is_working() && !is_reading {
                 return;
             }

@@ -87,7 +87,7 @@ impl Hands {
     fn ends_well(&mut self) {
         let ctx = self.lab.window.ctx.clone();
         self.lab.state().act(&ctx, Action::CancelSolving);
-        if self.lab.viewer().stages.len() == 2 {
+        if self.lab.viewer().viewports.len() == 2 {
             self.lab.state().act(&ctx, Action::Split);
         }
         let first = self.files[0].clone();

@@ -105,7 +105,7 @@ pub(super) const RULES: &[BrokenRule] = &[
         "constants belong to their equation",
         FULL,
         |c| put(c, "equation@conductivity", Array::scalar(1.0)),
-        &["equation@conductivity", "does not belong to `elasticity`"],
+        &["equation@conductivity", "does not belong to `eigenstrain`"],
     ),
     (
         "and so does the state",

@@ -1,0 +1,30 @@
+//! The names that a problem's formulas may use.
+
+use std::sync::Arc;
+
+use ppum::dataset::Equation;
+use ppum::formula::{Scope, ScopeError, Table};
+use ppum::function::function_scope;
+use ppum::quantity::QuantityFormulaError;
+
+use super::quantities;
+
+/// Makes sure that all formulas of a problem may use these tables.
+pub(crate) fn check(tables: &[Arc<Table>], equation: &Equation) -> Result<(), ScopeError> {
+    function_scope(&[], 0, tables)?;
+    weight(tables)?;
+    match quantities::parse("0", equation, tables, &[]) {
+        Err(QuantityFormulaError::Scope(error)) => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// Names of a formula of position, and the tables.
+pub(crate) fn position(tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
+    Scope::cartesian().with_tables(tables)
+}
+
+/// Names of a weight function.
+pub(crate) fn weight(tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
+    Scope::new(&["t"])?.with_tables(tables)
+}

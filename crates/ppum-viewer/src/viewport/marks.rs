@@ -1,0 +1,177 @@
+//! Marks over the view: the patches at the pointer, the curve with its handles, probes, extrema, K
+//! beside its circle.
+
+use std::sync::Arc;
+
+use egui::Rect;
+use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Ui, vec2};
+use ppum::crack::Crack;
+use ppum::vec2::Vec2;
+use ppum_render::extrema::Extremum;
+
+use super::ViewState;
+use super::curves::{handles, outline};
+use super::hover::HoverGeometry;
+use crate::frames::RenderedFrame;
+use crate::measure::probe::ProbeReading;
+use crate::measure::words;
+use crate::session::Pane;
+use ppum_scene::location::Location;
+
+const INK: Color32 = Color32::from_rgb(214, 88, 0);
+const HALO: Color32 = Color32::from_rgba_premultiplied(225, 225, 225, 225);
+
+impl ViewState {
+    /// Marks over the view: the patches at the pointer, the curve with its handles, probes,
+    /// extrema.
+    pub(super) fn marks(&mut self, ui: &mut Ui, sight: &HoverGeometry, pane: &Pane) {
+        let painter = ui.painter_at(sight.rect);
+        let cracks = self.cracks(pane);
+        let cracks = cracks.as_deref().unwrap_or_default();
+        if let (Some(probed), Some(frame)) = (&self.tools.hover, self.frames.newest()) {
+            patches(&painter, sight, probed, frame);
+            ring(&painter, sight, probed);
+        }
+        if let Some(along) = &pane.curve {
+            curve(&painter, sight, &outline(along, cracks));
+            for (_, spot) in handles(along, cracks) {
+                if let Some(at) = sight.position(&spot) {
+                    painter.circle(at, 4.5, Color32::WHITE, Stroke::new(2.0, INK));
+                }
+            }
+        }
+        for (k, spot) in pane.probes.iter().enumerate() {
+            let is_selected = self.tools.selected == Some(k);
+            probe(&painter, sight, spot, &(k + 1).to_string(), is_selected);
+        }
+        if let Some(at) = self.tools.marked.and_then(|spot| sight.position(&spot)) {
+            painter.circle(at, 5.0, INK, Stroke::new(1.5, Color32::WHITE));
+        }
+        if pane.extrema
+            && let Some(frame) = self.frames.newest()
+        {
+            extrema(&painter, sight, frame);
+        }
+        self.told_integral(ui, sight, pane, cracks);
+    }
+
+    /// K beside the circle, or the reason why there is none.
+    fn told_integral(&mut self, ui: &mut Ui, sight: &HoverGeometry, pane: &Pane, cracks: &[Crack]) {
+        let Some(along) = &pane.curve else { return };
+        if !self.tools.integral.is_asked() || self.tools.grip.is_some() {
+            return;
+        }
+        let text = self.tools.integral.words();
+        let seen: Vec<Pos2> =
+            outline(along, cracks).iter().filter_map(|spot| sight.position(spot)).collect();
+        let Some(top) = seen.into_iter().min_by(|a, b| a.y.total_cmp(&b.y)) else { return };
+        beside(ui, sight.rect, top, &text);
+    }
+}
+
+/// Shows a text on its own background above a position, inside a rectangle.
+fn beside(ui: &mut Ui, within: Rect, at: Pos2, text: &str) {
+    let width = (within.width() - 24.0).min(420.0);
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let color = ui.visuals().strong_text_color();
+    // a number stays beside its name
+    let joined = text.replace(" = ", "\u{a0}=\u{a0}");
+    let galley = ui.painter().layout(joined, font, color, width);
+    let size = galley.size() + vec2(12.0, 8.0);
+    let room = (within.size() - size).max(egui::Vec2::ZERO);
+    let corner = at - vec2(0.5 * size.x, size.y + 8.0) - within.min;
+    let corner = within.min + corner.max(egui::Vec2::ZERO).min(room);
+    let rect = Rect::from_min_size(corner, size);
+    ui.painter_at(within).rect_filled(rect, 4.0, ui.visuals().panel_fill.gamma_multiply(0.92));
+    // a label, so that it is read aloud too; in a child, since the view's own space is given away
+    let builder = egui::UiBuilder::new().max_rect(rect.shrink2(vec2(6.0, 4.0)));
+    let mut child = ui.new_child(builder);
+    child.set_clip_rect(within);
+    let label = child.add(egui::Label::new(galley).selectable(false));
+    label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
+}
+
+/// The supports of the patches, the more strongly the more they count.
+fn patches(
+    painter: &Painter,
+    sight: &HoverGeometry,
+    probed: &ProbeReading,
+    frame: &Arc<RenderedFrame>,
+) {
+    let field = frame.field.field();
+    for (patch, phi) in &probed.patches {
+        let support = field.step.partition.support(*patch as usize);
+        let bounds = field.domain.bounds;
+        let (a, b) = (support.min.max(bounds.min), support.max.min(bounds.max));
+        let corners = [a, Vec2 { x: b.x, y: a.y }, b, Vec2 { x: a.x, y: b.y }, a];
+        let spots = corners.map(|corner| Location::new(corner, Vec2::ZERO));
+        let strength = (30.0 + 130.0 * phi.clamp(0.0, 1.0)) as u8;
+        for line in sight.lines(&spots) {
+            painter.line_segment(line, Stroke::new(2.0, Color32::from_black_alpha(strength / 2)));
+            painter.line_segment(line, Stroke::new(1.0, Color32::from_white_alpha(strength)));
+        }
+    }
+}
+
+/// A ring around what is read if that is not just under the pointer: a tip, a point of a crack.
+fn ring(painter: &Painter, sight: &HoverGeometry, probed: &ProbeReading) {
+    if (probed.tip.is_some() || probed.crack.is_some())
+        && let Some(at) = sight.position(&probed.spot)
+    {
+        painter.circle_stroke(at, 5.0, Stroke::new(3.0, HALO));
+        painter.circle_stroke(at, 5.0, Stroke::new(1.5, INK));
+    }
+}
+
+fn curve(painter: &Painter, sight: &HoverGeometry, spots: &[Location]) {
+    let lines = sight.lines(spots);
+    for (width, color) in [(4.0, HALO), (2.0, INK)] {
+        for line in &lines {
+            painter.line_segment(*line, Stroke::new(width, color));
+        }
+    }
+}
+
+/// The mark of a probe: a cross with its number.
+fn probe(
+    painter: &Painter,
+    sight: &HoverGeometry,
+    spot: &Location,
+    number: &str,
+    is_selected: bool,
+) {
+    let Some(at) = sight.position(spot) else { return };
+    let arm = if is_selected { 8.0 } else { 6.0 };
+    for (width, color) in [(4.0, HALO), (if is_selected { 2.5 } else { 1.5 }, INK)] {
+        let stroke = Stroke::new(width, color);
+        painter.line_segment([at - vec2(arm, 0.0), at + vec2(arm, 0.0)], stroke);
+        painter.line_segment([at - vec2(0.0, arm), at + vec2(0.0, arm)], stroke);
+    }
+    lettered(painter, at + vec2(7.0, -5.0), Align2::LEFT_BOTTOM, number);
+}
+
+/// Text on a small background, readable on any colours.
+fn lettered(painter: &Painter, at: Pos2, align: Align2, text: &str) {
+    if text.is_empty() {
+        return;
+    }
+    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(12.0), INK);
+    let rect = align.anchor_size(at, galley.size());
+    painter.rect_filled(rect.expand2(vec2(3.0, 0.0)), 3.0, HALO);
+    painter.galley(rect.min, galley, INK);
+}
+
+/// The places of the least and the greatest value of what is seen of the body.
+fn extrema(painter: &Painter, sight: &HoverGeometry, frame: &Arc<RenderedFrame>) {
+    let Some(found) = &frame.picture.span.values else { return };
+    let mark = |extremum: &Extremum, sign: &str, align: Align2| {
+        if let Some(at) = sight.position(&Location::new(found.center, extremum.offset)) {
+            painter.circle(at, 4.0, HALO, Stroke::new(2.0, INK));
+            let text = format!("{sign} {}", words::value(extremum.value, ""));
+            let shift = if align == Align2::LEFT_BOTTOM { -5.0 } else { 5.0 };
+            lettered(painter, at + vec2(6.0, shift), align, &text);
+        }
+    };
+    mark(&found.max, "▲", Align2::LEFT_BOTTOM);
+    mark(&found.min, "▼", Align2::LEFT_TOP);
+}
