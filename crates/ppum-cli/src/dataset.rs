@@ -8,10 +8,11 @@ use ppum::field::Field;
 use ppum::quantity::Quantity;
 use ppum_format::{ReadError, Series};
 use ppum_render::cells;
+use ppum_scene::list::parts;
+use ppum_scene::quantity::OF_PATCHES;
 
-use crate::formula_text::{FormulaText, parts};
+use crate::formula_text::FormulaText;
 use crate::standard::{self, is_standard};
-use ppum_scene::scene::{self, DisplayError, OF_PATCHES};
 
 /// Reads a dataset with all its steps, `-` from standard input; an error names the file.
 pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
@@ -86,14 +87,6 @@ fn refuse_cells(field: &Field<'_>, text: &str) -> anyhow::Result<()> {
         "`{text}` belongs to the cells of the cover, not to points; `ppum render -q {text}` draws it"
     );
     Ok(())
-}
-
-/// Refuses what no image shows of a field: neither a quantity or formula nor a value of cells.
-pub(crate) fn check_shown(field: &Field<'_>, given: &FormulaText) -> anyhow::Result<()> {
-    match scene::shown(&given.text, field) {
-        Err(DisplayError::Quantity(error)) => given.explain(Err(error)),
-        other => other.map(|_| ()).map_err(Into::into),
-    }
 }
 
 /// Stresses that are told if nothing is asked for.

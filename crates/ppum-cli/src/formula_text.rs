@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::Context as _;
-pub(crate) use ppum_scene::scene::parts;
+use ppum_scene::list::parts;
 
 use crate::standard::{self, is_standard};
 
@@ -54,4 +54,11 @@ impl FormulaText {
 /// The file of a formula that is given as `@FILE`.
 pub(crate) fn file(given: &str) -> Option<&Path> {
     given.trim().strip_prefix('@').map(Path::new)
+}
+
+/// The files of the formulas of lists.
+pub(crate) fn files<'a>(
+    lists: impl IntoIterator<Item = &'a String>,
+) -> impl Iterator<Item = &'a Path> {
+    lists.into_iter().flat_map(|list| parts(list)).filter_map(file)
 }

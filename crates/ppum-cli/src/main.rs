@@ -11,7 +11,7 @@ mod dataset;
 mod families;
 mod formula_text;
 mod graphics;
-mod look;
+mod labels;
 mod memory;
 mod number;
 mod output;
@@ -19,14 +19,14 @@ mod page;
 mod panics;
 mod profile;
 mod progress;
-#[cfg(test)]
-mod reference;
 mod remedy;
 mod replacements;
 mod signals;
 mod standard;
 mod subject;
 mod target;
+#[cfg(test)]
+mod tests;
 mod threads;
 mod tips;
 mod warnings;

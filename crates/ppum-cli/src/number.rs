@@ -16,6 +16,30 @@ pub(crate) fn count(n: usize, one: &str, more: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { more })
 }
 
+/// Lines of texts with a name before the first of each.
+pub(crate) struct NamedLines<'a>(pub(crate) &'a mut dyn Write);
+
+impl NamedLines<'_> {
+    /// Width of the column of names.
+    pub(crate) const NAME: usize = 12;
+
+    pub(crate) fn line(&mut self, name: &str, text: &str) -> io::Result<()> {
+        writeln!(self.0, "{name:0$} {text}", Self::NAME)
+    }
+
+    /// The first line carries the name; nothing is written without lines.
+    pub(crate) fn lines(
+        &mut self,
+        name: &str,
+        lines: impl IntoIterator<Item = String>,
+    ) -> io::Result<()> {
+        for (k, text) in lines.into_iter().enumerate() {
+            self.line(if k == 0 { name } else { "" }, &text)?;
+        }
+        Ok(())
+    }
+}
+
 /// Lines of words in columns, to the right; the last column to the left if it `ends_in_words`.
 pub(crate) fn columns(
     out: &mut dyn Write,

@@ -9,13 +9,13 @@ use ppum::sample::SidedPoint;
 use ppum::vec2::Vec2;
 use ppum_scene::arguments::{circle, degrees, ends, positive};
 use ppum_scene::notice::undefined;
-use ppum_scene::place::numbered_tip;
 use ppum_scene::profile::{self, COUNT, MOST, ProfileCurve, ProfileError, Variable};
+use ppum_scene::region::numbered_tip;
 use ppum_scene::table::NumberTable;
 
 use crate::output::tell;
 use crate::progress::ProgressLine;
-use crate::target;
+use crate::target::{self, FileFormat};
 
 /// Options of places along a curve.
 #[derive(Debug, clap::Args)]
@@ -48,7 +48,7 @@ pub(crate) struct ProfileArgs {
 impl ProfileArgs {
     /// True if a curve was asked for.
     pub(crate) fn is_given(&self) -> bool {
-        self.line.is_some() || self.crack.is_some() || self.circle.is_some() || self.tip.is_some()
+        self.along().is_some()
     }
 
     /// True if the curve is a crack, seen from both sides.
@@ -148,8 +148,10 @@ fn tell_undefined(found: &profile::Profile) {
 
 /// Writes a table to a file, of numpy if its extension says so.
 pub(crate) fn save(table: &NumberTable, path: &Path) -> anyhow::Result<()> {
-    let is_npy = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("npy"));
-    target::save(path, |out| if is_npy { table.write_npy(out) } else { table.write_csv(out) })
+    target::save(path, |out| match FileFormat::of(path) {
+        Some(FileFormat::Npy) => table.write_npy(out),
+        _ => table.write_csv(out),
+    })
 }
 
 /// Refuses a grid of more points than a table has.

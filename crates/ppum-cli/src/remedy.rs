@@ -7,8 +7,8 @@ use ppum::quantity::QuantityError;
 use ppum_format::WriteError;
 use ppum_fracture::solve::{LinearError, SolveError};
 use ppum_render::RasterError;
-use ppum_scene::place::PlaceError;
-use ppum_scene::shot::ImageError;
+use ppum_scene::error::{ImageError, ImageErrorKind};
+use ppum_scene::region::PlaceError;
 use ppum_solve::space::{InspectError, SpaceError};
 
 /// The text of an error, with its remedy if there is one.
@@ -30,8 +30,8 @@ fn of_quantity(error: &(dyn Error + 'static)) -> Option<&'static str> {
 }
 
 fn of_place(error: &(dyn Error + 'static)) -> Option<&'static str> {
-    let place = match error.downcast_ref() {
-        Some(ImageError::Place(place)) => place,
+    let place = match error.downcast_ref().map(|ImageError(kind)| &**kind) {
+        Some(ImageErrorKind::Place(place)) => place,
         _ => error.downcast_ref()?,
     };
     matches!(place, PlaceError::Outside).then_some("`ppum info` says where that is")

@@ -7,10 +7,10 @@ use std::str::FromStr;
 use anyhow::{Context as _, ensure};
 use ppum::dataset::Dataset;
 use ppum::decompose::FieldPart;
-use ppum::replace::{self, ReplacementsError};
+use ppum::replace::ReplacementsError;
 use ppum_scene::arguments::assignment;
 use ppum_scene::panels::{WHOLE, caption};
-use ppum_scene::scene::{Subject, SubjectError, define};
+use ppum_scene::scene::{Subject, SubjectError};
 
 use crate::formula_text::{FormulaText, file};
 
@@ -87,43 +87,45 @@ impl ReplacementArgs {
         step: Option<usize>,
         part: Option<FieldPart>,
     ) -> anyhow::Result<()> {
-        let texts = self.function.iter().map(|(_, text)| FormulaText::read(text));
-        let functions = texts.collect::<anyhow::Result<Vec<_>>>()?;
+        let read = |texts: &[(String, String)]| -> anyhow::Result<Vec<FormulaText>> {
+            texts.iter().map(|(_, text)| FormulaText::read(text)).collect()
+        };
+        let (functions, quantities) = (read(&self.function)?, read(&self.define)?);
         let weight = self.weight.as_deref().map(FormulaText::read).transpose()?;
-        let names = self.function.iter().map(|(which, _)| which.clone());
-        let replacements = replace::Replacements {
-            part,
-            functions: names.zip(functions.iter().map(|given| given.text.clone())).collect(),
+        let named = |names: &[(String, String)], texts: &[FormulaText]| {
+            let names = names.iter().map(|(name, _)| name.clone());
+            names.zip(texts.iter().map(|given| given.text.clone())).collect()
+        };
+        let subject = Subject {
+            step,
+            part: part.map(|part| part.to_string()),
+            functions: named(&self.function, &functions),
             weight: weight.as_ref().map(|given| given.text.clone()),
+            quantities: named(&self.define, &quantities),
         };
-        let step = step.unwrap_or(dataset.steps.len().saturating_sub(1));
-        let Err(error) = replacements.apply(dataset, step) else {
-            return self.define(dataset, step);
-        };
-        match (error, &weight) {
-            (ReplacementsError::Part(error), _) => Err(error).context("--part"),
-            (ReplacementsError::Function { index, which, error }, _) => {
-                functions[index].explain(Err(*error)).with_context(|| format!("--function {which}"))
+        let defined = |name: &str| self.define.iter().position(|(known, _)| known == name);
+        match (subject.apply(dataset), &weight) {
+            (Err(SubjectError::Replacements(error)), weight) => match (error, weight) {
+                (ReplacementsError::Part(error), _) => Err(error).context("--part"),
+                (ReplacementsError::Function { index, which, error }, _) => functions[index]
+                    .explain(Err(*error))
+                    .with_context(|| format!("--function {which}")),
+                (ReplacementsError::Weight(error), Some(given)) => {
+                    given.explain(Err(error)).context("--weight")
+                }
+                (error, _) => Err(error.into()),
+            },
+            (Err(SubjectError::Quantity { name, error }), _) => {
+                let given = &quantities[defined(&name).unwrap_or_default()];
+                given.explain(Err(*error)).with_context(|| format!("--define {name}"))
             }
-            (ReplacementsError::Weight(error), Some(given)) => {
-                given.explain(Err(error)).context("--weight")
+            (Err(error @ SubjectError::Unnamed { .. }), _) => {
+                let SubjectError::Unnamed { name, .. } = &error else { unreachable!() };
+                let context = format!("--define {name}");
+                Err(error).context(context)
             }
-            (error, _) => Err(error.into()),
+            (result, _) => Ok(result?),
         }
-    }
-
-    /// Gives named quantities their formulas.
-    fn define(&self, dataset: &mut Dataset, step: usize) -> anyhow::Result<()> {
-        for (name, text) in &self.define {
-            let given = FormulaText::read(text)?;
-            let defined = define(dataset, step, name, &given.text);
-            match defined {
-                Err(SubjectError::Quantity { error, .. }) => given.explain(Err(*error)),
-                other => other.map_err(Into::into),
-            }
-            .with_context(|| format!("--define {name}"))?;
-        }
-        Ok(())
     }
 
     /// The files that formulas are read from.

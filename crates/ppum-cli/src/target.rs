@@ -20,31 +20,81 @@ pub(crate) enum FileKind {
     Export,
 }
 
+/// A format of files, by the extension of their names.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum FileFormat {
+    Hdf5,
+    Toml,
+    Png,
+    Svg,
+    Pdf,
+    Gif,
+    Apng,
+    Csv,
+    Npy,
+    Html,
+    Vtu,
+    VtkHdf,
+    /// A list of meshes.
+    Pvd,
+    /// Lines and points.
+    Vtp,
+}
+
+/// Extensions with the formats that they stand for, and what files of these hold.
+const FORMATS: [(&str, FileFormat, FileKind); 16] = [
+    ("h5", FileFormat::Hdf5, FileKind::Dataset),
+    ("hdf5", FileFormat::Hdf5, FileKind::Dataset),
+    ("toml", FileFormat::Toml, FileKind::Problem),
+    ("png", FileFormat::Png, FileKind::Picture),
+    ("svg", FileFormat::Svg, FileKind::Picture),
+    ("pdf", FileFormat::Pdf, FileKind::Picture),
+    ("gif", FileFormat::Gif, FileKind::Animation),
+    ("apng", FileFormat::Apng, FileKind::Animation),
+    ("html", FileFormat::Html, FileKind::Export),
+    ("htm", FileFormat::Html, FileKind::Export),
+    ("vtu", FileFormat::Vtu, FileKind::Export),
+    ("vtkhdf", FileFormat::VtkHdf, FileKind::Export),
+    ("pvd", FileFormat::Pvd, FileKind::Export),
+    ("vtp", FileFormat::Vtp, FileKind::Export),
+    ("csv", FileFormat::Csv, FileKind::Table),
+    ("npy", FileFormat::Npy, FileKind::Table),
+];
+
+impl FileFormat {
+    /// The format that a name ends in; none if it ends in nothing known.
+    pub(crate) fn of(path: &Path) -> Option<Self> {
+        let end = path.extension()?;
+        let mut formats = FORMATS.iter();
+        formats.find(|(known, ..)| end.eq_ignore_ascii_case(known)).map(|(_, format, _)| *format)
+    }
+}
+
 impl FileKind {
-    /// Its name in messages, and the extensions of its files.
-    fn words(self) -> (&'static str, &'static [&'static str]) {
+    /// Its name in messages.
+    fn words(self) -> &'static str {
         match self {
-            Self::Dataset => ("datasets are HDF5 files", &["h5", "hdf5"]),
-            Self::Problem => ("problem files are TOML files", &["toml"]),
-            Self::Picture => ("pictures are PNG, SVG or PDF files", &["png", "svg", "pdf"]),
-            Self::Animation => ("moving pictures are GIF or APNG files", &["gif", "apng"]),
-            Self::Export => (
-                "pages are HTML files, meshes VTU, VTKHDF or PVD files, lines VTP files",
-                &["html", "htm", "vtu", "vtkhdf", "pvd", "vtp"],
-            ),
-            Self::Table => ("tables are CSV or NPY files", &["csv", "npy"]),
+            Self::Dataset => "datasets are HDF5 files",
+            Self::Problem => "problem files are TOML files",
+            Self::Picture => "pictures are PNG, SVG or PDF files",
+            Self::Animation => "moving pictures are GIF or APNG files",
+            Self::Export => {
+                "pages are HTML files, meshes VTU, VTKHDF or PVD files, lines VTP files"
+            }
+            Self::Table => "tables are CSV or NPY files",
         }
     }
 
     /// Refuses a name that says that something else is in the file.
     fn check_name(self, path: &Path) -> anyhow::Result<()> {
-        let (files, extensions) = self.words();
-        let has = |wanted: &&str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted));
-        let known: Vec<_> = extensions.iter().map(|extension| format!(".{extension}")).collect();
+        let own = || FORMATS.iter().filter(|(.., kind)| *kind == self);
+        let format = FileFormat::of(path);
+        let known: Vec<_> = own().map(|(extension, ..)| format!(".{extension}")).collect();
         ensure!(
-            extensions.iter().any(has),
-            "{}: {files}; end the name in {}",
+            own().any(|(_, own, _)| Some(*own) == format),
+            "{}: {}; end the name in {}",
             path.display(),
+            self.words(),
             known.join(" or ")
         );
         Ok(())

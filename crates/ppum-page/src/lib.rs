@@ -18,13 +18,11 @@
 
 #[cfg(target_arch = "wasm32")]
 mod abi;
-mod error;
 pub mod evaluator;
 mod messages;
 #[cfg(not(target_arch = "wasm32"))]
 mod page;
 
-pub use error::PageError;
 pub use evaluator::Evaluator;
 pub use messages::{
     Description, ImageRows, PageChoice, PageFrame, PageLegend, PageTick, PageView, PointQuestion,

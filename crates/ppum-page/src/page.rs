@@ -1,12 +1,15 @@
 //! The page as a text.
 
 use ppum::dataset::Dataset;
+use ppum::field::Field;
 use ppum_figure::canvas::base64::base64;
 use ppum_render::colormap::{Colormap, ColormapError};
 use ppum_render::view;
+use ppum_scene::error::ImageError;
 use ppum_scene::overlays::Overlay;
-use ppum_scene::scene::{SceneRequest, default_quantity};
-use ppum_scene::shot::{FieldSource, ImageError};
+use ppum_scene::quantity::default_quantity;
+use ppum_scene::scene::SceneRequest;
+use ppum_scene::subject::scene_bounds;
 use serde::Serialize;
 use sha2::{Digest as _, Sha256};
 
@@ -49,13 +52,7 @@ pub enum StartError {
     Stations,
     /// Lines of symmetry, or the deformed body.
     #[error(transparent)]
-    Body(Box<ImageError>),
-}
-
-impl From<ImageError> for StartError {
-    fn from(error: ImageError) -> Self {
-        Self::Body(Box::new(error))
-    }
+    Body(#[from] ImageError),
 }
 
 impl PageStart {
@@ -67,11 +64,11 @@ impl PageStart {
     /// Features that pages do not have.
     pub fn new(
         scene: SceneRequest,
-        source: FieldSource<'_>,
+        (dataset, field): (&Dataset, &Field<'_>),
         view: Option<PageView>,
         file: String,
     ) -> Result<Self, StartError> {
-        let mut scene = source.settled(scene).map_err(ImageError::from)?;
+        let mut scene = scene.with_edges(dataset).map_err(ImageError::from)?;
         if let Some(name) = &scene.colors.colormap {
             Colormap::named(name).map_err(StartError::Colormap)?;
         }
@@ -81,11 +78,11 @@ impl PageStart {
         if !scene.overlays.no_cracks && !scene.overlays.shown.contains(&Overlay::Cracks) {
             scene.overlays.shown.push(Overlay::Cracks);
         }
-        scene.quantity = scene.quantity.filter(|text| text != default_quantity(source.field));
+        scene.quantity = scene.quantity.filter(|text| text != default_quantity(field));
         // the script knows the box of the undeformed part alone
         let view = match view {
             None if scene.deformed.is_some() || scene.mirror.is_some() => {
-                let bounds = source.seen_bounds(&scene)?;
+                let bounds = scene_bounds(dataset, field, &scene)?;
                 Some(view::View::fit(bounds, SHAPE).map_err(ImageError::from)?.into())
             }
             view => view,

@@ -8,11 +8,12 @@ use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
 use ppum::vec2::{Vec2, vec2};
 use ppum_scene::colors::ColorOptions;
-use ppum_scene::deformed::Magnification;
+use ppum_scene::compose::page_of_view;
 use ppum_scene::engine::Engine;
+use ppum_scene::magnification::Magnification;
 use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays};
 use ppum_scene::scene::SceneRequest;
-use ppum_scene::shot::{self, FieldSource};
+use ppum_scene::subject::ImageSubject;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::{Coefficients, Recipe};
 
@@ -55,6 +56,10 @@ fn values(evaluator: &mut Evaluator<'_>, frame: &PageFrame) -> Vec<f64> {
     parts.concat()
 }
 
+fn subject<'a>(dataset: &'a Dataset, field: &'a Field<'a>, frame: &PageFrame) -> ImageSubject<'a> {
+    ImageSubject::new(dataset, field, frame.scene.quantity.as_deref()).unwrap()
+}
+
 /// Byte for byte, whatever is shown.
 #[test]
 fn images_are_those_of_the_program() {
@@ -67,10 +72,11 @@ fn images_are_those_of_the_program() {
             let frame = frame(&mut random, &dataset);
             let values = values(&mut evaluator, &frame);
             let painted = evaluator.paint(&frame, values).unwrap();
-            let (source, request) = (FieldSource::of(&dataset, &field), frame.scene.clone().into());
+            let (subject, request) =
+                (subject(&dataset, &field, &frame), frame.scene.clone().into());
             let engine = Engine::processor(unwatched());
             let view = frame.view.checked().unwrap();
-            let (page, _) = shot::page(source, &request, &view, None, &engine).unwrap();
+            let (page, _) = page_of_view(&subject, &request, &view, None, &engine).unwrap();
             assert!(page.image() == painted.image, "{frame:?}");
             assert!(painted.legend.command.starts_with("ppum render plate.h5 -o image.png"));
             assert!(!painted.legend.colors.is_empty());
@@ -98,10 +104,11 @@ fn deformed_and_mirrored_bodies_are_those_of_the_program() {
             let values = values(&mut evaluator, &frame);
             assert!(values.is_empty());
             let painted = evaluator.paint(&frame, values).unwrap();
-            let (source, request) = (FieldSource::of(&dataset, &field), frame.scene.clone().into());
+            let (subject, request) =
+                (subject(&dataset, &field, &frame), frame.scene.clone().into());
             let engine = Engine::processor(unwatched());
             let view = frame.view.checked().unwrap();
-            let (page, shot) = shot::page(source, &request, &view, None, &engine).unwrap();
+            let (page, shot) = page_of_view(&subject, &request, &view, None, &engine).unwrap();
             assert!(page.image() == painted.image, "{frame:?}");
             let [columns, rows] = view.pixels;
             let (mut asked, mut read) = (0, 0);

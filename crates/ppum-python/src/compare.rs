@@ -10,7 +10,8 @@ use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_scene::compare::{NeededGrid, ResampledImage};
 use ppum_scene::difference::{DifferenceSide, FieldDifference};
-use ppum_scene::drawing::{DisplayedQuantity, RasterValues};
+use ppum_scene::quantity::DisplayedQuantity;
+use ppum_scene::values::RasterValues;
 use pyo3::prelude::*;
 
 use crate::errors::{RenderError, render_error, rendering};

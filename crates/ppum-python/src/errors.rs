@@ -11,10 +11,9 @@ use ppum_format::{ReadError, WriteError};
 use ppum_fracture::growth::GrowthError;
 use ppum_fracture::solve::SolveError as Unsolved;
 use ppum_problem::{Diagnostic, ProblemError as Mistakes, ProblemLocation};
-use ppum_scene::layers::LayersError;
-use ppum_scene::place::PlaceError;
+use ppum_scene::error::{ImageError, ImageErrorKind};
 use ppum_scene::profile::ProfileError;
-use ppum_scene::shot::ImageError;
+use ppum_scene::region::PlaceError;
 use pyo3::exceptions::{PyIndexError, PyKeyboardInterrupt, PyOSError};
 use pyo3::import_exception;
 use pyo3::prelude::*;
@@ -130,14 +129,12 @@ pub(crate) fn render_error(error: impl Display) -> PyErr {
 
 /// An image that cannot be drawn.
 pub(crate) fn picture(error: ImageError) -> PyErr {
-    match error {
-        ImageError::Render(error) => rendering(error),
-        ImageError::Layers(layers) => match *layers {
-            LayersError::Render(error) => rendering(*error),
-            error => render_error(error),
-        },
-        ImageError::Shown(error) => quantity(error),
-        ImageError::Place(error @ PlaceError::Tip { .. }) => {
+    match *error.0 {
+        ImageErrorKind::Render(error) => rendering(error),
+        ImageErrorKind::Field(error) => no_field(error),
+        ImageErrorKind::Subject(error) => quantity(error),
+        ImageErrorKind::Shown(error) => quantity(error),
+        ImageErrorKind::Place(error @ PlaceError::Tip { .. }) => {
             PyIndexError::new_err(error.to_string())
         }
         error => render_error(error),

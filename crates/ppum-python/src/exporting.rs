@@ -140,7 +140,7 @@ pub(crate) fn page(
         width,
         pixels,
     });
-    let start = PageStart::new(scene, this.source(), view, file).map_err(render_error)?;
+    let start = PageStart::new(scene, (changed, this.field()), view, file).map_err(render_error)?;
     let bytes = long(py, None, None, |_| to_bytes(dataset))?.map_err(unwritable)?;
     if bytes.len() as u64 > LARGEST {
         let most = LARGEST >> 20;

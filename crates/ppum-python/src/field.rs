@@ -10,10 +10,11 @@ use ppum::field::Field;
 use ppum::quantity::{Quantity, QuantityGradient};
 use ppum::sample::SampledQuantity;
 use ppum::vec2::Vec2;
-use ppum_scene::drawing::single_precision_warning;
 use ppum_scene::profile::ProfileCurve;
-use ppum_scene::scene::{Subject, default_quantity};
-use ppum_scene::shot::of_step;
+use ppum_scene::quantity::default_quantity;
+use ppum_scene::scene::Subject;
+use ppum_scene::subject::of_step;
+use ppum_scene::values::single_precision_warning;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

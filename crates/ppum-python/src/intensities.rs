@@ -8,7 +8,7 @@ use ppum_fracture::intensity::{CircleError, TipResult, on_circle};
 use ppum_fracture::solve::SolveError as Unsolved;
 use ppum_problem::Problem;
 use ppum_scene::facts::Tip;
-use ppum_scene::place::numbered_tip;
+use ppum_scene::region::numbered_tip;
 use pyo3::prelude::*;
 
 use crate::errors::{SolveError, cancelled, no_field, picture, unsolved};

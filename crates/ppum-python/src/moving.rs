@@ -1,17 +1,16 @@
 //! Animations of the steps of a series.
 
 use ppum::progress::Watcher;
+use ppum_scene::animation::{AnimationFormat, FrameSource, SeriesAnimation, Work, with_subject};
+use ppum_scene::camera::ImageSettings;
 use ppum_scene::engine::Engine;
-use ppum_scene::image_job::ImageSettings;
-use ppum_scene::moving::{
-    AnimationFormat, FrameSource, MovingError, SeriesAnimation, Work, with_subject,
-};
+use ppum_scene::error::ImageError;
 use ppum_scene::request::Request;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::dataset::PyDataset;
-use crate::errors::{no_field, picture, quantity, render_error};
+use crate::errors::{picture, render_error};
 use crate::field::PyField;
 use crate::picture::made;
 use crate::watch::long;
@@ -26,14 +25,9 @@ struct SelectedSteps<'a> {
 /// The reason why there is no animation: a step that cannot be read, or drawn.
 struct StepError(PyErr);
 
-impl<E: Into<MovingError>> From<E> for StepError {
-    fn from(error: E) -> Self {
-        Self(match error.into() {
-            MovingError::Field(error) => no_field(error),
-            MovingError::Subject(error) => quantity(error),
-            MovingError::Shot(error) => picture(*error),
-            error => render_error(error),
-        })
+impl From<ImageError> for StepError {
+    fn from(error: ImageError) -> Self {
+        Self(picture(error))
     }
 }
 
@@ -71,9 +65,9 @@ pub(crate) fn animation<'py>(
     let drawn = |engine: &Engine<'_>| -> Result<Vec<u8>, StepError> {
         let mut frames =
             SelectedSteps { dataset: this.series.get(), request: request.clone(), steps };
-        frames.request = frames.settled(&request)?;
-        let ImageSettings { placing, design } = ImageSettings::new(&frames, &request)?;
-        let film = SeriesAnimation::new(&frames, &placing, design.as_ref(), engine)?;
+        frames.request = frames.resolved(&request)?;
+        let ImageSettings { camera, design } = frames.settings(&request)?;
+        let film = SeriesAnimation::new(&frames, &camera, design.as_ref(), engine)?;
         let title = |_: &_| vec![("Title".into(), title.clone())];
         let mut bytes = Vec::new();
         film.write(form, milliseconds, &title, &mut bytes)?;

@@ -7,7 +7,7 @@ use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods as _};
 use ppum::progress::Watcher;
 use ppum::vec2::Vec2;
 use ppum_figure::canvas::Canvas;
-use ppum_figure::figure::{Labels, bare};
+use ppum_figure::figure::bare;
 use ppum_figure::form::PageFormat;
 use ppum_figure::ticks;
 use ppum_render::colormap::{Colormap, NAMES};
@@ -15,15 +15,16 @@ use ppum_render::extrema::{BodyRegion, Extremum, ExtremumSite, extrema};
 use ppum_render::png::{TextChunk, encode_quickly};
 use ppum_render::scatter;
 use ppum_render::view::View;
-use ppum_scene::drawing::{DisplayedQuantity, PixelValues, RasterValues};
+use ppum_scene::compose::{self, RenderedImage};
 use ppum_scene::engine::Engine;
 use ppum_scene::help::TEXTS;
-use ppum_scene::image_job::ImageJob;
 use ppum_scene::notice::Notice;
 use ppum_scene::panels::{PanelImages, datasets, draw};
+use ppum_scene::quantity::DisplayedQuantity;
 use ppum_scene::request::Request;
-use ppum_scene::scene::{Subject, shown};
-use ppum_scene::shot::{FieldSource, RenderedImage, shot};
+use ppum_scene::scene::Subject;
+use ppum_scene::subject::ImageSubject;
+use ppum_scene::values::{PixelValues, RasterValues};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
@@ -102,7 +103,7 @@ fn extremum(found: &Extremum, center: Vec2) -> ExtremumFacts {
 
 impl PyField {
     pub(crate) fn shown(&self, name: &str) -> PyResult<DisplayedQuantity> {
-        shown(&self.spelled(name), self.field()).map_err(quantity)
+        DisplayedQuantity::parse(&self.spelled(name), self.field()).map_err(quantity)
     }
 
     /// Returns the displayed quantity of a name, found without Python's lock.
@@ -120,8 +121,9 @@ impl PyField {
         Ok(request)
     }
 
-    pub(crate) fn source(&self) -> FieldSource<'_> {
-        FieldSource::of(self.dataset(), self.field())
+    fn subject(&self, request: &Request) -> PyResult<ImageSubject<'_>> {
+        let text = request.scene.quantity.as_deref();
+        ImageSubject::new(self.dataset(), self.field(), text).map_err(quantity)
     }
 
     /// The page of a figure, and the texts of its file.
@@ -129,26 +131,27 @@ impl PyField {
         let title = &self.dataset().title;
         if request.panels.are_given() {
             let drawn = self.panels(request, engine)?;
-            let texts = [drawn.texts(title), drawn.shots[0].notes()].concat();
+            let texts = [drawn.texts(title), drawn.images[0].notes()].concat();
             return Ok((drawn.page, texts));
         }
-        let still = ImageJob::new(self.source(), request.clone()).map_err(picture)?;
-        let (page, shot) = still.page(engine).map_err(picture)?;
-        Ok((page, [shot.texts(title), shot.notes()].concat()))
+        let (page, image) =
+            compose::page(&self.subject(request)?, request, engine).map_err(picture)?;
+        Ok((page, [image.texts(title), image.notes()].concat()))
     }
 
     /// The panels of a request, of the field or of its parts.
     fn panels(&self, request: &Request, engine: &Engine<'_>) -> PyResult<PanelImages> {
-        if request.panels.parts.is_empty() {
-            return draw(&[self.source()], request, engine).map_err(picture);
-        }
         let (dataset, step) = self.place();
         let of = Subject { step: Some(step), ..Subject::default() };
         let datasets = datasets(dataset, &of, &request.panels.parts).map_err(quantity)?;
         let fields = datasets.iter().map(|dataset| ppum::field::Field::new(dataset, step));
         let fields = fields.collect::<Result<Vec<_>, _>>().map_err(no_field)?;
-        let sources = datasets.iter().zip(&fields).map(|(d, f)| FieldSource::of(d, f));
-        draw(&sources.collect::<Vec<_>>(), request, engine).map_err(picture)
+        let mut bodies: Vec<_> = datasets.iter().zip(&fields).collect();
+        if bodies.is_empty() {
+            bodies.push((dataset, self.field()));
+        }
+        let subjects = request.subjects(&bodies).map_err(quantity)?;
+        draw(&subjects, request, engine).map_err(picture)
     }
 }
 
@@ -159,7 +162,7 @@ pub(crate) fn made<T>(
     make: impl FnOnce(&Engine<'_>) -> PyResult<T>,
 ) -> PyResult<(T, Vec<String>)> {
     let engine = Engine::new(request.backend, request.precision, None, watcher);
-    let engine = engine.map_err(|error| picture(error.into()))?;
+    let engine = engine.map_err(picture)?;
     let made = make(&engine)?;
     Ok((made, engine.into_notices().iter().map(Notice::to_string).collect()))
 }
@@ -216,9 +219,8 @@ pub(crate) fn rgba<'py>(
 ) -> PyResult<(Bound<'py, PyArray3<u8>>, Vec<String>)> {
     let (request, view) = (this.request(request)?, view.checked()?);
     let drawn = |engine: &Engine<'_>| {
-        let shot = shot(this.source(), &request, &view, None, engine).map_err(picture)?;
-        let page = shot.page(Labels::default(), None, engine);
-        Ok(page.map_err(|error| picture(error.into()))?.image())
+        let image = this.subject(&request)?.image_in(&request, &view, None, engine);
+        Ok(image.map_err(picture)?.bare(engine).image())
     };
     let (image, told) = long(py, None, None, |watcher| made(&request, watcher, drawn))??;
     let [columns, rows] = view.pixels.map(|n| n as usize);
@@ -283,7 +285,8 @@ pub(crate) fn frame<'py>(
 ) -> PyResult<(Bound<'py, PyBytes>, BarFacts)> {
     let (request, view) = (this.request(request)?, view.checked()?);
     let drawn = |engine: &Engine<'_>| {
-        let mut shot = shot(this.source(), &request, &view, None, engine).map_err(picture)?;
+        let image = this.subject(&request)?.image_in(&request, &view, None, engine);
+        let mut shot = image.map_err(picture)?;
         let layers = std::mem::take(&mut shot.layers.items);
         let bytes = encode_quickly(&bare(&shot.picture, layers).image());
         let bytes = bytes.map_err(render_error)?;
@@ -309,7 +312,7 @@ pub(crate) fn figure<'py>(
     let (request, form) = (this.request(request)?, page_format(form));
     let drawn = |engine: &Engine<'_>| {
         let made = this.page(&request, engine)?;
-        Notice::of_glyphs(&made.0, form).into_iter().for_each(|notice| engine.tell(notice));
+        engine.tell_glyphs(&made.0, form);
         Ok(made)
     };
     let all = |watcher: &dyn Watcher| made(&request, watcher, drawn);

@@ -4,11 +4,11 @@ use ppum::progress::Watcher;
 use ppum::vec2::Vec2;
 use ppum_render::deform::{DeformError, Deformation};
 use ppum_render::view::View;
-use ppum_scene::deformed::Magnification;
-use ppum_scene::drawing::DisplayedQuantity;
 use ppum_scene::location::Location;
-use ppum_scene::mirror::MirrorLines;
+use ppum_scene::magnification::Magnification;
+use ppum_scene::mirror_lines::MirrorLines;
 use ppum_scene::probe::PointReader;
+use ppum_scene::quantity::DisplayedQuantity;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 

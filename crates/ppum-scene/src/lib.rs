@@ -1,57 +1,32 @@
-//! Images of a dataset: their content, as data, and their drawing.
+//! Images of a dataset: their content, as data, and their drawing; files for other programs, and
+//! reports.
 //!
-//! An image comes about in four steps, each of which is a value of its own, so that a program can
-//! keep what has not changed: the [view](body::BodyView) of the body; the values
-//! ([`PixelValues`](drawing::PixelValues)) of the [quantity](drawing::DisplayedQuantity) that is
-//! shown; their colours, a range ([`range::value_span`]) and a style
-//! ([`ColorOptions`](colors::ColorOptions)); the [`Layers`](layers::Layers) of its
-//! [`Overlays`](overlays::Overlays). The users' choices are plain data that can be compared, kept
-//! and written. The program's commands and its window draw by this crate alone, so both draw the
-//! same.
+//! Requests of people are plain data that can be compared, kept and written: a
+//! [`Request`](request::Request). With a field it makes a [subject](image::subject), of which an
+//! image comes about in four stages, each of which is a value of its own, so that a program can
+//! keep what has not changed: the [values](image::values) of the [body](image::body) in a view;
+//! their [colours](image::coloring); the [layers](image::layers) over them; and their
+//! [composition](image::compose). The program, its window, pages and Python draw by this crate
+//! alone, so all draw the same.
 
-#[cfg(feature = "clap")]
-pub mod arguments;
-pub mod body;
-pub mod camera;
-pub mod colors;
-pub mod command;
-pub mod compare;
-pub mod deformed;
-pub mod difference;
-pub mod drawing;
-pub mod engine;
 #[cfg(feature = "problem")]
 pub mod export;
-#[cfg(feature = "problem")]
-pub mod facts;
-#[cfg(feature = "clap")]
-pub mod help;
-pub mod image_job;
-pub mod layers;
-pub mod location;
-pub mod material;
-pub mod mirror;
-pub mod moving;
-pub mod notice;
-pub mod overlays;
-pub mod owner;
-pub mod page_style;
-pub mod panels;
-pub mod paper;
-pub mod place;
-#[cfg(feature = "problem")]
-pub mod plots;
-pub mod probe;
-pub mod profile;
-pub mod range;
+pub mod image;
+pub mod report;
 pub mod request;
-pub mod scene;
-pub mod shared;
-pub mod shot;
-mod stations;
-pub mod table;
-mod whole;
-mod written;
+
+pub use image::{
+    animation, body, camera, coloring, compare, compose, deformed, difference, engine, error,
+    layers, material, mirror_lines, notice, panels, quantity, subject, values,
+};
+#[cfg(feature = "problem")]
+pub use report::{facts, plots};
+pub use report::{location, owner, probe, profile, range, table};
+#[cfg(feature = "clap")]
+pub use request::{arguments, help};
+pub use request::{
+    backend, colors, command, list, magnification, mirror, overlays, page_style, region, scene,
+};
 
 #[cfg(test)]
-ppum_testkit::errors_cross_threads!(layers::LayersError);
+ppum_testkit::errors_cross_threads!(error::ImageError);

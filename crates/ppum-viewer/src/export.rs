@@ -9,19 +9,22 @@ use ppum::progress::Watcher;
 use ppum_figure::figure::{BarPlace, FigureStyle, hugging, plot_area};
 use ppum_figure::form::PageFormat;
 use ppum_render::view::{View, ViewError};
-use ppum_scene::command;
-use ppum_scene::deformed::Magnification;
-use ppum_scene::engine::Engine;
-use ppum_scene::moving::{
+use ppum_scene::animation::{
     AnimationFormat as Animation, FrameSource, InMemory, MotionKind, SeriesAnimation, Work,
 };
+use ppum_scene::camera::Camera;
+use ppum_scene::command;
+use ppum_scene::compose::{page_of_view, reshaped, view_in};
+use ppum_scene::engine::Engine;
+use ppum_scene::magnification::Magnification;
 use ppum_scene::notice::Notice;
 use ppum_scene::overlays::Overlay;
 use ppum_scene::page_style::PageStyle;
-use ppum_scene::place::ViewRegion;
+use ppum_scene::quantity::DisplayError;
+use ppum_scene::region::ViewRegion;
 use ppum_scene::request::Request;
 use ppum_scene::scene::SceneRequest;
-use ppum_scene::shot::{FieldSource, page, reshaped, title, view_in};
+use ppum_scene::subject::ImageSubject;
 
 use crate::field::OwnedField;
 use crate::frames::Subtrahend;
@@ -204,7 +207,7 @@ impl ImageExport {
         if self.page.height.is_some() || self.page.unit == LengthUnit::Pixel {
             return Ok(Some(design));
         }
-        let title = title(self.source(), request)?;
+        let title = self.subject()?.title(request)?;
         let room = |design: &FigureStyle| Ok(plot_area(&title, design)?);
         let aspect = self.view.width / self.view.height();
         hugging(&design, aspect, [1, 1], &BarPlace::ANYWHERE, room).map(Some)
@@ -239,9 +242,10 @@ impl ImageExport {
         }
     }
 
-    fn source(&self) -> FieldSource<'_> {
-        let left = self.left.as_ref().map(Subtrahend::side);
-        FieldSource { dataset: self.field.dataset(), field: self.field.field(), left }
+    fn subject(&self) -> Result<ImageSubject<'_>, DisplayError> {
+        let (dataset, field) = (self.field.dataset(), self.field.field());
+        let subject = ImageSubject::new(dataset, field, self.scene.quantity.as_deref())?;
+        Ok(ImageSubject { left: self.left.as_ref().map(Subtrahend::side), ..subject })
     }
 
     /// Returns the request of the image; a page shows the cracks where the window does.
@@ -253,10 +257,10 @@ impl ImageExport {
     }
 
     fn still(&self, path: &Path, engine: &Engine<'_>) -> Result<Vec<u8>, Failure> {
-        let (source, request) = (self.source(), self.request());
+        let (subject, request) = (self.subject()?, self.request());
         let design = self.design(&request)?;
         let view = self.shaped(design.as_ref())?;
-        let (page, shot) = page(source, &request, &view, design.as_ref(), engine)?;
+        let (page, shot) = page_of_view(&subject, &request, &view, design.as_ref(), engine)?;
         // files that are passed on do not say in which folder they were made
         let names = [self.file.as_deref(), Some(path)].map(|path| path.and_then(Path::file_name));
         let [file, output] =
@@ -269,7 +273,7 @@ impl ImageExport {
         texts.push(("ppum:command".to_owned(), command));
         texts.extend(shot.notes());
         let form = PageFormat::of(path);
-        Notice::of_glyphs(&page, form).into_iter().for_each(|notice| engine.tell(notice));
+        engine.tell_glyphs(&page, form);
         let dpi = design.filter(|_| self.page.unit != LengthUnit::Pixel).map(|design| design.dpi);
         Ok(form.bytes(&page, dpi, &texts)?)
     }
@@ -288,23 +292,23 @@ impl ImageExport {
         engine: &Engine<'_>,
         done: &AtomicUsize,
     ) -> Result<Vec<u8>, Failure> {
-        let (source, request) = (self.source(), self.request());
-        let automatic = || Magnification::Auto.number(&[source.field]).unwrap_or(1.0);
+        let request = self.request();
+        let automatic = || Magnification::Auto.number(&[self.field.field()]).unwrap_or(1.0);
         let moving = match self.choice {
             ExportChoice::Steps => MotionKind::Steps((0..self.count()).collect()),
             _ => MotionKind::Factor(self.motion.factor.unwrap_or_else(automatic), self.count()),
         };
-        let frames =
-            CountedFrames { frames: InMemory::new(source.dataset, &request, &moving)?, done };
+        let frames = InMemory::new(self.field.dataset(), &request, &moving)?;
+        let frames = CountedFrames { frames, done };
         let design = self.design(&request)?;
         let view = self.shaped(design.as_ref())?;
         let room = match &design {
-            Some(design) => frames.room(design)?,
+            Some(design) => frames.layout_input(true)?.room(design)?,
             None => view.pixels,
         };
-        let view = reshaped(&view, room)?;
+        let camera = Camera::View(reshaped(&view, room)?);
         done.store(0, Ordering::Relaxed);
-        let animation = SeriesAnimation::new(&frames, &view, design.as_ref(), engine)?;
+        let animation = SeriesAnimation::new(&frames, &camera, design.as_ref(), engine)?;
         let milliseconds = (1000.0 / self.motion.rate).round().clamp(10.0, 60_000.0) as u16;
         let is_gif = path.extension().is_some_and(|end| end.eq_ignore_ascii_case("gif"));
         let (form, mut bytes) = (if is_gif { Animation::Gif } else { Animation::Apng }, Vec::new());
@@ -325,12 +329,12 @@ impl ImageExport {
         if self.left.is_some() {
             return Err(NO_COMMAND.into());
         }
-        let (source, mut request) = (self.source(), self.request());
+        let mut request = self.request();
         let design = self.design(&request)?;
         let mut view = self.shaped(design.as_ref())?;
         request.look.size = Some(view.pixels);
         if let Some(design) = &design {
-            view = view_in(source, &request, &view, design)?;
+            view = view_in(&self.subject()?, &request, &view, design)?;
             (request.figure, request.look) = (true, PageStyle::of(design));
         }
         request.place = ViewRegion::of(&view);

@@ -8,7 +8,6 @@ use ppum_page::{LARGEST, PageStart, PageView, html};
 use ppum_render::view::View;
 use ppum_scene::overlays::Overlay;
 use ppum_scene::scene::{SceneRequest, Subject};
-use ppum_scene::shot::FieldSource;
 
 use crate::frames::RenderedFrame;
 use crate::save_target::replace;
@@ -46,8 +45,8 @@ impl PageOrder {
         scene.overlays.no_cracks = !scene.overlays.shown.contains(&Overlay::Cracks);
         let name = file.and_then(Path::file_name);
         let name = name.map_or("dataset.h5".into(), |name| name.display().to_string());
-        let source = FieldSource::of(frame.field.dataset(), frame.field.field());
-        let start = PageStart::new(scene, source, view.map(PageView::from), name);
+        let field = (&**frame.field.dataset(), frame.field.field());
+        let start = PageStart::new(scene, field, view.map(PageView::from), name);
         let start = start.map_err(|error| error.to_string())?;
         Ok(Self { dataset: Arc::clone(&frame.request.dataset), start })
     }

@@ -10,15 +10,15 @@ use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum_page::{LARGEST, PageStart, PageView, SHAPE, StartError, html};
 use ppum_scene::overlays::Overlays;
-use ppum_scene::place::{ImageExtent, ViewRegion};
+use ppum_scene::region::{ImageExtent, ViewRegion};
 use ppum_scene::scene::{SceneRequest, Subject};
-use ppum_scene::shot::FieldSource;
 
-use crate::dataset::{check_shown, field, named};
-use crate::formula_text::{self, FormulaText, parts};
+use crate::dataset::{field, named};
+use crate::formula_text::{FormulaText, files};
 use crate::output::{StandardStream, tell};
 use crate::standard::{self, is_standard};
-use crate::target;
+use crate::subject::image_subject;
+use crate::target::{self, FileFormat};
 
 /// Write a page to explore a dataset in a browser, or a mesh for ParaView and other programs
 ///
@@ -74,7 +74,9 @@ Examples:
 
 impl ExportArgs {
     pub(crate) fn run(&self, out: &mut StandardStream) -> anyhow::Result<()> {
-        if mesh::is_meant(&self.output) {
+        use FileFormat::{Pvd, VtkHdf, Vtp, Vtu};
+
+        if let Some(Vtu | VtkHdf | Pvd | Vtp) = FileFormat::of(&self.output) {
             return self.write_mesh(out);
         }
         self.accuracy.check_none("a page is")?;
@@ -105,17 +107,17 @@ impl ExportArgs {
             quantities: self.quantity.as_deref(),
             isolines: self.scene.overlays.isolines.as_ref(),
         };
-        if !mesh::is_collection(&self.output) {
+        if FileFormat::of(&self.output) != Some(FileFormat::Pvd) {
             return self.accuracy.write(&job, self.step, out);
         }
         ensure!(self.step.is_none(), "--step: a .pvd file lists all steps; end -o in .vtu for one");
-        self.accuracy.write_all(&job, self.inputs(), out)
+        self.accuracy.write_all(&job, &self.inputs().collect::<Vec<_>>(), out)
     }
 
     /// Refuses options that only pages have; lines may have isolines.
     fn check_no_look(&self) -> anyhow::Result<()> {
         let isolines = self.scene.overlays.isolines.clone();
-        let isolines = isolines.filter(|_| mesh::is_lines(&self.output));
+        let isolines = isolines.filter(|_| FileFormat::of(&self.output) == Some(FileFormat::Vtp));
         let overlays = Overlays { isolines, ..Overlays::default() };
         ensure!(
             !self.place.is_given()
@@ -127,10 +129,8 @@ impl ExportArgs {
     }
 
     /// The files that are read.
-    fn inputs(&self) -> impl Iterator<Item = &Path> + Clone {
-        let formulas =
-            self.quantity.iter().flat_map(|list| parts(list)).filter_map(formula_text::file);
-        [self.file.as_path()].into_iter().chain(formulas)
+    fn inputs(&self) -> impl Iterator<Item = &Path> {
+        [self.file.as_path()].into_iter().chain(files(&self.quantity))
     }
 
     fn bytes(&self, largest: u64) -> anyhow::Result<Vec<u8>> {
@@ -148,16 +148,12 @@ impl ExportArgs {
             Some(name) if !is_standard(&self.file) => name.to_string_lossy().into_owned(),
             _ => "dataset.h5".to_owned(),
         };
-        let (scene, view) = (self.scene(&field)?, self.view(&field)?);
-        PageStart::new(scene, FieldSource::of(dataset, &field), view, file).map_err(explained)
-    }
-
-    fn scene(&self, field: &Field<'_>) -> anyhow::Result<SceneRequest> {
         let quantity = self.quantity.as_deref().map(FormulaText::read).transpose()?;
-        quantity.iter().try_for_each(|given| check_shown(field, given))?;
+        image_subject(dataset, &field, quantity.as_ref())?;
         let quantity = quantity.map(|given| given.text.trim().to_owned());
         let subject = Subject { step: self.step, ..Subject::default() };
-        Ok(SceneRequest { subject, quantity, ..self.scene.clone() })
+        let scene = SceneRequest { subject, quantity, ..self.scene.clone() };
+        PageStart::new(scene, (dataset, &field), self.view(&field)?, file).map_err(explained)
     }
 
     /// The view, if one is asked for.

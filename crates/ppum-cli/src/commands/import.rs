@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context as _, ensure};
 use ppum_import::{BodyDrawing, DrawingFormat, ImportOptions};
 
+use crate::number::count;
 use crate::output::{StandardStream, tell};
 use crate::standard::is_standard;
 use crate::target;
@@ -88,9 +89,8 @@ impl ImportArgs {
             return Ok(out.exact().write_all(text.as_bytes())?);
         }
         target::save(output, |out| out.write_all(text.as_bytes()))?;
-        let count = |n: usize, noun: &str| format!("{n} {noun}{}", if n == 1 { "" } else { "s" });
-        let (holes, cracks) = (drawing.holes.len(), drawing.cracks.len());
-        let counts = format!("{}, {}", count(holes, "hole"), count(cracks, "crack"));
+        let holes = count(drawing.holes.len(), "hole", "holes");
+        let counts = format!("{holes}, {}", count(drawing.cracks.len(), "crack", "cracks"));
         Ok(writeln!(
             out,
             "wrote {}: an outline, {counts}; fill in material and loads",

@@ -1,7 +1,6 @@
 //! `ppum probe`: exact values at points.
 
 use std::io::{self, Write};
-use std::path::PathBuf;
 
 use ppum::field::Field;
 use ppum::quantity::Quantity;
@@ -11,9 +10,9 @@ use ppum::vec2::Vec2;
 use serde::Serialize;
 use serde::ser::Serializer;
 
-use crate::dataset::{field, open_step, quantities};
+use crate::dataset::quantities;
 use crate::number::{JsonNumber, json};
-use crate::replacements::ReplacementArgs;
+use crate::subject::StepArgs;
 use ppum_scene::arguments::point;
 
 /// Print exact values at points
@@ -22,9 +21,6 @@ use ppum_scene::arguments::point;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct ProbeArgs {
-    /// Dataset, - for standard input
-    #[arg(value_name = "FILE.h5")]
-    file: PathBuf,
     /// Point; may be given more than once
     #[arg(long, value_name = "X,Y", required = true, allow_hyphen_values = true, value_parser = point)]
     at: Vec<Vec2>,
@@ -36,10 +32,7 @@ pub(crate) struct ProbeArgs {
     #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
     quantity: Vec<String>,
     #[command(flatten)]
-    replacements: ReplacementArgs,
-    /// Step of the series, from 0 [default: the last]
-    #[arg(long, value_name = "K")]
-    step: Option<usize>,
+    step: StepArgs,
     /// Print JSON, see docs/cli.md
     #[arg(long)]
     json: bool,
@@ -90,9 +83,8 @@ impl Serialize for NamedValues {
 
 impl ProbeArgs {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
-        let mut dataset = open_step(&self.file, self.step)?;
-        self.replacements.apply(&mut dataset, self.step)?;
-        let field = field(&dataset, self.step)?;
+        let dataset = self.step.open()?;
+        let field = self.step.field(&dataset)?;
         let quantities = quantities(&field, &self.quantity)?;
         let segments = Segments::new(&field.step.cracks);
         let offset = self.offset.unwrap_or_default();

@@ -1,33 +1,31 @@
 //! `ppum render`: an image of a quantity.
 
-mod film;
 mod series;
+mod steps;
 
 use std::io::Write as _;
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
-use ppum::field::Field;
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::Labels;
 use ppum_render::png::TextChunk;
-use ppum_scene::deformed::words;
+use ppum_scene::compose::{RenderedImage, page};
 use ppum_scene::engine::Engine;
-use ppum_scene::image_job::ImageJob;
+use ppum_scene::magnification::words;
 use ppum_scene::panels::{PanelImages, draw};
 use ppum_scene::range::RangeLocations;
 use ppum_scene::request::{Panels, Request};
 use ppum_scene::scene::SceneRequest;
-use ppum_scene::shot::{FieldSource, RenderedImage};
+use ppum_scene::subject::ImageSubject;
 
-use crate::dataset::check_shown;
 use crate::formula_text::FormulaText;
-use crate::look::LabelArgs;
+use crate::labels::LabelArgs;
 use crate::number::count;
 use crate::output::StandardStream;
 use crate::progress::ProgressLine;
-use crate::subject::QuantityArgs;
-use crate::{graphics, page, target, threads};
+use crate::subject::{QuantityArgs, StepArgs, image_subject};
+use crate::{graphics, page as file, target, threads};
 use series::SeriesArgs;
 
 /// Draw a quantity, exactly at every pixel
@@ -97,49 +95,53 @@ impl RenderArgs {
         let Request { backend, precision, .. } = self.request;
         let engine = Engine::new(backend, precision, graphics::DRAW, &bar)?;
         let made = threads::with(self.threads, || self.made(&engine));
-        page::warn(engine.into_notices());
+        file::warn(engine.into_notices());
         drop(bar);
         match made?? {
             RenderOutput::Files(told) => Ok(writeln!(out, "wrote {told}")?),
             RenderOutput::Page(RenderedPage { page, texts, told }) => {
-                page::save(&self.output, &page, self.request.look.given_dpi(), &texts, &told, out)
+                file::save(&self.output, &page, self.request.look.given_dpi(), &texts, &told, out)
             }
         }
     }
 
     fn made(&self, engine: &Engine<'_>) -> anyhow::Result<RenderOutput> {
-        let request = self.request(self.subject.listed());
+        let texts = self.subject.texts()?;
+        let request = self.request(&texts);
         self.labels.check(&request)?;
         request.panels.check(&request.scene)?;
         if self.series.is_given() {
-            return self.all_steps(&request, engine).map(RenderOutput::Files);
+            return self.all_steps(request, texts, engine).map(RenderOutput::Files);
         }
         series::refuse_moving(&self.output)?;
         target::check(&self.output, target::FileKind::Picture, self.inputs())?;
         let datasets = self.subject.open_parts()?;
-        let fields = datasets.iter().map(|dataset| self.subject.field(dataset));
+        let fields = datasets.iter().map(|dataset| self.subject.step.field(dataset));
         let fields = fields.collect::<anyhow::Result<Vec<_>>>()?;
-        let texts = self.subject.texts()?;
-        fields.iter().try_for_each(|field| check_all(field, &texts))?;
-        let request = self.request(texts.into_iter().map(|given| given.text).collect());
-        let sources = datasets.iter().zip(&fields).map(|(d, f)| FieldSource::of(d, f));
-        match sources.collect::<Vec<_>>()[..] {
-            [source] if !request.panels.are_given() => self.one(source, request, engine),
-            ref sources => self.panels(sources, &request, engine),
+        let all: Vec<_> = match &texts[..] {
+            [] => vec![None],
+            texts => texts.iter().map(Some).collect(),
+        };
+        let bodies = || datasets.iter().zip(&fields);
+        let of = |text| bodies().map(move |(dataset, field)| image_subject(dataset, field, text));
+        let subjects = all.into_iter().flat_map(of).collect::<anyhow::Result<Vec<_>>>()?;
+        match request.panels.are_given() {
+            false => self.one(&subjects[0], &request, engine),
+            true => self.panels(&subjects, &request, engine),
         }
         .map(RenderOutput::Page)
     }
 
     /// Builds the request for an image of some quantities.
-    fn request(&self, mut quantities: Vec<String>) -> Request {
+    fn request(&self, texts: &[FormulaText]) -> Request {
+        let mut quantities: Vec<String> = texts.iter().map(|given| given.text.clone()).collect();
         let quantity = (quantities.len() == 1).then(|| quantities.swap_remove(0));
-        let replacements = &self.subject.replacements;
-        let subject = replacements.subject(self.subject.step);
+        let StepArgs { replacements, step, .. } = &self.subject.step;
         let (request, parts) = (self.request.clone(), replacements.parts());
         Request {
             labels: self.labels.texts(),
             panels: Panels { quantities, parts, ..request.panels },
-            scene: SceneRequest { subject, quantity, ..request.scene },
+            scene: SceneRequest { subject: replacements.subject(*step), quantity, ..request.scene },
             ..request
         }
     }
@@ -147,35 +149,35 @@ impl RenderArgs {
     /// Draws one quantity.
     fn one(
         &self,
-        source: FieldSource<'_>,
-        request: Request,
+        subject: &ImageSubject<'_>,
+        request: &Request,
         engine: &Engine<'_>,
     ) -> anyhow::Result<RenderedPage> {
-        let (page, shot) = ImageJob::new(source, request)?.page(engine)?;
-        let ([columns, rows], by) = (page.size, &shot.by);
-        let colors = RangeLocations::new(source.dataset, source.field).colors(&shot.picture);
-        let (name, moved) = (&shot.name, deformation_note(&shot));
+        let (page, image) = page(subject, request, engine)?;
+        let ([columns, rows], by) = (page.size, &image.by);
+        let colors = RangeLocations::new(subject.dataset, subject.field).colors(&image.picture);
+        let (name, moved) = (&image.name, deformation_note(&image));
         let told = format!("{name}{moved}, {columns}x{rows} pixels, {colors}, {by}");
-        Ok(RenderedPage { texts: self.texts(&shot), page, told })
+        Ok(RenderedPage { texts: self.texts(&image), page, told })
     }
 
     /// Draws each quantity of each plate in a panel.
     fn panels(
         &self,
-        sources: &[FieldSource<'_>],
+        subjects: &[ImageSubject<'_>],
         request: &Request,
         engine: &Engine<'_>,
     ) -> anyhow::Result<RenderedPage> {
-        let drawn = draw(sources, request, engine)?;
-        let (replacements, shot) = (&self.subject.replacements, &drawn.shots[0]);
+        let drawn = draw(subjects, request, engine)?;
+        let (replacements, image) = (&self.subject.step.replacements, &drawn.images[0]);
         let mut texts = drawn.texts(&self.subject.file_name());
-        texts.extend(replacements.notes().chain(shot.notes()));
+        texts.extend(replacements.notes().chain(image.notes()));
         let names = [drawn.names.clone()].into_iter().chain(replacements.captions());
         let names = names.collect::<Vec<_>>().join(", ");
-        let ([columns, rows], by) = (drawn.page.size, &shot.by);
-        let moved = deformation_note(shot);
-        let colors =
-            self.colors(&RangeLocations::new(sources[0].dataset, sources[0].field), &drawn);
+        let ([columns, rows], by) = (drawn.page.size, &image.by);
+        let moved = deformation_note(image);
+        let ImageSubject { dataset, field, .. } = subjects[0];
+        let colors = self.colors(&RangeLocations::new(dataset, field), &drawn);
         let told = format!("{names}{moved}, {columns}x{rows} pixels, {by}{colors}");
         Ok(RenderedPage { page: drawn.page, texts, told })
     }
@@ -183,22 +185,22 @@ impl RenderArgs {
     /// Writes the meaning of the colours of each panel, in lines of their own; those of one range
     /// once.
     fn colors(&self, telling: &RangeLocations<'_>, drawn: &PanelImages) -> String {
-        let has_parts = self.subject.has_parts();
-        let line = |(shot, labels): (&RenderedImage, &Labels)| {
+        let has_parts = !self.subject.step.replacements.captions().is_empty();
+        let line = |(image, labels): (&RenderedImage, &Labels)| {
             let letter = labels.title.split(' ').next().filter(|_| has_parts).unwrap_or_default();
-            let name = format!("{letter} {}", shot.name);
-            format!("\n  {}: {}", name.trim_start(), telling.colors(&shot.picture))
+            let name = format!("{letter} {}", image.name);
+            format!("\n  {}: {}", name.trim_start(), telling.colors(&image.picture))
         };
         if drawn.is_shared {
-            return format!("\n  {}", telling.colors(&drawn.shots[0].picture));
+            return format!("\n  {}", telling.colors(&drawn.images[0].picture));
         }
-        drawn.shots.iter().zip(&drawn.labels).map(line).collect()
+        drawn.images.iter().zip(&drawn.labels).map(line).collect()
     }
 
     /// The texts of an image's file: what it shows, and what was done to the dataset and the plate.
     fn texts(&self, shot: &RenderedImage) -> Vec<TextChunk> {
         let mut texts = shot.texts(&self.subject.file_name());
-        texts.extend(self.subject.replacements.notes().chain(shot.notes()));
+        texts.extend(self.subject.step.replacements.notes().chain(shot.notes()));
         texts
     }
 
@@ -207,11 +209,6 @@ impl RenderArgs {
         let map = self.request.scene.colors.colormap.as_deref().map(Path::new);
         self.subject.inputs().chain(map)
     }
-}
-
-/// Refuses quantities that a field does not have, in the words of the command line.
-fn check_all(field: &Field<'_>, texts: &[FormulaText]) -> anyhow::Result<()> {
-    texts.iter().try_for_each(|given| check_shown(field, given))
 }
 
 /// For a deformed body, writes the factor, and at how many pixels it overlaps itself.
@@ -233,14 +230,13 @@ mod tests {
     use ppum_render::range::RangeChoice;
     use ppum_render::samples::Samples;
     use ppum_render::scale::Scale;
+    use ppum_scene::backend::{Backend, Precision};
     use ppum_scene::colors::ColorOptions;
     use ppum_scene::command;
-    use ppum_scene::deformed::Magnification;
-    use ppum_scene::engine::{Backend, Precision};
+    use ppum_scene::magnification::Magnification;
     use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays};
-    use ppum_scene::page_style::{BarName, PageStyle, ThemeName};
-    use ppum_scene::paper::PaperSize;
-    use ppum_scene::place::ViewRegion;
+    use ppum_scene::page_style::{BarName, PageStyle, PaperSize, ThemeName};
+    use ppum_scene::region::ViewRegion;
     use ppum_scene::request::FigureTexts;
     use ppum_scene::scene::Subject;
     use ppum_testkit::random::Random;
@@ -394,7 +390,7 @@ mod tests {
         let words = words.iter().map(OsString::from);
         let cli = Cli::understood(words).unwrap_or_else(|error| panic!("{error}"));
         let Command::Render(args) = cli.command else { panic!("another command") };
-        args.request(args.subject.listed())
+        args.request(&args.subject.texts().expect("no files"))
     }
 
     /// Every option of an image is in the words of its command, and means there what it meant.

@@ -12,12 +12,12 @@ use ppum::sample;
 use ppum::vec2::Rect;
 use ppum_scene::table::NumberTable;
 
-use crate::dataset::{field, open_step, quantities};
-use crate::formula_text::{self, parts};
+use crate::dataset::quantities;
+use crate::formula_text::files;
 use crate::output::StandardStream;
 use crate::profile::{ProfileArgs, check_grid, listed, save};
-use crate::replacements::ReplacementArgs;
 use crate::standard::is_standard;
+use crate::subject::StepArgs;
 use crate::target;
 use ppum_scene::arguments::{corners, size};
 
@@ -29,9 +29,6 @@ use ppum_scene::arguments::{corners, size};
 #[command(after_help = EXAMPLES)]
 #[command(group = clap::ArgGroup::new("where").required(true))]
 pub(crate) struct SampleArgs {
-    /// Dataset, - for standard input
-    #[arg(value_name = "FILE.h5")]
-    file: PathBuf,
     #[command(flatten)]
     profile: ProfileArgs,
     /// At the points of a text file, - for standard input: a line with x and y for each
@@ -50,10 +47,7 @@ pub(crate) struct SampleArgs {
     #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
     quantity: Vec<String>,
     #[command(flatten)]
-    replacements: ReplacementArgs,
-    /// Step of the series, from 0 [default: the last]
-    #[arg(long, value_name = "K")]
-    step: Option<usize>,
+    step: StepArgs,
     /// File to write, .csv or .npy; - for CSV to standard output [default: -]
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
@@ -72,9 +66,8 @@ impl SampleArgs {
         if let Some(output) = &self.output {
             target::check(output, target::FileKind::Table, self.inputs())?;
         }
-        let mut dataset = open_step(&self.file, self.step)?;
-        self.replacements.apply(&mut dataset, self.step)?;
-        let field = field(&dataset, self.step)?;
+        let dataset = self.step.open()?;
+        let field = self.step.field(&dataset)?;
         let quantities = quantities(&field, &self.quantity)?;
         let table = self.table(&field, &quantities)?;
         table.check_names()?;
@@ -90,10 +83,8 @@ impl SampleArgs {
 
     /// The files that are read.
     fn inputs(&self) -> impl Iterator<Item = &Path> {
-        let files = [&self.file].into_iter().chain(&self.points).map(PathBuf::as_path);
-        let formulas =
-            self.quantity.iter().flat_map(|list| parts(list)).filter_map(formula_text::file);
-        files.chain(formulas).chain(self.replacements.files())
+        let points = self.points.as_deref().into_iter();
+        self.step.inputs().chain(points).chain(files(&self.quantity))
     }
 
     fn table(

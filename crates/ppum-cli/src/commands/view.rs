@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use ppum_scene::engine::Backend;
+use ppum_scene::backend::Backend;
 
 use crate::output::StandardStream;
 
@@ -82,7 +82,7 @@ impl ViewArgs {
         use std::io::Write as _;
 
         let inputs = self.session.iter().chain(&self.files).map(PathBuf::as_path);
-        let is_png = target.extension().is_some_and(|end| end.eq_ignore_ascii_case("png"));
+        let is_png = crate::target::FileFormat::of(target) == Some(crate::target::FileFormat::Png);
         anyhow::ensure!(
             is_png || crate::standard::is_standard(target),
             "--screenshot {}: the picture of a window is a PNG file; end the name in .png",

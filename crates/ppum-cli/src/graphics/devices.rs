@@ -1,11 +1,13 @@
 //! Drawing on devices, and what devices there are.
 
 use ppum::progress::Watcher;
-use ppum_gpu::{AdapterChoice, AdapterInfo, Gpu, GpuError, RenderError, Renderer};
+use ppum_gpu::{AdapterChoice, AdapterInfo, Gpu, GpuError, Method, RenderError, Renderer};
 use ppum_render::raster::Raster;
 use ppum_render::samples::{Means, SampleImage, Samples};
-use ppum_scene::drawing::{DrawingInput, PixelValues};
-use ppum_scene::engine::{CardError, Device, DeviceMethod, DrawOnCard};
+use ppum_scene::backend::Backend;
+use ppum_scene::engine::DrawOnCard;
+use ppum_scene::error::CardError;
+use ppum_scene::values::{DrawingInput, PixelValues};
 
 use super::Adapter;
 
@@ -22,8 +24,7 @@ pub(crate) const DRAW: Option<DrawOnCard> = Some(draw);
 fn draw(
     job: DrawingInput<'_>,
     samples: Samples,
-    device: Device,
-    method: DeviceMethod,
+    backend: Backend,
     watcher: &dyn Watcher,
 ) -> Result<PixelValues, CardError> {
     let DrawingInput { field, view, quantity } = job;
@@ -31,14 +32,14 @@ fn draw(
     let finer = view.finer(samples.side());
     let finer = finer.map_err(|e| CardError { message: e.to_string(), is_normal: true })?;
     let of_samples = DrawingInput { field, view: &finer, quantity };
-    let choice = if device == Device::Hardware { AdapterChoice::Real } else { AdapterChoice::Any };
+    let (choice, method, kind) = match backend {
+        Backend::Auto => (AdapterChoice::Real, Method::Gather, "gpu f32"),
+        Backend::Splat => (AdapterChoice::Any, Method::Splat, "gpu splat f32"),
+        Backend::Cpu | Backend::Gpu => (AdapterChoice::Any, Method::Gather, "gpu f32"),
+    };
     let drawn = drawn(of_samples, choice, method, watcher);
     let (renderer, raster) = drawn.map_err(|error| failure(&error))?;
-    let name = &renderer.gpu().info().name;
-    let by = match method {
-        DeviceMethod::Gather => format!("gpu f32, {name}"),
-        DeviceMethod::Splat => format!("gpu splat f32, {name}"),
-    };
+    let by = format!("{kind}, {}", renderer.gpu().info().name);
     if samples == Samples::CENTER {
         return Ok(PixelValues::new(raster, job.field, job.view, &by));
     }
@@ -50,14 +51,10 @@ fn draw(
 fn drawn(
     job: DrawingInput<'_>,
     choice: AdapterChoice,
-    method: DeviceMethod,
+    method: Method,
     watcher: &dyn Watcher,
 ) -> Result<(Renderer, Raster<f32>), RenderError> {
     let mut renderer = Renderer::open(choice)?;
-    let method = match method {
-        DeviceMethod::Gather => ppum_gpu::Method::Gather,
-        DeviceMethod::Splat => ppum_gpu::Method::Splat,
-    };
     let raster = renderer.render(job.field, job.view, job.quantity, method, watcher)?;
     Ok((renderer, raster))
 }

@@ -12,14 +12,15 @@ use ppum_render::scale::Scale;
 use ppum_render::view::View;
 use ppum_scene::colors::ColorOptions;
 use ppum_scene::command;
-use ppum_scene::deformed::Magnification;
+use ppum_scene::compose::page_of_view;
 use ppum_scene::engine::Engine;
+use ppum_scene::magnification::Magnification;
 use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays};
 use ppum_scene::page_style::PageStyle;
-use ppum_scene::place::ViewRegion;
+use ppum_scene::region::ViewRegion;
 use ppum_scene::request::Request;
 use ppum_scene::scene::{SceneRequest, Subject};
-use ppum_scene::shot::{self, FieldSource};
+use ppum_scene::subject::ImageSubject;
 use ppum_testkit::random::Random;
 
 use super::{CRACKED, Lab, Png};
@@ -205,7 +206,8 @@ fn page(
     let mut dataset = dataset.clone();
     scene.subject.apply(&mut dataset).map_err(|e| e.to_string())?;
     let field = Field::new(&dataset, scene.subject.step_of(&dataset)).map_err(|e| e.to_string())?;
-    let (source, request) = (FieldSource::of(&dataset, &field), scene.clone().into());
-    let made = shot::page(source, &request, view, design, &Engine::default());
+    let subject = ImageSubject::new(&dataset, &field, scene.quantity.as_deref());
+    let (subject, request) = (subject.map_err(|e| e.to_string())?, scene.clone().into());
+    let made = page_of_view(&subject, &request, view, design, &Engine::default());
     made.map(|(page, shot)| (page.image().rgba, shot.picture.view)).map_err(|e| e.to_string())
 }

@@ -8,15 +8,17 @@ use ppum::vec2::Vec2;
 use ppum_render::isoline::Isoline;
 use ppum_render::samples::Samples;
 use ppum_render::view::View;
-use ppum_scene::deformed::Magnification;
-use ppum_scene::drawing::{PixelValues, RasterValues};
+use ppum_scene::body::BodyView;
+use ppum_scene::camera::{ImageSettings, LayoutInput};
+use ppum_scene::compose::page;
 use ppum_scene::engine::Engine;
-use ppum_scene::image_job::{ImageJob, ImageSettings};
+use ppum_scene::magnification::Magnification;
 use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays};
-use ppum_scene::place::ViewRegion;
+use ppum_scene::region::ViewRegion;
 use ppum_scene::request::Request;
 use ppum_scene::scene::SceneRequest;
-use ppum_scene::shot::{FieldSource, QuantityRequest};
+use ppum_scene::subject::ImageSubject;
+use ppum_scene::values::{PixelValues, RasterValues};
 use ppum_testkit::random::Random;
 
 use crate::backend::has_adapter;
@@ -119,12 +121,20 @@ fn request(quantity: &str, mirror: Option<&str>, place: &ViewRegion, size: [u32;
 fn drawn(dataset: &Dataset, request: Request, samples: Samples) -> PixelValues {
     let field = Field::new(dataset, 0).unwrap();
     let engine = Engine::default();
-    let still = ImageJob::new(FieldSource::of(dataset, &field), request).unwrap();
-    let (source, request) = (still.source, &still.request);
-    let common = ImageSettings::new(&still, request).unwrap();
-    let seen = common.placing.body(source, &request.scene, &engine).unwrap();
-    let asked = QuantityRequest::new(&request.scene, source.field).unwrap();
-    source.input(&asked, &seen).values(samples, &engine).unwrap()
+    let subject = subject(dataset, &field, &request);
+    let body = body(&subject, &request, &engine);
+    subject.values(&body, samples, &engine).unwrap()
+}
+
+fn subject<'a>(dataset: &'a Dataset, field: &'a Field<'a>, request: &Request) -> ImageSubject<'a> {
+    ImageSubject::new(dataset, field, request.scene.quantity.as_deref()).unwrap()
+}
+
+fn body<'a>(subject: &ImageSubject<'a>, request: &Request, engine: &Engine<'_>) -> BodyView<'a> {
+    let request = subject.resolved(request).unwrap();
+    let input = LayoutInput::of(subject, &request).unwrap();
+    let settings = ImageSettings::new(&request, &input).unwrap();
+    settings.camera.body(subject, &request.scene, engine).unwrap()
 }
 
 fn values(drawn: &PixelValues) -> &[f64] {
@@ -143,14 +153,15 @@ fn centers(
 }
 
 /// The isolines of an image, and its view.
-fn isolines(still: &ImageJob<'_>, levels: Vec<f64>) -> (View, Vec<Isoline>) {
-    let (engine, scene) = (Engine::default(), &still.request.scene);
-    let common = ImageSettings::new(still, &still.request).unwrap();
-    let seen = common.placing.body(still.source, scene, &engine).unwrap();
-    let asked = QuantityRequest::new(scene, still.source.field).unwrap();
-    let input = still.source.input(&asked, &seen);
-    let lines = input.isolines(&IsolineLevels::At(levels), &scene.colors, &engine).unwrap();
-    (*seen.view(), lines)
+fn isolines(
+    subject: &ImageSubject<'_>,
+    request: &Request,
+    levels: Vec<f64>,
+) -> (View, Vec<Isoline>) {
+    let engine = Engine::default();
+    let body = body(subject, request, &engine);
+    let lines = subject.isolines(&body, &IsolineLevels::At(levels), &engine).unwrap();
+    (*body.view(), lines)
 }
 
 const SIZE: [u32; 2] = [101, 147];
@@ -330,8 +341,8 @@ fn odd_quantities_are_zero_on_their_line() {
         let draw = |dataset: usize, name: &str| {
             let mirror = Some(*edges).filter(|_| dataset == 1);
             let request = request(name, mirror, &ViewRegion::default(), [120, 180]);
-            let source = FieldSource::of([&whole, &part][dataset], &fields[dataset]);
-            isolines(&ImageJob::new(source, request).unwrap(), vec![0.0])
+            let subject = subject([&whole, &part][dataset], &fields[dataset], &request);
+            isolines(&subject, &request, vec![0.0])
         };
         for name in odd {
             let [(view, whole_lines), (_, lines)] = [0, 1].map(|dataset| draw(dataset, name));
@@ -478,8 +489,8 @@ fn overlays_are_mirrored() {
     let field = Field::new(&part, 0).unwrap();
     let request = request("syy", Some("bottom"), &ViewRegion::default(), [120, 180]);
     let engine = Engine::default();
-    let still = ImageJob::new(FieldSource::of(&part, &field), request).unwrap();
-    let (View { center, .. }, lines) = isolines(&still, vec![0.7, 1.3]);
+    let lines_of = subject(&part, &field, &request);
+    let (View { center, .. }, lines) = isolines(&lines_of, &request, vec![0.7, 1.3]);
     assert_eq!(center.y, 0.0);
     let (above, below): (Vec<_>, Vec<_>) =
         lines.iter().partition(|line| line.points.iter().all(|p| p.y >= 0.0));
@@ -495,7 +506,7 @@ fn overlays_are_mirrored() {
         let mut request =
             Request::from(SceneRequest { overlays, mirror, ..SceneRequest::default() });
         request.look.size = Some([200, 300]);
-        ImageJob::new(still.source, request).unwrap().page(&engine).unwrap().0.image()
+        page(&subject(&part, &field, &request), &request, &engine).unwrap().0.image()
     };
     for overlay in Overlay::ALL {
         // supports and loads need room around the plate, which pictures without them lack

@@ -6,10 +6,10 @@ use ppum::quantity::available;
 use ppum::vec2::Rect;
 use ppum_render::cells;
 use ppum_render::colormap::NAMES;
-use ppum_scene::scene::{OF_PATCHES, default_quantity, shown};
+use ppum_scene::error::ImageError;
+use ppum_scene::quantity::{DisplayedQuantity, OF_PATCHES, default_quantity};
 
 use super::Evaluator;
-use crate::error::PageError;
 use crate::messages::{Description, PageChoice};
 
 /// The name in lists that stands for the partition functions of all patches.
@@ -20,7 +20,7 @@ impl Evaluator<'_> {
     ///
     /// # Errors
     /// No such step.
-    pub fn describe(&self, step: usize) -> Result<Description, PageError> {
+    pub fn describe(&self, step: usize) -> Result<Description, ImageError> {
         let dataset = self.dataset;
         let field = Field::new(dataset, step)?;
         let Rect { min, max } = dataset.domain.bounds;
@@ -44,7 +44,7 @@ fn quantities(field: &Field<'_>) -> Vec<PageChoice> {
     let names = available(field).into_iter().filter(|name| name != ANY_PATCH);
     names
         .filter_map(|text| {
-            let [label, unit] = shown(&text, field).ok()?.words(field);
+            let [label, unit] = DisplayedQuantity::parse(&text, field).ok()?.words(field);
             let label = if unit.is_empty() { label } else { format!("{label} [{unit}]") };
             Some(PageChoice { text, label })
         })

@@ -4,18 +4,21 @@ mod describe;
 pub mod paint;
 mod probe;
 
+use std::sync::Arc;
+
 use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum_render::range::ColorRange;
 use ppum_render::scatter::{BAND, render_rows};
 use ppum_scene::colors::ColorOptions;
+use ppum_scene::error::{ImageError, ImageErrorKind};
 use ppum_scene::mirror::Mirror;
 use ppum_scene::probe::PointReader;
+use ppum_scene::quantity::DisplayedQuantity;
 use ppum_scene::scene::SceneRequest;
-use ppum_scene::shot::QuantityRequest;
+use ppum_scene::subject::ImageSubject;
 
-use crate::error::PageError;
 use crate::messages::ImageRows;
 
 /// Evaluates a dataset. The last request is kept ready: the field of the step, the quantity with
@@ -32,7 +35,8 @@ struct PageSubject<'d> {
     text: Option<String>,
     mirror: Option<Mirror>,
     field: Field<'d>,
-    asked: QuantityRequest,
+    shown: Arc<DisplayedQuantity>,
+    name: String,
     /// Made at the first question for values at a point.
     reader: Option<PointReader>,
 }
@@ -46,12 +50,18 @@ struct KnownRange {
 }
 
 impl<'d> PageSubject<'d> {
-    fn new(dataset: &'d Dataset, scene: &SceneRequest) -> Result<Self, PageError> {
+    fn new(dataset: &'d Dataset, scene: &SceneRequest) -> Result<Self, ImageError> {
         let step = scene.subject.step_of(dataset);
         let field = Field::new(dataset, step)?;
-        let asked = QuantityRequest::new(scene, &field).map_err(PageError::shot)?;
-        let mirror = scene.mirror.clone();
-        Ok(Self { step, text: scene.quantity.clone(), mirror, field, asked, reader: None })
+        let (text, mirror) = (scene.quantity.clone(), scene.mirror.clone());
+        let subject = ImageSubject::new(dataset, &field, text.as_deref());
+        let ImageSubject { shown, name, .. } = subject?;
+        Ok(Self { step, text, mirror, field, shown, name, reader: None })
+    }
+
+    fn image_subject<'s>(&'s self, dataset: &'s Dataset) -> ImageSubject<'s> {
+        let (shown, name) = (Arc::clone(&self.shown), self.name.clone());
+        ImageSubject { dataset, field: &self.field, shown, name, left: None }
     }
 
     fn is_of(&self, dataset: &Dataset, scene: &SceneRequest) -> bool {
@@ -72,18 +82,18 @@ impl<'d> Evaluator<'d> {
     ///
     /// # Errors
     /// A quantity that the dataset does not have; rows that are not in the image.
-    pub fn rows(&mut self, rows: &ImageRows) -> Result<Vec<f64>, PageError> {
+    pub fn rows(&mut self, rows: &ImageRows) -> Result<Vec<f64>, ImageError> {
         let ImageRows { frame, rows: [first, end] } = rows;
-        let view = frame.view.checked().map_err(PageError::shot)?;
+        let view = frame.view.checked()?;
         if !first.is_multiple_of(BAND) || first > end || *end > view.pixels[1] {
-            return Err(PageError::Rows(*first, *end, view.pixels[1]));
+            return Err(ImageErrorKind::Rows(*first, *end, view.pixels[1]).into());
         }
         let subject = prepared(&mut self.subject, self.dataset, &frame.scene)?;
-        let PageSubject { field, asked, .. } = subject;
+        let PageSubject { field, shown, .. } = subject;
         let is_whole = frame.scene.deformed.is_some() || frame.scene.mirror.is_some();
-        let quantity = asked.shown.quantity().filter(|_| !is_whole);
+        let quantity = shown.quantity().filter(|_| !is_whole);
         let Some(quantity) = quantity else { return Ok(Vec::new()) };
-        render_rows(field, &view, quantity, *first..*end, unwatched()).map_err(PageError::shot)
+        Ok(render_rows(field, &view, quantity, *first..*end, unwatched())?)
     }
 }
 
@@ -92,7 +102,7 @@ fn prepared<'s, 'd>(
     known: &'s mut Option<PageSubject<'d>>,
     dataset: &'d Dataset,
     scene: &SceneRequest,
-) -> Result<&'s mut PageSubject<'d>, PageError> {
+) -> Result<&'s mut PageSubject<'d>, ImageError> {
     let subject = match known.take().filter(|subject| subject.is_of(dataset, scene)) {
         Some(subject) => subject,
         None => PageSubject::new(dataset, scene)?,

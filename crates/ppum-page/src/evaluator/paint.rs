@@ -11,20 +11,21 @@ use ppum_render::range::ColorRange;
 use ppum_render::raster::Raster;
 use ppum_render::samples::Samples;
 use ppum_render::view::View;
+use ppum_scene::body::BodyView;
+use ppum_scene::coloring::ColorMapping;
 use ppum_scene::command;
-use ppum_scene::drawing::{DrawingInput, PROCESSOR, PixelValues, RasterValues};
 use ppum_scene::engine::Engine;
+use ppum_scene::error::{ImageError, ImageErrorKind};
 use ppum_scene::layers::LayerInput;
 use ppum_scene::location::number;
-use ppum_scene::mirror::MirrorLines;
-use ppum_scene::place::ViewRegion;
+use ppum_scene::mirror_lines::MirrorLines;
 use ppum_scene::range::RangeLocations;
+use ppum_scene::region::ViewRegion;
 use ppum_scene::request::Request;
-use ppum_scene::shared::ColorMapping;
-use ppum_scene::shot::{FieldSource, ImageInput};
+use ppum_scene::subject::ImageSubject;
+use ppum_scene::values::{DrawingInput, PROCESSOR, PixelValues, RasterValues};
 
 use super::{Evaluator, KnownRange, PageSubject, prepared};
-use crate::error::PageError;
 use crate::messages::{PageFrame, PageLegend, PageTick};
 
 /// An image with its colour bar.
@@ -52,35 +53,34 @@ impl Evaluator<'_> {
     /// # Errors
     /// A quantity that the dataset does not have; values that are not one for each pixel; a range
     /// that does not fit the scale.
-    pub fn paint(&mut self, frame: &PageFrame, values: Vec<f64>) -> Result<PageImage, PageError> {
-        let view = frame.view.checked().map_err(PageError::shot)?;
+    pub fn paint(&mut self, frame: &PageFrame, values: Vec<f64>) -> Result<PageImage, ImageError> {
+        let view = frame.view.checked()?;
         let subject = &*prepared(&mut self.subject, self.dataset, &frame.scene)?;
         let engine = Engine::processor(unwatched());
         // of a deformed body the overlays that it has
         let scene = &frame.scene.drawn();
-        let source = FieldSource::of(self.dataset, &subject.field);
-        let seen = source.seen(scene, &view, &engine).map_err(PageError::shot)?;
-        let input = source.input(&subject.asked, &seen);
-        let drawn = drawn(&input, values, &engine)?;
+        let shown = &subject.image_subject(self.dataset);
+        let body = &shown.body(scene, &view, &engine)?;
+        let drawn = drawn(shown, body, values, &engine)?;
         let known = self.last.take().filter(|found| found.is_kept(subject, frame));
         let coloring = match known {
-            None => input.coloring(&scene.colors, &drawn, &engine),
+            None => shown.coloring(body, &scene.colors, &drawn, engine.watcher)?,
             Some(KnownRange { span, .. }) => {
-                let style = source.style(input.shown, &scene.colors, &drawn);
-                Ok(ColorMapping { style: style.map_err(PageError::shot)?, span, ends: None })
+                let style = shown.style(&scene.colors, &drawn)?;
+                ColorMapping { style, span, ends: None }
             }
         };
-        let coloring = coloring.map_err(PageError::shot)?;
-        let picture = coloring.picture(&drawn).map_err(PageError::shot)?;
-        let ground = LayerInput { has_bar: true, ..input.ground(&picture, &drawn.values) };
-        let layers = input.layers(scene, ground, unwatched());
-        let layers = layers.map_err(|error| PageError::shot(Box::new(error)))?;
+        let picture = &coloring.picture(&drawn)?;
+        let values = &drawn.values;
+        let input =
+            LayerInput { subject: shown, body, picture, values, design: None, has_bar: true };
+        let layers = input.layers(scene, engine.watcher)?;
         layers.notices.into_iter().for_each(|notice| engine.tell(notice));
+        let image = bare(picture, layers.items).image();
         let notices = engine.into_notices().iter().map(ToString::to_string).collect();
         let legend =
-            PageLegend { notices, command: command(frame, &view), ..legend(&input, &picture) };
+            PageLegend { notices, command: command(frame, &view), ..legend(shown, picture) };
         self.last = Some(KnownRange::new(subject, frame, coloring.span));
-        let image = bare(&picture, layers.items).image();
         let values = match drawn.values {
             RasterValues::Double(raster) => raster.values,
             RasterValues::Single(_) => Vec::new(),
@@ -105,29 +105,30 @@ impl KnownRange {
 
 /// The values of an image: those that are given where they are known by rows.
 fn drawn(
-    input: &ImageInput<'_>,
+    subject: &ImageSubject<'_>,
+    body: &BodyView<'_>,
     values: Vec<f64>,
     engine: &Engine<'_>,
-) -> Result<PixelValues, PageError> {
-    let (view, field) = (*input.seen.view(), input.source.field);
-    let is_by_rows = input.seen.factor().is_none() && input.seen.lines == MirrorLines::default();
-    let drawn = match input.shown.quantity().filter(|_| is_by_rows) {
-        None => input.values(Samples::CENTER, engine),
+) -> Result<PixelValues, ImageError> {
+    let (view, field) = (*body.view(), subject.field);
+    let is_by_rows = body.factor().is_none() && body.lines == MirrorLines::default();
+    let drawn = match subject.shown.quantity().filter(|_| is_by_rows) {
+        None => subject.values(body, Samples::CENTER, engine),
         Some(_) => {
             let pixels = view.pixels[0] as usize * view.pixels[1] as usize;
             if values.len() != pixels {
-                return Err(PageError::Values(values.len(), pixels));
+                return Err(ImageErrorKind::Values(values.len(), pixels).into());
             }
             let mut values = Some(values);
             let given = &mut |_: DrawingInput<'_>, _| {
                 let raster = Raster::new(view.pixels, values.take().unwrap_or_default());
                 Ok(PixelValues::new(raster, field, &view, PROCESSOR))
             };
-            input.values_by(Samples::CENTER, given, unwatched())
+            subject.values_by(body, Samples::CENTER, given, unwatched())
         }
     };
-    let drawn = drawn.map_err(PageError::shot)?;
-    input.tell_values(&drawn, engine);
+    let drawn = drawn?;
+    subject.tell_values(&drawn, engine);
     Ok(drawn)
 }
 
@@ -139,14 +140,14 @@ fn command(PageFrame { scene, file, .. }: &PageFrame, view: &View) -> String {
 }
 
 /// The colour bar, without notices and command.
-fn legend(input: &ImageInput<'_>, picture: &ColoredRaster) -> PageLegend {
-    let FieldSource { dataset, field, .. } = input.source;
+fn legend(subject: &ImageSubject<'_>, picture: &ColoredRaster) -> PageLegend {
+    let ImageSubject { dataset, field, .. } = *subject;
     let (norm, map) = (&picture.normalization, &picture.colormap);
     let ticks = match picture.one_value {
         None => ticks::bar(norm, LABELS),
         Some(value) => ticks::of_one_value(norm, value),
     };
-    let [name, unit] = input.source.words(input.shown);
+    let [name, unit] = subject.words();
     let beyond = |has: bool, color: Rgba| has.then(|| hex(color));
     let extreme = |value: Option<f64>| value.map(|value| number(value, DIGITS));
     PageLegend {

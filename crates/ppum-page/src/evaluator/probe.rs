@@ -1,12 +1,12 @@
 //! Values at a point: those of `ppum probe`, with the gradient, on both sides of a crack.
 
+use ppum_scene::error::ImageError;
 use ppum_scene::location::{Location, LocationFormat, number};
 use ppum_scene::material::DeformedWhole;
+use ppum_scene::mirror_lines::MirrorLines;
 use ppum_scene::probe::{PointReader, ProbeReading, SideValue};
-use ppum_scene::shot::FieldSource;
 
 use super::{Evaluator, PageSubject, prepared};
-use crate::error::PageError;
 use crate::messages::{self, PointQuestion, PointReading};
 
 /// Digits of values.
@@ -17,15 +17,15 @@ impl Evaluator<'_> {
     ///
     /// # Errors
     /// A quantity that the dataset does not have.
-    pub fn probe(&mut self, question: &PointQuestion) -> Result<PointReading, PageError> {
+    pub fn probe(&mut self, question: &PointQuestion) -> Result<PointReading, ImageError> {
         let (dataset, frame) = (self.dataset, &question.frame);
-        let view = frame.view.checked().map_err(PageError::shot)?;
+        let view = frame.view.checked()?;
         let subject = prepared(&mut self.subject, dataset, &frame.scene)?;
-        let (PageSubject { field, asked, reader, .. }, scene) = (&mut *subject, &frame.scene);
+        let (PageSubject { field, shown, reader, .. }, scene) = (&mut *subject, &frame.scene);
         let field = &*field;
-        let lines = FieldSource::of(dataset, field).lines(scene).map_err(PageError::shot)?;
+        let lines = MirrorLines::of(scene.mirror.as_ref(), dataset)?;
         let factor = scene.deformed.map(|factor| factor.number(&[field])).transpose();
-        let factor = factor.map_err(PageError::shot)?.filter(|factor| *factor != 0.0);
+        let factor = factor?.filter(|factor| *factor != 0.0);
         let whole = factor.map(|factor| DeformedWhole { field, factor, lines });
         let offset = view.offset_at(question.pixel.into());
         let there = Location::new(view.center, offset);
@@ -36,7 +36,7 @@ impl Evaluator<'_> {
         let places = LocationFormat { view: &view, size: size.x.max(size.y), cracks };
         let offset = whole.filter(|_| seen.is_some()).map(|whole| whole.offset(&view, &spot));
         let pixel = view.pixel_of_offset(offset.unwrap_or(spot.from(view.center)));
-        let reader = reader.get_or_insert_with(|| PointReader::new(field, &asked.shown, &lines));
+        let reader = reader.get_or_insert_with(|| PointReader::new(field, shown, &lines));
         let read = reader.read(field, &spot);
         let place = places.show(&spot);
         let is_inside = seen.is_some() && !read.is_outside();
@@ -61,7 +61,7 @@ impl PageSubject<'_> {
         let mut lines = vec![format!("({x}, {y})")];
         for messages::SideReading { name, exact, .. } in sides {
             let side = name.as_ref().map_or(String::new(), |name| format!(" {name} the crack"));
-            lines.push(format!("  {} = {exact}{side}", self.asked.name));
+            lines.push(format!("  {} = {exact}{side}", self.name));
         }
         lines.join("\n")
     }

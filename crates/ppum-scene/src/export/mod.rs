@@ -14,7 +14,6 @@ mod average;
 mod borders;
 mod elements;
 mod lagrange;
-mod level_tips;
 mod measure;
 mod refine;
 mod singular;
@@ -26,6 +25,7 @@ pub mod vtu;
 use std::slice::Chunks;
 
 use ppum::field::Field;
+use ppum::function::{Frame, FunctionKind};
 use ppum::progress::{Cancelled, Watcher};
 use ppum::sample::SidedPoint;
 use ppum::segment;
@@ -36,11 +36,12 @@ use ppum_solve::triangulation::NotFinite;
 use arrays::ArrayColumns;
 pub use arrays::PointArray;
 use borders::{ExportSegment, LineRequest, SAME, borders, crossings, longest, with_polygons};
+use elements::{ElementPlace, evaluate_elements};
 use lagrange::{Lagrange, node_count};
 pub use measure::RANDOM_POINTS;
 use refine::{Limits, RefinedMesh};
 use singular::SingularPoints;
-use torn::{Torn, TornPoint};
+use torn::{Torn, TornPoint, ValueSide};
 
 /// The required accuracy of a mesh, and its limits.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -372,3 +373,24 @@ impl RefinedMesh<'_, '_> {
 
 #[cfg(test)]
 mod tests;
+
+impl RefinedMesh<'_, '_> {
+    /// Adds tips to the singular points: they are corners of the pieces of elements.
+    pub(super) fn add_level_tips(&mut self, radius: Option<f64>) {
+        let levels = |kind: &FunctionKind| {
+            matches!(kind, FunctionKind::Formula { frame: Frame::Levels(_), .. })
+        };
+        if !self.field.step.functions.iter().any(|f| levels(&f.kind)) {
+            return;
+        }
+        let place = |point: &TornPoint| match point.seen {
+            ValueSide::Element(place) => Some(ElementPlace { inner: place.at, ..place }),
+            ValueSide::Plane { .. } => None,
+        };
+        let places: Vec<_> = self.mesh.points.iter().filter_map(place).collect();
+        let rows = evaluate_elements(self.field, &self.columns.quantities, &places);
+        for (point, row) in self.mesh.points.iter().zip(rows.chunks(self.columns.len())) {
+            self.singular.add(self.field, point.position, row, radius);
+        }
+    }
+}

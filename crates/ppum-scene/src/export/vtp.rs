@@ -13,15 +13,15 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use super::borders::{ExportSegment, LineRequest, SAME, borders, longest, with_polygons};
 use super::torn::Torn;
 use super::vtu::{FileNotes, array, flat, numbers, write_texts};
-use crate::body::BodyView;
-use crate::colors::ColorOptions;
-use crate::engine::Engine;
-use crate::mirror::MirrorLines;
-use crate::overlays::IsolineLevels;
-use crate::page_style::DEFAULT_SIZE;
-use crate::place::{ImageExtent, ViewRegion};
-use crate::shot::{FieldSource, ImageError, QuantityRequest};
-use crate::stations::BoundarySamples;
+use crate::image::body::BodyView;
+use crate::image::boundary::BoundarySamples;
+use crate::image::engine::Engine;
+use crate::image::error::ImageError;
+use crate::image::mirror_lines::MirrorLines;
+use crate::image::subject::ImageSubject;
+use crate::request::overlays::IsolineLevels;
+use crate::request::page_style::DEFAULT_SIZE;
+use crate::request::region::{ImageExtent, ViewRegion};
 
 /// Distance of points with supports and loads, in parts of the longer side of the domain.
 const SPACING: f64 = 0.04;
@@ -110,15 +110,6 @@ impl FeatureKind {
     }
 }
 
-/// The quantity of isolines and their levels.
-#[derive(Clone, Copy, Debug)]
-pub struct IsolineRequest<'a> {
-    /// The displayed quantity of the field.
-    pub asked: &'a QuantityRequest,
-    /// The levels.
-    pub levels: &'a IsolineLevels,
-}
-
 impl PolylineData {
     /// Those of a field's step, without isolines; supports and loads if the dataset has its
     /// problem.
@@ -156,19 +147,18 @@ impl PolylineData {
     /// Adds the isolines that an image of the whole domain has by default.
     ///
     /// # Errors
-    /// The errors of isolines of an image: see `ImageInput::isolines`.
+    /// The errors of isolines of an image: see [`ImageSubject::isolines`].
     pub fn add_isolines(
         &mut self,
-        source: FieldSource<'_>,
-        IsolineRequest { asked, levels }: IsolineRequest<'_>,
+        subject: &ImageSubject<'_>,
+        levels: &IsolineLevels,
         watcher: &dyn Watcher,
     ) -> Result<(), ImageError> {
         let extent = ImageExtent { pixels: DEFAULT_SIZE, may_shrink: false, margin: 0.0 };
-        let view = ViewRegion::default().seen(source.field.domain.bounds, source.field, extent)?;
-        let (seen, engine) =
-            (BodyView::new(source.field, view, MirrorLines::default()), Engine::processor(watcher));
-        let found =
-            source.input(asked, &seen).isolines(levels, &ColorOptions::default(), &engine)?;
+        let field = subject.field;
+        let view = ViewRegion::default().seen(field.domain.bounds, field, extent)?;
+        let body = BodyView::new(field, view, MirrorLines::default());
+        let found = subject.isolines(&body, levels, &Engine::processor(watcher))?;
         self.lines.extend(found.iter().map(|line| Feature {
             kind: FeatureKind::Isoline(line.level),
             points: line.polyline().into_iter().map(|p| view.center + p).collect(),

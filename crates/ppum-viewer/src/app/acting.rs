@@ -7,7 +7,7 @@ use ppum_render::colormap::NAMES;
 use ppum_render::range::RangeChoice;
 use ppum_render::scale::Scale;
 use ppum_scene::compare::Compare;
-use ppum_scene::deformed::Magnification;
+use ppum_scene::magnification::Magnification;
 use ppum_scene::mirror::Mirror;
 use ppum_scene::overlays::IsolineLevels;
 

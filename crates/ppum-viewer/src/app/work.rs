@@ -163,7 +163,7 @@ impl Viewer {
             self.merge(pane);
         } else {
             self.session.panes[pane] = Pane::default();
-            self.viewports[pane].opened = None;
+            (self.viewports[pane].opened, self.viewports[pane].camera.view) = (None, None);
         }
     }
 

@@ -97,6 +97,12 @@ impl Camera {
         Some(view)
     }
 
+    /// The view of a place, or of the whole as it was shown last: the one that the mouse moves.
+    #[must_use]
+    pub fn shown(&self, place: Option<VisibleRegion>, pixels: [u32; 2]) -> Option<View> {
+        view(place, self.boxes.whole, pixels, self.taken)
+    }
+
     /// How many times a view is larger than that of the whole body.
     #[must_use]
     pub fn times(&self, view: &View) -> f64 {
@@ -145,15 +151,16 @@ impl Camera {
         Some(region)
     }
 
-    /// The region after a drag or a turn of the wheel over the shown view, if there was one; a
+    /// The region after a drag or a turn of the wheel over a view, if there was one; a
     /// wheel keeps `anchor` of the offset below the pointer in its place.
     pub fn moved_by_mouse(
         &mut self,
         ui: &Ui,
         response: &Response,
+        view: &View,
         anchor: impl FnOnce(&View, Vec2) -> Vec2,
     ) -> Option<VisibleRegion> {
-        let (view, bounds) = (self.view?, self.boxes.undeformed);
+        let bounds = self.boxes.undeformed;
         let scale = f64::from(ui.pixels_per_point());
         let mut region = None;
         if response.dragged_by(PointerButton::Primary) {
@@ -167,7 +174,7 @@ impl Camera {
         if let Some(at) = response.hover_pos().filter(|_| factor != 1.0) {
             let at = at - response.rect.min;
             let offset = view.offset_at(vec2(at.x.into(), at.y.into()) * scale);
-            let (place, is_at_the_end) = zoomed(&view, anchor(&view, offset), factor, &bounds);
+            let (place, is_at_the_end) = zoomed(view, anchor(view, offset), factor, &bounds);
             (region, self.is_at_the_end) = (Some(place), is_at_the_end);
         }
         if region.is_some() {

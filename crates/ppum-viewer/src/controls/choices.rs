@@ -8,7 +8,7 @@ use ppum::field::Field;
 use ppum::formula::function_names;
 use ppum::quantity::{Quantity, Vocabulary, names};
 use ppum_render::cells;
-use ppum_scene::scene::OF_PATCHES;
+use ppum_scene::quantity::OF_PATCHES;
 
 use crate::field::OwnedField;
 use crate::shapes::plain;

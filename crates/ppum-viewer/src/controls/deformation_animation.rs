@@ -1,7 +1,7 @@
 //! The deformed body in motion: its factor goes from nothing to what was chosen and back. Nothing
 //! of that is the session's.
 
-use ppum_scene::deformed::Magnification;
+use ppum_scene::magnification::Magnification;
 
 /// A factor that swings.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,7 @@ use std::sync::Weak;
 
 use ppum::dataset::Dataset;
 use ppum_figure::plot::Plot;
-use ppum_scene::deformed::Magnification;
+use ppum_scene::magnification::Magnification;
 use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays};
 use ppum_scene::scene::SceneRequest;
 

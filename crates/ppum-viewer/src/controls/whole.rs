@@ -101,10 +101,10 @@ impl Whole {
             return;
         }
         self.steps.pop_front();
-        if !frame.picture.has_values {
+        if !frame.colored.has_values {
             return;
         }
-        let norm = &frame.picture.normalization;
+        let norm = &frame.colored.normalization;
         let [min, max] = self.found.unwrap_or([norm.min(), norm.max()]);
         self.found = Some([min.min(norm.min()), max.max(norm.max())]);
     }

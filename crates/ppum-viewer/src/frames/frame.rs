@@ -6,8 +6,8 @@ use std::sync::Arc;
 use ppum_render::resample::norms::DifferenceNorms;
 use ppum_render::view::View;
 use ppum_scene::colors::ColorOptions;
-use ppum_scene::difference::{self, FieldDifference};
-use ppum_scene::drawing::PixelValues;
+use ppum_scene::difference::{self, DifferenceSide, FieldDifference};
+use ppum_scene::values::PixelValues;
 
 use super::fault::ImageFailure;
 use super::overlay_shapes::OverlayShapes;
@@ -29,7 +29,7 @@ pub struct RenderedFrame {
     /// whole.
     pub norms: Option<DifferenceNorms>,
     /// Their colours, and the view that they are of.
-    pub picture: Arc<ColoredImage>,
+    pub colored: Arc<ColoredImage>,
     /// The layers over them; of an older view until they are drawn again.
     pub layers: Arc<OverlayShapes>,
     /// The view in whose pixels the layers are.
@@ -58,20 +58,22 @@ impl Deref for RenderedFrame {
 impl RenderedFrame {
     /// The two sides of a difference, if it is one.
     pub(crate) fn minus(&self) -> Option<FieldDifference<'_>> {
-        self.source().minus(&self.shown)
+        let left = self.left.as_ref()?.side();
+        let right = DifferenceSide { field: self.field.field(), shown: &self.shown };
+        Some(FieldDifference { right, left })
     }
 
     /// The ends of the range of its colours.
     #[must_use]
     pub fn ends(&self) -> [f64; 2] {
-        let norm = &self.picture.normalization;
+        let norm = &self.colored.normalization;
         [norm.min(), norm.max()]
     }
 
     /// The symbol of what its colours mean, or the words for it, and the unit.
     #[must_use]
     pub fn words(&self) -> [String; 2] {
-        self.source().words(&self.shown)
+        self.image().words()
     }
 
     /// The map of its colours where none is chosen.

@@ -9,9 +9,9 @@ use ppum_render::picture::Style;
 use ppum_render::range::ColorRange;
 use ppum_render::scale::Scale;
 use ppum_scene::colors::ColorOptions;
-use ppum_scene::drawing::{PixelValues, RasterValues as Pixels, single_precision_warning};
 use ppum_scene::layers::LayerInput;
 use ppum_scene::overlays::Overlays;
+use ppum_scene::values::{PixelValues, RasterValues as Pixels, single_precision_warning};
 
 use super::ease::EasedRange;
 use super::overlay_shapes::OverlayShapes;
@@ -144,7 +144,7 @@ impl FrameMaker {
         let painted = self.paint(&input, span)?;
         let note = self.note(&target.subject, &drawn);
         let is_shown = |frame: &Arc<RenderedFrame>| {
-            Arc::ptr_eq(&frame.picture, &painted) && frame.request == *request && frame.note == note
+            Arc::ptr_eq(&frame.colored, &painted) && frame.request == *request && frame.note == note
         };
         let Some(newest) = self.newest.clone().filter(is_shown) else {
             let next = if is_there { NextStep::More } else { NextStep::After(GLIDE) };
@@ -160,7 +160,8 @@ impl FrameMaker {
             self.seconds = start.elapsed().as_secs_f64();
         } else if goal.is_none() {
             let body = self.values.body(&target, &watcher)?;
-            let found = target.subject.input(&body).span(&drawn, &style, &watcher);
+            let (subject, body) = (target.subject.image(), body.borrow_dependent());
+            let found = subject.span(body, &drawn, &style, &watcher);
             let found = found.map_err(ImageFailure::at(FaultOrigin::Colors))?;
             self.ranges.set(range_key(&drawn, &style), found);
         } else if is_there {
@@ -202,7 +203,7 @@ impl FrameMaker {
     ) -> Result<Style, ImageFailure> {
         let colors = &request.scene.colors;
         self.styles.get_or((drawn.into(), colors.clone()), || {
-            let style = subject.source().style(&subject.shown, colors, drawn);
+            let style = subject.image().style(colors, drawn);
             style.map_err(ImageFailure::at(FaultOrigin::Colors))
         })
     }
@@ -217,7 +218,7 @@ impl FrameMaker {
             None => subject.shown.quantity().is_none(),
         };
         if is_of_pixels || !style.range.is_found() {
-            return Some(subject.source().pixel_span(drawn, style));
+            return Some(subject.image().pixel_span(drawn, style));
         }
         self.ranges.get(&range_key(drawn, style)).filter(|_| is_whole)
     }
@@ -239,7 +240,7 @@ impl FrameMaker {
             Some(goal) => goal.clone(),
             None => {
                 let shown = self.eased.shown(&about).cloned();
-                shown.unwrap_or_else(|| target.subject.source().pixel_span(drawn, style))
+                shown.unwrap_or_else(|| target.subject.image().pixel_span(drawn, style))
             }
         };
         self.eased.set(about, span.clone());
@@ -272,14 +273,14 @@ impl FrameMaker {
     ) -> Result<StepResult, ImageFailure> {
         let FrameInput { request, target, drawn, style, .. } = *input;
         let mut frame = newest.clone();
-        let layers = self.layers(input, &frame.picture, watcher)?;
+        let layers = self.layers(input, &frame.colored, watcher)?;
         let is_news = !Arc::ptr_eq(&layers, &newest.layers) || newest.layers_view != request.view;
         (frame.layers, frame.layers_view) = (layers, request.view);
         if let Some(compare) = request.compare {
             if is_news {
                 return Ok(self.publish(frame, NextStep::More));
             }
-            let direct = (drawn, &frame.picture, style);
+            let direct = (drawn, &frame.colored, style);
             frame.other = Some(self.resampling.compare(compare, target, direct, watcher)?);
         }
         frame.is_final = true;
@@ -295,12 +296,13 @@ impl FrameMaker {
         watcher: &dyn Watcher,
     ) -> Result<Arc<OverlayShapes>, ImageFailure> {
         let body = self.values.body(target, watcher)?;
-        let (input, scene) = (target.subject.input(&body), &request.scene);
+        let (subject, scene) = (&target.subject.image(), &request.scene);
         let below = scene.overlays.isolines.is_some().then(|| picture.into());
         let key = ((*target).clone(), scene.overlays.clone(), scene.outline, below);
         self.layers.get_or(key, || {
-            let ground = LayerInput { has_bar: true, ..input.ground(picture, &drawn.values) };
-            let layers = input.layers(scene, ground, watcher);
+            let (body, values) = (body.borrow_dependent(), &drawn.values);
+            let input = LayerInput { subject, body, picture, values, design: None, has_bar: true };
+            let layers = input.layers(scene, watcher);
             let shapes = layers.map(|layers| OverlayShapes::new(layers, picture.view.pixels));
             shapes.map(Arc::new).map_err(ImageFailure::at(FaultOrigin::Overlays))
         })
@@ -326,7 +328,7 @@ impl FrameMaker {
             subject: subject.clone(),
             drawn: Arc::clone(drawn),
             norms: self.values.norms(subject),
-            picture,
+            colored: picture,
             layers: before.map(|frame| Arc::clone(&frame.layers)).unwrap_or_default(),
             layers_view: before.map_or(request.view, |frame| frame.layers_view),
             other: before.filter(is_compared).and_then(|frame| frame.other.clone()),

@@ -7,7 +7,7 @@ use egui::{Color32, ColorImage};
 use ppum_render::image::Image;
 use ppum_render::picture::{ColoredRaster, Style};
 use ppum_render::range::{ColorRange, RangeError};
-use ppum_scene::drawing::PixelValues;
+use ppum_scene::values::PixelValues;
 
 /// An image, and its pixels as egui takes them.
 #[derive(Debug)]

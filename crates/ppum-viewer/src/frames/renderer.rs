@@ -7,8 +7,8 @@ use std::thread::{self, JoinHandle};
 use ppum::quantity::Quantity;
 use ppum_gpu::{AdapterChoice, GpuError, Method, Program, RenderError, Renderer, Values};
 use ppum_render::view::View;
-use ppum_scene::drawing::{DrawingInput, PixelValues};
-pub use ppum_scene::engine::Backend;
+pub use ppum_scene::backend::Backend;
+use ppum_scene::values::{DrawingInput, PixelValues};
 use self_cell::self_cell;
 
 use super::subject::FrameSubject;

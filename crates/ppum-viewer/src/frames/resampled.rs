@@ -11,7 +11,7 @@ use ppum_render::resample::norms::{DifferenceNorms, difference};
 use ppum_render::resample::{GridSamples, representation_bytes};
 use ppum_render::view::View;
 use ppum_scene::compare::{Compare, ResampledImage, signed};
-use ppum_scene::drawing::{PixelValues, RasterValues};
+use ppum_scene::values::{PixelValues, RasterValues};
 
 use super::paint::ColoredImage;
 use super::subject::{FrameSubject, SubjectView};

@@ -4,7 +4,7 @@
 use ppum::vec2::vec2;
 use ppum_render::raster::Raster;
 use ppum_render::view::View;
-use ppum_scene::drawing::{PixelValues, RasterValues};
+use ppum_scene::values::{PixelValues, RasterValues};
 
 /// A move of an image's content, in whole pixels: pixel (i, j) was (i + columns, j + rows) before.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -7,12 +7,13 @@ use ppum::progress::Watcher;
 use ppum_render::deform::Deformation;
 use ppum_render::view::View;
 use ppum_scene::body::BodyView;
-use ppum_scene::deformed::Magnification;
 use ppum_scene::difference::DifferenceSide;
-use ppum_scene::drawing::DisplayedQuantity;
-use ppum_scene::mirror::{Mirror, MirrorError, MirrorLines};
-use ppum_scene::scene::{self, default_quantity, shown};
-use ppum_scene::shot::{FieldSource, ImageInput};
+use ppum_scene::magnification::Magnification;
+use ppum_scene::mirror::{Mirror, MirrorError};
+use ppum_scene::mirror_lines::MirrorLines;
+use ppum_scene::quantity::{DisplayedQuantity, default_quantity};
+use ppum_scene::scene;
+use ppum_scene::subject::ImageSubject;
 use self_cell::self_cell;
 
 use super::{FaultOrigin, FrameRequest, ImageFailure, SubtractedImage};
@@ -58,16 +59,11 @@ impl FrameSubject {
         self.lines != MirrorLines::default()
     }
 
-    /// The field, and what is subtracted from what is shown of it.
-    pub(super) fn source(&self) -> FieldSource<'_> {
+    /// The subject of its images.
+    pub(super) fn image(&self) -> ImageSubject<'_> {
+        let (dataset, field) = (self.field.dataset(), self.field.field());
         let left = self.left.as_ref().map(Subtrahend::side);
-        FieldSource { left, ..FieldSource::of(self.field.dataset(), self.field.field()) }
-    }
-
-    /// The data that images of it are made of.
-    pub(super) fn input<'a>(&'a self, body: &'a OwnedBody) -> ImageInput<'a> {
-        let seen = body.borrow_dependent();
-        ImageInput { source: self.source(), shown: &self.shown, name: "", seen }
+        ImageSubject { dataset, field, shown: Arc::clone(&self.shown), name: String::new(), left }
     }
 
     /// Where an error lies that keeps its values from being drawn.
@@ -105,7 +101,8 @@ impl SubjectFields {
         self.shown.get_or((field.into(), quantity.cloned()), || {
             let field = field.field();
             let text = quantity.map_or(default_quantity(field), String::as_str);
-            shown(text, field).map(Arc::new).map_err(ImageFailure::at(FaultOrigin::Quantity))
+            let shown = DisplayedQuantity::parse(text, field);
+            shown.map(Arc::new).map_err(ImageFailure::at(FaultOrigin::Quantity))
         })
     }
 }
@@ -141,7 +138,7 @@ impl Subjects {
             return Err(ImageFailure::new(FaultOrigin::Mirror, difference));
         }
         let lines = self.lines.get_or(((&field).into(), scene.mirror.clone()), || {
-            let lines = FieldSource::of(field.dataset(), field.field()).lines(scene);
+            let lines = MirrorLines::of(scene.mirror.as_ref(), field.dataset());
             lines.map_err(ImageFailure::at(FaultOrigin::Mirror))
         })?;
         if request.minus.is_none() {

@@ -12,15 +12,15 @@ use ppum_render::resample::norms::norms;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
 use ppum_scene::body::BodyView;
+use ppum_scene::coloring::value_span;
 use ppum_scene::compare::Compare;
-use ppum_scene::deformed::Magnification;
-use ppum_scene::drawing::{PixelValues, RasterValues};
 use ppum_scene::engine::Engine;
-use ppum_scene::mirror::MirrorLines;
+use ppum_scene::magnification::Magnification;
+use ppum_scene::mirror_lines::MirrorLines;
 use ppum_scene::overlays::{IsolineLevels, Overlay};
-use ppum_scene::range;
 use ppum_scene::scene::SceneRequest;
-use ppum_scene::shot::{FieldSource, shot};
+use ppum_scene::subject::ImageSubject;
+use ppum_scene::values::{PixelValues, RasterValues};
 use ppum_testkit::synthetic::Recipe;
 
 use super::maker::{FrameMaker, FrameStop, NextStep, Patience};
@@ -115,11 +115,10 @@ fn the_final_picture_is_that_of_ppum_render() {
     let style =
         wanted.scene.colors.style(Some(&Quantity::VonMises), Colormap::named("viridis").unwrap());
     let seen = BodyView::new(field, *view, MirrorLines::default());
-    let span =
-        range::value_span(field, &seen, &Quantity::VonMises, &drawn, &style, unwatched()).unwrap();
+    let span = value_span(field, &seen, &Quantity::VonMises, &drawn, &style, unwatched()).unwrap();
     let picture = drawn.picture(&style, span).unwrap();
-    assert!(last.picture.picture == picture);
-    assert_eq!(last.picture.texture().size, PIXELS.map(|n| n as usize));
+    assert!(last.colored.picture == picture);
+    assert_eq!(last.colored.texture().size, PIXELS.map(|n| n as usize));
     assert_eq!(values(&last.drawn).values.len(), values(&drawn).values.len());
 }
 
@@ -135,12 +134,12 @@ fn bodies_of_all_kinds_are_those_of_ppum_render() {
         wanted.view.center = dataset.domain.bounds.min;
         let frames = finished(&mut maker, &wanted);
         let last = frames.last().unwrap();
-        let source = FieldSource::of(last.field.dataset(), last.field.field());
+        let subject = ImageSubject::new(last.field.dataset(), last.field.field(), None).unwrap();
         let (request, engine) = (wanted.scene.clone().into(), Engine::default());
-        let made = shot(source, &request, &wanted.view, None, &engine).unwrap();
-        assert!(last.picture.picture == made.picture, "{deformed} {mirror}");
+        let made = subject.image_in(&request, &wanted.view, None, &engine).unwrap();
+        assert!(last.colored.picture == made.picture, "{deformed} {mirror}");
         assert_eq!(last.layers.items.len(), made.layers.items.len());
-        assert!(last.picture.has_values && last.is_final);
+        assert!(last.colored.has_values && last.is_final);
     }
 }
 
@@ -187,7 +186,7 @@ fn who_moves_sees_strips_of_what_was_uncovered() {
     let (dataset, mut maker) = (dataset(), maker());
     let mut wanted = wanted(&dataset);
     let whole = finished(&mut maker, &wanted);
-    let range = &whole.last().unwrap().picture.normalization;
+    let range = &whole.last().unwrap().colored.normalization;
     let range = range.max() - range.min();
     maker.values.pixels = 0;
     let [nx, ny] = PIXELS.map(|n| n as usize);
@@ -293,7 +292,7 @@ fn ranges_stay_while_one_moves_and_glide_to_the_true_one() {
     wanted.scene.quantity = Some("uy".to_owned());
     let first = finished(&mut maker, &wanted);
     let ends = |frame: &RenderedFrame| {
-        [frame.picture.normalization.min(), frame.picture.normalization.max()]
+        [frame.colored.normalization.min(), frame.colored.normalization.max()]
     };
     let before = ends(first.last().unwrap());
     wanted.view = View::new(vec2(0.5, 0.4), 0.3, PIXELS).unwrap();
@@ -364,7 +363,7 @@ fn mistakes_are_told_where_they_are() {
         Some(FaultOrigin::Colors)
     );
     let crossed = |w: &mut FrameRequest| {
-        w.scene.deformed = Some(ppum_scene::deformed::Magnification::Auto);
+        w.scene.deformed = Some(ppum_scene::magnification::Magnification::Auto);
         w.scene.overlays.shown.push(Overlay::Points);
     };
     assert_eq!(fault(&mut maker, &crossed), Some(FaultOrigin::Overlays));
@@ -387,7 +386,7 @@ fn a_comparison_has_the_numbers_of_resampling() {
     let raster = samples.raster(Interpolation::Bicubic, &wanted.view);
     assert_eq!(other.norms, norms(&direct, &raster));
     assert_eq!(other.bytes, 37 * 37 * 8);
-    assert_eq!(other.picture.normalization, last.picture.normalization);
+    assert_eq!(other.picture.normalization, last.colored.normalization);
     let signs = other.difference.normalization;
     assert!(signs.min() == -signs.max());
     // samples serve other views and methods, but no other grid
@@ -419,7 +418,7 @@ fn a_thread_makes_the_picture_of_its_maker() {
     let threaded = frames.newest().expect("a picture");
     let last = made.last().expect("a picture");
     assert!(threaded.is_final && last.is_final);
-    assert!(threaded.picture.image == last.picture.image);
+    assert!(threaded.colored.image == last.colored.image);
 }
 
 #[test]
@@ -442,7 +441,7 @@ fn a_graphics_device_draws_what_the_processor_draws() {
     assert!(last.drawn.by.starts_with("gpu f32, ") && last.note.is_none());
     let on_cpu = finished(&mut self::maker(), &wanted);
     let (found, exact) = (values(&last.drawn), values(&on_cpu.last().unwrap().drawn));
-    let range = &on_cpu.last().unwrap().picture.normalization;
+    let range = &on_cpu.last().unwrap().colored.normalization;
     let close = found.values.iter().zip(&exact.values).filter(|(a, b)| {
         let size = (range.max() - range.min()).max(b.abs());
         a.is_nan() == b.is_nan() && (a.is_nan() || a == b || (*a - *b).abs() < 1e-4 * size)

@@ -8,8 +8,9 @@ use ppum_render::resample::norms::DifferenceNorms;
 use ppum_render::samples::Samples;
 use ppum_render::scatter::render;
 use ppum_render::view::View;
-use ppum_scene::drawing::{DrawingInput, PROCESSOR, PixelValues, single_precision_error};
-use ppum_scene::engine::{Backend, Engine, Precision};
+use ppum_scene::backend::{Backend, Precision};
+use ppum_scene::engine::Engine;
+use ppum_scene::values::{DrawingInput, PROCESSOR, PixelValues, single_precision_error};
 
 use super::renderer::GraphicsCard;
 use super::strips::{Shift, moved};
@@ -78,7 +79,7 @@ impl ValueCache {
     ) -> Result<Arc<PixelValues>, ImageFailure> {
         let (start, subject) = (Instant::now(), &target.subject);
         let body = self.body(target, watcher)?;
-        let card = &mut self.card;
+        let (body, card) = (body.borrow_dependent(), &mut self.card);
         let draw = &mut |job: DrawingInput<'_>, _| match card.draw(subject, job) {
             Some(drawn) => Ok(drawn),
             None => {
@@ -87,7 +88,7 @@ impl ValueCache {
                 Ok(PixelValues::new(raster, field, view, PROCESSOR))
             }
         };
-        let drawn = subject.input(&body).values_by(Samples::CENTER, draw, watcher);
+        let drawn = subject.image().values_by(body, Samples::CENTER, draw, watcher);
         let drawn = Arc::new(drawn.map_err(ImageFailure::at(subject.fault()))?);
         self.pace(subject).whole = Some(per_pixel(start, &target.view));
         self.whole.set(target.clone(), Arc::clone(&drawn));
@@ -185,7 +186,7 @@ fn soon(
     let is_single = single_precision_error(subject.field.field().step).is_none();
     let engine = Engine::new(Backend::Cpu, is_single.then_some(Precision::F32), None, watcher);
     let engine = engine.map_err(ImageFailure::at(FaultOrigin::Quantity))?;
-    let drawn = subject.input(&body).values(Samples::CENTER, &engine);
+    let drawn = subject.image().values(body.borrow_dependent(), Samples::CENTER, &engine);
     drawn.map_err(ImageFailure::at(subject.fault()))
 }
 

@@ -7,10 +7,11 @@ use ppum::progress::Watcher;
 use ppum::quantity::{Quantity, QuantityError};
 use ppum_figure::plot::{Plot, PlotAxis, PlotCurve, slope, with_slope};
 use ppum_render::scale::Scale;
+use ppum_scene::list::parts;
 use ppum_scene::profile::{
     Profile, ProfileCurve, ProfileError, Variable, axis, columns, curve, unit, value_label,
 };
-use ppum_scene::scene::{default_quantity, parts};
+use ppum_scene::quantity::default_quantity;
 use ppum_scene::table::NumberTable;
 
 use crate::field::OwnedField;

@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use ppum::crack::SegmentId;
 use ppum::vec2::Vec2;
-use ppum_scene::drawing::DisplayedQuantity;
 use ppum_scene::location::Location;
-use ppum_scene::mirror::MirrorLines;
+use ppum_scene::mirror_lines::MirrorLines;
 use ppum_scene::probe::{PointReader, segment_of};
 pub use ppum_scene::probe::{ProbeReading, SideValue};
-use ppum_scene::scene::default_quantity;
+use ppum_scene::quantity::{DisplayedQuantity, default_quantity};
 
 use crate::field::OwnedField;
 use crate::frames::RenderedFrame;

@@ -64,11 +64,11 @@ fn sizes(ui: &mut Ui, norms: &DifferenceNorms, unit: &str) {
 
 /// The least and the largest difference, with their places.
 fn extrema(ui: &mut Ui, frame: &RenderedFrame, unit: &str) {
-    let Some(values) = &frame.picture.span.values else { return };
+    let Some(values) = &frame.colored.span.values else { return };
     let telling = RangeLocations::new(frame.field.dataset(), frame.field.field());
     let unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
     let names = ["smallest", "largest"].into_iter();
-    for (name, told) in names.zip(telling.extrema(values, frame.picture.view.width)) {
+    for (name, told) in names.zip(telling.extrema(values, frame.colored.view.width)) {
         ui.label(note(ui, format!("{name} {told}{unit}")));
     }
     let text = "Means over the pixels that are seen, and in parts of the left; the extrema are those of the pixels";

@@ -2,8 +2,8 @@
 
 use egui::{Slider, Ui};
 use ppum::text::trimmed_to;
-use ppum_scene::deformed::{Magnification, words};
 use ppum_scene::help::tooltip;
+use ppum_scene::magnification::{Magnification, words};
 use ppum_scene::mirror::Mirror;
 
 use super::{failure, note};

@@ -2,8 +2,7 @@
 
 use egui::{Button, RichText, Ui};
 use ppum::quantity::Quantity;
-use ppum_scene::drawing::DisplayedQuantity;
-use ppum_scene::scene::{default_quantity, shown};
+use ppum_scene::quantity::{DisplayedQuantity, default_quantity};
 
 use super::failure;
 use crate::field::OwnedField;
@@ -64,7 +63,7 @@ pub(super) fn version(field: Option<&Arc<OwnedField>>) -> usize {
 
 fn check(text: &str, field: Option<&OwnedField>) -> Result<(), TextDiagnostic> {
     let Some(field) = field else { return Ok(()) };
-    shown(text, field.field())
+    DisplayedQuantity::parse(text, field.field())
         .map(|_| ())
         .map_err(|error| TextDiagnostic::of_quantity(&error, text))
 }
@@ -72,7 +71,7 @@ fn check(text: &str, field: Option<&OwnedField>) -> Result<(), TextDiagnostic> {
 /// The words for what a text shows; the text itself if it shows nothing.
 fn words(text: &str, field: &OwnedField) -> String {
     let field = field.field();
-    match shown(text, field) {
+    match DisplayedQuantity::parse(text, field) {
         Ok(shown) => {
             let [symbol, unit] = shown.words(field).map(|text| plain(&text));
             if unit.is_empty() { symbol } else { format!("{symbol} [{unit}]") }
@@ -84,7 +83,8 @@ fn words(text: &str, field: &OwnedField) -> String {
 /// The formula behind a name of the file's or of the library's, to begin one's own with.
 fn formula_of(name: &str, field: Option<&OwnedField>) -> Option<String> {
     let field = field?.field();
-    let is_name = matches!(shown(name, field), Ok(DisplayedQuantity::Quantity(quantity))
+    let shown = DisplayedQuantity::parse(name, field);
+    let is_name = matches!(shown, Ok(DisplayedQuantity::Quantity(quantity))
         if !matches!(&quantity, Quantity::Formula(formula) if formula.label() != name));
     let vocabulary = ppum::quantity::Vocabulary::of(field);
     vocabulary.definition(name).filter(|_| is_name).map(Cow::into_owned)

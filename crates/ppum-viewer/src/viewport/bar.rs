@@ -13,8 +13,8 @@ use ppum_render::picture::ColoredRaster;
 use ppum_render::range::RangeChoice;
 use ppum_render::scale::Normalization;
 use ppum_scene::colors::ColorOptions;
-use ppum_scene::drawing::PixelValues;
 use ppum_scene::range::RangeLocations;
+use ppum_scene::values::PixelValues;
 
 use crate::controls::range::{digits, parse, set};
 use crate::frames::RenderedFrame;
@@ -164,7 +164,7 @@ impl GrabbedBar {
 impl BarGrip {
     /// The extrema of an image's values, if they are known.
     fn extrema(&mut self, frame: &RenderedFrame) -> Option<&Extrema> {
-        if let Some(found) = &frame.picture.span.values {
+        if let Some(found) = &frame.colored.span.values {
             self.extrema = Some(((&frame.drawn).into(), found.clone()));
         }
         let known = self.extrema.as_ref().filter(|(of, _)| *of == (&frame.drawn).into());
@@ -180,7 +180,7 @@ impl<'a> BarLayout<'a> {
             // the name stands in the panel, too
             labels.quantity.clear();
         }
-        let bar = bar(ui, &frame.picture, &labels, length);
+        let bar = bar(ui, &frame.colored, &labels, length);
         Self::at(plate, frame, bar, plate.right() - MARGIN)
     }
 
@@ -195,12 +195,12 @@ impl<'a> BarLayout<'a> {
     }
 
     fn norm(&self) -> &Normalization {
-        &self.frame.picture.normalization
+        &self.frame.colored.normalization
     }
 
     /// True if values have a colour each, so that there is no range.
     fn has_classes(&self) -> bool {
-        !self.frame.picture.colormap.classes().is_empty()
+        !self.frame.colored.colormap.classes().is_empty()
     }
 
     /// The height of a position from 0 to 1.
@@ -322,7 +322,7 @@ impl<'a> BarLayout<'a> {
 
     /// Small marks at the smallest and the largest value of all, with their places.
     fn extrema(&self, ui: &Ui, extrema: Option<&Extrema>) {
-        let picture = &self.frame.picture;
+        let picture = &self.frame.colored;
         let Some(extrema) = extrema else { return };
         if self.has_classes() || picture.one_value.is_some() || !picture.has_values {
             return;

@@ -7,7 +7,7 @@ use ppum::line::Line;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::view::View;
 use ppum_scene::material::DeformedWhole;
-use ppum_scene::mirror::MirrorLines;
+use ppum_scene::mirror_lines::MirrorLines;
 
 use crate::field::OwnedField;
 use crate::frames::RenderedFrame;

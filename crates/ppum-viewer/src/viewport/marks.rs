@@ -163,7 +163,7 @@ fn lettered(painter: &Painter, at: Pos2, align: Align2, text: &str) {
 
 /// The places of the least and the greatest value of what is seen of the body.
 fn extrema(painter: &Painter, sight: &HoverGeometry, frame: &Arc<RenderedFrame>) {
-    let Some(found) = &frame.picture.span.values else { return };
+    let Some(found) = &frame.colored.span.values else { return };
     let mark = |extremum: &Extremum, sign: &str, align: Align2| {
         if let Some(at) = sight.position(&Location::new(found.center, extremum.offset)) {
             painter.circle(at, 4.0, HALO, Stroke::new(2.0, INK));

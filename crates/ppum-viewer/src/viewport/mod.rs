@@ -27,8 +27,9 @@ use ppum_render::view::View;
 use ppum_scene::compare::Compare;
 use ppum_scene::location::Location;
 use ppum_scene::owner::Owner;
-use ppum_scene::scene::{SceneRequest, default_quantity};
-use ppum_scene::shot::FieldSource;
+use ppum_scene::quantity::default_quantity;
+use ppum_scene::scene::SceneRequest;
+use ppum_scene::subject::scene_bounds;
 
 use crate::camera::{BodyBoxes, Camera};
 use crate::controls::Controls;
@@ -95,8 +96,8 @@ struct VisibleBodies {
 
 impl VisibleBodies {
     fn bounds(&self) -> Result<ppum::vec2::Rect, String> {
-        let source = FieldSource::of(self.field.dataset(), self.field.field());
-        source.seen_bounds(&self.scene).map_err(|error| error.to_string())
+        let bounds = scene_bounds(self.field.dataset(), self.field.field(), &self.scene);
+        bounds.map_err(|error| error.to_string())
     }
 }
 
@@ -178,7 +179,7 @@ impl ViewState {
         let is_compared = self.compared(pane).is_some();
         if let Some(frame) = self.frames.newest() {
             let (canvas, painter) = (&mut self.canvas, ui.painter_at(rect));
-            canvas.texture.show(&painter, &frame.picture, &view, rect);
+            canvas.texture.show(&painter, &frame.colored, &view, rect);
             canvas.layers.show(&painter, frame, &view, rect);
             let layers = &mut canvas.layers;
             canvas.split.show(ui, rect, (pane, is_compared), (frame, layers), &view);
@@ -218,10 +219,10 @@ impl ViewState {
         if pane.place.is_some_and(|place| place.view(pixels).is_err()) {
             self.show_whole(pane);
         }
-        if let Some(shown) = self.camera.view.filter(|shown| shown.pixels == pixels) {
+        if let Some(shown) = self.camera.shown(pane.place, pixels) {
             let sight = self.hover_geometry(shown, rect);
             if !self.draw_by_mouse(ui, response, &sight, pane) {
-                self.move_by_mouse(ui, response, pane);
+                self.move_by_mouse(ui, response, &shown, pane);
             }
         }
         let taken = (bar::width(rect) * scale).round() as u32;
@@ -354,7 +355,7 @@ impl ViewState {
 
     /// Drags, wheels and double clicks. One who enlarges stays at a point that a ring marks near
     /// the pointer: a tip, or a point of a crack.
-    fn move_by_mouse(&mut self, ui: &Ui, response: &Response, pane: &mut Pane) {
+    fn move_by_mouse(&mut self, ui: &Ui, response: &Response, shown: &View, pane: &mut Pane) {
         if response.double_clicked() && self.tools.tool.is_none() {
             self.camera.fly_to(None);
         }
@@ -366,7 +367,7 @@ impl ViewState {
             let is_near = |at: &Vec2| (*at - pointer).length() < reach * view.pixel_size();
             offset.filter(is_near).unwrap_or(pointer)
         };
-        pane.place = self.camera.moved_by_mouse(ui, response, anchor).or(pane.place);
+        pane.place = self.camera.moved_by_mouse(ui, response, shown, anchor).or(pane.place);
     }
 
     /// The newest image of the dataset that is open: not of the one before, which may still be

@@ -164,7 +164,7 @@ impl ViewState {
         let places = LocationFormat { view: &view, size, cracks };
         let reader = self.tools.reader(&frame);
         let mut parts = vec![places.show(&probed.spot)];
-        let norm = &frame.picture.normalization;
+        let norm = &frame.colored.normalization;
         let digits = digits([norm.min(), norm.max()], words::DIGITS);
         parts.push(words::values_to(&probed, &reader.name, &reader.unit, digits));
         parts.extend(words::terms(&probed));

@@ -13,7 +13,7 @@ use ppum::formula::FormulaError;
 use ppum::quantity::{QuantityError, QuantityFormulaError};
 use ppum::replace::ReplaceError;
 use ppum::weight::WeightError;
-use ppum_scene::scene::DisplayError;
+use ppum_scene::quantity::DisplayError;
 
 use super::wrong;
 

@@ -265,7 +265,7 @@ fn a_file_that_has_become_another_plate_is_shown_as_that() {
         lab.open(&path);
         let pane = &mut lab.state().session.panes[0];
         pane.scene.quantity = Some(quantity.into());
-        pane.scene.deformed = Some(ppum_scene::deformed::Magnification::Auto);
+        pane.scene.deformed = Some(ppum_scene::magnification::Magnification::Auto);
         pane.place = Some(VisibleRegion { center: [0.5, 0.0], width: 1e-3 });
         lab.settle();
         let slit = other();

@@ -19,9 +19,9 @@ use ppum_render::range::RangeChoice;
 use ppum_render::resample::norms::DifferenceNorms;
 use ppum_render::scatter::render;
 use ppum_scene::colors::ColorOptions;
-use ppum_scene::deformed::Magnification;
-use ppum_scene::drawing::RasterValues;
 use ppum_scene::location::Location;
+use ppum_scene::magnification::Magnification;
+use ppum_scene::values::RasterValues;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::growing;
 use ppum_viewer::Viewer;
@@ -342,13 +342,13 @@ fn the_extrema_are_those_of_the_pixels() {
     window.state_mut().session.panes.iter_mut().for_each(|p| p.scene.quantity = Some("uy".into()));
     settle(&mut window);
     let frame = frame(&window);
-    let found = frame.picture.span.values.as_ref().expect("they are looked for");
+    let found = frame.colored.span.values.as_ref().expect("they are looked for");
     let known = values(&window).into_iter().filter(|value| !value.is_nan());
     let [least, most] = known
         .fold([f64::INFINITY, f64::NEG_INFINITY], |[a, b], value| [a.min(value), b.max(value)]);
     assert_eq!([found.min.value, found.max.value], [least, most]);
     assert_eq!(norms(&window).absolute[2], most.max(-least));
-    let norm = &frame.picture.normalization;
+    let norm = &frame.colored.normalization;
     assert!(norm.min() == -norm.max());
     assert!(has_label(&window, "L∞"));
 }
@@ -444,7 +444,7 @@ fn pictures_of_differences_are_saved() {
     let (bytes, _) = order
         .bytes(Path::new("apart.png"), unwatched(), &AtomicUsize::new(0))
         .expect("it is drawn");
-    let seen = ppum_render::png::encode(&frame.picture.image, &[]).expect("it is encoded");
+    let seen = ppum_render::png::encode(&frame.colored.image, &[]).expect("it is encoded");
     assert!(pixels(&bytes) == pixels(&seen), "what is seen is what is saved");
     let figure = ppum_viewer::export::ImageExport {
         choice: ppum_viewer::export::ExportChoice::Figure,

@@ -125,7 +125,7 @@ fn a_key_flies_to_a_tip_and_the_wheel_down_to_where_doubles_end() {
     rest(&mut window);
     assert!((view(&window).width / 2e-12 - 1.0).abs() < 1e-6, "{:e}", view(&window).width);
     let frame = window.state().viewports[0].frames.newest().expect("it is drawn").clone();
-    assert!(frame.picture.has_values && frame.request.view == view(&window));
+    assert!(frame.colored.has_values && frame.request.view == view(&window));
     assert!((point(&window, center) - ppum::vec2::vec2(0.5, 0.0)).length() < 1e-14);
     window.get_by_label_contains("Map of the plate").click();
     rest(&mut window);

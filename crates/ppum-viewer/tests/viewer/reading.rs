@@ -252,7 +252,7 @@ fn what_is_read_is_copied_with_all_digits() {
 fn the_deformed_plate_is_read_where_it_is_seen() {
     let mut window = window(plate(), SIZE);
     window.state_mut().session.panes[0].scene.deformed =
-        Some(ppum_scene::deformed::Magnification::Auto);
+        Some(ppum_scene::magnification::Magnification::Auto);
     show(&mut window, "uy", None);
     let rect = window.get_by_label("Plate").rect();
     let (mut seen, mut missing) = (0, 0);
@@ -269,7 +269,7 @@ fn the_deformed_plate_is_read_where_it_is_seen() {
         if window.state().viewports[0].hover.is_none() {
             continue; // the bar lies over the plate there
         }
-        let ppum_scene::drawing::RasterValues::Double(raster) = &frame.drawn.values else {
+        let ppum_scene::values::RasterValues::Double(raster) = &frame.drawn.values else {
             panic!("it is drawn in double precision")
         };
         let shown = raster.value(column, row);
@@ -343,7 +343,8 @@ fn go_anywhere(dataset: Dataset, quantities: &[&str], center: Vec2) {
             let pane = &mut window.state_mut().session.panes[0];
             pane.scene.quantity = Some(quantities[(k / 6) as usize % quantities.len()].into());
             let is_deformed = is_elastic && k % 12 == 0;
-            pane.scene.deformed = is_deformed.then_some(ppum_scene::deformed::Magnification::Auto);
+            pane.scene.deformed =
+                is_deformed.then_some(ppum_scene::magnification::Magnification::Auto);
             let deep = 10f64.powf(-12.0 * number(k + 1000).abs());
             let width = if k >= 24 { deep } else { whole };
             pane.place = Some(VisibleRegion { center: center.into(), width });

@@ -79,7 +79,7 @@ fn a_picture_has_the_pixels_that_are_seen() {
     named(&mut lab, &path);
     shot(&mut lab, "saving-picture");
     assert!(saved(&mut lab), "{:?}", lab.notes());
-    let seen = lab.viewer().viewports[0].frames.newest().expect("a picture").picture.clone();
+    let seen = lab.viewer().viewports[0].frames.newest().expect("a picture").colored.clone();
     let (size, bytes) = pixels(&path);
     assert_eq!(size, seen.image.size);
     let depth = bytes.len() / seen.image.rgba.len().div_ceil(4);

@@ -8,9 +8,9 @@ use ppum_render::resample::Interpolation;
 use ppum_scene::arguments::{positive, size};
 use ppum_scene::colors::ColorOptions;
 use ppum_scene::page_style::PageStyle;
-use ppum_scene::place::ViewRegion;
+use ppum_scene::region::ViewRegion;
 
-use crate::look::LabelArgs;
+use crate::labels::LabelArgs;
 use crate::subject::QuantityArgs;
 use crate::threads;
 

@@ -1,9 +1,9 @@
 //! `ppum compare`: a direct image beside what resampling gives.
 
 mod args;
+mod arrangement;
 mod measure;
 mod report;
-mod sheet;
 
 use std::io::Write as _;
 use std::path::Path;
@@ -20,12 +20,12 @@ use crate::standard::is_standard;
 use crate::{page, target, threads};
 pub(crate) use args::CompareArgs;
 use args::ComparisonRegion;
+use arrangement::PanelArrangement;
 use measure::{Measurements, measure};
 use ppum_scene::arguments::MOST_OF_PAGE;
-use ppum_scene::place::ImageExtent;
 use ppum_scene::range::RangeLocations;
+use ppum_scene::region::ImageExtent;
 use report::{ComparisonReport, table};
-use sheet::PanelArrangement;
 
 /// Refuses pages that are too large: everything else on them is drawn as large as they are.
 fn check_page([columns, rows]: [u32; 2]) -> anyhow::Result<()> {
@@ -45,12 +45,13 @@ impl CompareArgs {
             !self.json || !self.output.as_deref().is_some_and(is_standard),
             "the picture and JSON cannot both go to standard output; give a file with -o"
         );
-        let dataset = self.subject.open()?;
-        let field = self.subject.field(&dataset)?;
-        let (quantity, asked) = self.subject.quantity(&field)?;
+        let dataset = self.subject.step.open()?;
+        let field = self.subject.step.field(&dataset)?;
+        let (quantity, name) = self.subject.quantity(&field)?;
         let methods = self.methods();
-        let title = self.subject.replacements.title(&dataset.title);
-        let [symbol, unit] = asked.shown.words(&field);
+        let title = self.subject.step.replacements.title(&dataset.title);
+        let symbol = quantity.symbol(&field.data.components);
+        let unit = quantity.unit(&field).to_owned();
         let labels = Labels { title, quantity: symbol, unit, ..Labels::default() };
         let labels = self.labels.texts().applied(labels);
         let layout = PanelArrangement::new(self, &field, &labels, &methods);
@@ -59,13 +60,13 @@ impl CompareArgs {
         let view = self.place.seen(field.domain.bounds, &field, frame)?;
         let job = measure::ComparisonInput { field: &field, view, quantity: &quantity, args: self };
         let found = threads::with(self.threads, || measure(job, &methods))??;
-        let report = ComparisonReport::new(&self.subject.file_name(), &asked.name, &view, &found);
+        let report = ComparisonReport::new(&self.subject.file_name(), &name, &view, &found);
         let mut told = String::new();
         if let Some(path) = &self.output {
             let colors = &self.colors;
             let style = colors.style(Some(&quantity), colors.map(Some(&quantity))?);
             let (page, direct) = layout.draw(&found, job, &style)?;
-            let texts = self.texts(&direct, &dataset.title, &asked.name, &found);
+            let texts = self.texts(&direct, &dataset.title, &name, &found);
             page::put(path, &page, self.look.given_dpi(), &texts, out)?;
             let ([columns, rows], telling) = (page.size, RangeLocations::new(&dataset, &field));
             told = format!("{columns}x{rows} pixels, direct: {}", telling.colors(&direct));
@@ -100,7 +101,7 @@ impl CompareArgs {
             }
         }
         let methods = found.methods.iter().map(|one| ("ppum:resampled".to_owned(), one.name()));
-        texts.extend(methods.chain(self.subject.replacements.notes()));
+        texts.extend(methods.chain(self.subject.step.replacements.notes()));
         texts
     }
 

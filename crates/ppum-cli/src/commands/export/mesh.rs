@@ -10,23 +10,23 @@ use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::text::short;
 use ppum_scene::export::vtkhdf::{self, ExportedStep};
-use ppum_scene::export::vtp::{self, IsolineRequest, PolylineData};
+use ppum_scene::export::vtp::{self, PolylineData};
 use ppum_scene::export::vtu::{self, FileNotes};
 use ppum_scene::export::{
     Accuracy, ExportError, ExportMesh, HIGHEST_ORDER, MeasuredAccuracy, PointArray, RANDOM_POINTS,
     resolve, times,
 };
+use ppum_scene::list::parts;
 use ppum_scene::overlays::IsolineLevels;
-use ppum_scene::scene::SceneRequest;
-use ppum_scene::shot::{FieldSource, QuantityRequest};
 use sha2::{Digest as _, Sha256};
 
-use crate::dataset::{check_shown, field, quantity};
-use crate::formula_text::{FormulaText, parts};
+use crate::dataset::{field, quantity};
+use crate::formula_text::FormulaText;
 use crate::number::count;
 use crate::output::{StandardStream, tell};
 use crate::progress::ProgressLine;
-use crate::target;
+use crate::subject::image_subject;
+use crate::target::{self, FileFormat};
 use ppum_scene::arguments::positive;
 
 /// The features that a mesh has to resolve.
@@ -84,30 +84,6 @@ impl Options {
     }
 }
 
-/// True if the name of a file says that it is a mesh.
-pub(super) fn is_meant(path: &Path) -> bool {
-    is_collection(path) || ["vtu", "vtkhdf", "vtp"].iter().any(|end| has_extension(path, end))
-}
-
-/// True if the name of a file says that it lists the meshes of a series.
-pub(super) fn is_collection(path: &Path) -> bool {
-    has_extension(path, "pvd")
-}
-
-/// True if the name of a file says that it holds the meshes of all steps.
-fn is_vtkhdf(path: &Path) -> bool {
-    has_extension(path, "vtkhdf")
-}
-
-/// True if the name of a file says that it holds lines and points alone.
-pub(super) fn is_lines(path: &Path) -> bool {
-    has_extension(path, "vtp")
-}
-
-fn has_extension(path: &Path, wanted: &str) -> bool {
-    path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case(wanted))
-}
-
 /// A dataset, and where its mesh goes.
 pub(super) struct ExportJob<'a> {
     pub(super) dataset: &'a Dataset,
@@ -129,11 +105,12 @@ impl Options {
         out: &mut StandardStream,
     ) -> anyhow::Result<()> {
         let count = job.dataset.steps.len();
-        if is_vtkhdf(job.output) {
+        let format = FileFormat::of(job.output);
+        if format == Some(FileFormat::VtkHdf) {
             return self.write_vtkhdf(job, step.map_or(0..count, |step| step..step + 1), out);
         }
         let step = step.unwrap_or(count.saturating_sub(1));
-        if is_lines(job.output) {
+        if format == Some(FileFormat::Vtp) {
             self.check_none("lines are")?;
             let is_idle = job.quantities.is_some() && job.isolines.is_none();
             ensure!(!is_idle, "--quantity: lines have one for --isolines alone; end -o in .vtu");
@@ -168,16 +145,16 @@ impl Options {
     }
 
     /// Writes the meshes of all steps and their list; `inputs` are not replaced.
-    pub(super) fn write_all<'i>(
+    pub(super) fn write_all(
         &self,
         job: &ExportJob<'_>,
-        inputs: impl Iterator<Item = &'i Path> + Clone,
+        inputs: &[&Path],
         out: &mut StandardStream,
     ) -> anyhow::Result<()> {
         let files: Vec<_> = (0..job.dataset.steps.len()).map(|step| file_of(job, step)).collect();
-        files
-            .iter()
-            .try_for_each(|f| target::check(f, target::FileKind::Export, inputs.clone()))?;
+        for file in &files {
+            target::check(file, target::FileKind::Export, inputs.iter().copied())?;
+        }
         let mut is_kept = true;
         for (step, file) in files.iter().enumerate() {
             is_kept &= self.write_step(job, step, file, out)?;
@@ -253,17 +230,9 @@ fn write_lines(job: &ExportJob<'_>, step: usize, out: &mut StandardStream) -> an
     let mut about = FileNotes::of(job.dataset, &field, job.hash.to_owned());
     if let Some(levels) = job.isolines {
         let quantity = job.quantities.map(FormulaText::read).transpose()?;
-        quantity.iter().try_for_each(|given| check_shown(&field, given))?;
-        let quantity = quantity.map(|given| given.text.trim().to_owned());
-        let asked =
-            QuantityRequest::new(&SceneRequest { quantity, ..SceneRequest::default() }, &field)?;
-        let source = FieldSource::of(job.dataset, &field);
-        lines.add_isolines(
-            source,
-            IsolineRequest { asked: &asked, levels },
-            &ProgressLine::new(),
-        )?;
-        about.texts.push(("quantities", asked.name));
+        let subject = image_subject(job.dataset, &field, quantity.as_ref())?;
+        lines.add_isolines(&subject, levels, &ProgressLine::new())?;
+        about.texts.push(("quantities", subject.name.trim().to_owned()));
     }
     target::save(job.output, |out| vtp::write(out, &lines, &about))?;
     let counts =

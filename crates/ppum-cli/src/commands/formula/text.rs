@@ -5,10 +5,9 @@ use std::io::{self, Write};
 use ppum::formula::one_line;
 use ppum::text::trimmed;
 
-use super::report::{Derivative, FormulaFacts, FormulaReport, ZeroSet};
+use crate::number::NamedLines;
 
-/// Width of the column of names.
-const NAME: usize = 12;
+use super::report::{Derivative, FormulaFacts, FormulaReport, ZeroSet};
 
 /// Longest line of a formula, and most lines.
 const WIDTH: usize = 88;
@@ -19,7 +18,7 @@ pub(super) fn write(out: &mut dyn Write, report: &FormulaReport) -> io::Result<(
         if k > 0 {
             writeln!(out)?;
         }
-        FormulaPage(out).formula(row)?;
+        NamedLines(out).formula(row)?;
     }
     Ok(())
 }
@@ -35,9 +34,7 @@ pub(super) fn write_wgsl(out: &mut dyn Write, report: &FormulaReport) -> io::Res
     Ok(())
 }
 
-struct FormulaPage<'a>(&'a mut dyn Write);
-
-impl FormulaPage<'_> {
+impl NamedLines<'_> {
     fn formula(&mut self, row: &FormulaFacts) -> io::Result<()> {
         if let Some(name) = &row.name {
             self.line("name", name)?;
@@ -55,18 +52,6 @@ impl FormulaPage<'_> {
         self.smoothness(row)?;
         self.line("operations", &operations(&row.operations))?;
         self.values(row)
-    }
-
-    fn line(&mut self, name: &str, text: &str) -> io::Result<()> {
-        writeln!(self.0, "{name:NAME$} {text}")
-    }
-
-    /// The first line carries the name; nothing is written without lines.
-    fn lines(&mut self, name: &str, lines: impl IntoIterator<Item = String>) -> io::Result<()> {
-        for (k, text) in lines.into_iter().enumerate() {
-            self.line(if k == 0 { name } else { "" }, &text)?;
-        }
-        Ok(())
     }
 
     fn smoothness(&mut self, row: &FormulaFacts) -> io::Result<()> {

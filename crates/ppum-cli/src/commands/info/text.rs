@@ -10,15 +10,12 @@ use super::formulas::{QuantityRow, TableRow};
 use super::report::{FieldRow, InfoReport, MeshRow, StepReport};
 use super::series::table as table_of_steps;
 use crate::families::Family;
-use crate::number::count;
+use crate::number::{NamedLines, count};
 use crate::tips::table;
-
-/// Width of the column of names.
-const NAME: usize = 12;
 
 pub(super) fn write(out: &mut dyn Write, report: &InfoReport) -> io::Result<()> {
     let places = &report.places;
-    let mut page = InfoPage(out);
+    let mut page = NamedLines(out);
     for (name, text) in report.about.lines(places) {
         page.line(name, &text)?;
     }
@@ -34,21 +31,7 @@ pub(super) fn write(out: &mut dyn Write, report: &InfoReport) -> io::Result<()> 
     report.steps.iter().try_for_each(|step| page.step(step, report))
 }
 
-struct InfoPage<'a>(&'a mut dyn Write);
-
-impl InfoPage<'_> {
-    fn line(&mut self, name: &str, text: &str) -> io::Result<()> {
-        writeln!(self.0, "{name:NAME$} {text}")
-    }
-
-    /// The first line carries the name; nothing is written without lines.
-    fn lines(&mut self, name: &str, lines: impl Iterator<Item = String>) -> io::Result<()> {
-        for (k, text) in lines.enumerate() {
-            self.line(if k == 0 { name } else { "" }, &text)?;
-        }
-        Ok(())
-    }
-
+impl NamedLines<'_> {
     fn step(&mut self, step: &StepReport, report: &InfoReport) -> io::Result<()> {
         let (places, results) = (&report.places, &step.results);
         if report.count > 1 {
@@ -56,7 +39,7 @@ impl InfoPage<'_> {
             self.line("step", &format!("{}, load {}", step.step, trimmed(step.load)))?;
         }
         self.line("patches", &cover(step))?;
-        self.lines("weight", weight(step).into_iter())?;
+        self.lines("weight", weight(step))?;
         let levels = step.levels.iter().map(|l| format!("level {}: {}", l.level, l.cells));
         if step.cells > 0 {
             self.line("cells", &format!("{} ({})", step.cells, joined(levels)))?;
@@ -64,15 +47,15 @@ impl InfoPage<'_> {
         let orders = step.orders.iter().map(|o| format!("order {}: {}", o.order, o.patches));
         self.line("orders", &joined(orders))?;
         self.lines("cracks", step.cracks.iter().map(|crack| crack.line(places)))?;
-        self.lines("functions", functions(&step.families).into_iter())?;
+        self.lines("functions", functions(&step.families))?;
         self.lines("fields", step.fields.iter().map(field))?;
         self.line("unknowns", &results.unknowns.to_string())?;
         self.lines("solver", results.solver.iter().map(SolverFacts::line))?;
         self.lines("history", step.other_history.iter().cloned())?;
         self.lines("growth", results.growth.iter().flat_map(GrowthFacts::lines))?;
-        self.lines("quantities", wrapped(&step.quantities).into_iter())?;
+        self.lines("quantities", wrapped(&step.quantities))?;
         let owners = if step.cells > 0 { "of cells" } else { "of patches" };
-        self.lines(owners, wrapped(&step.cell_values).into_iter())?;
+        self.lines(owners, wrapped(&step.cell_values))?;
         if let Some(solver) = &results.solver {
             solver.write(self.0)?;
         }
@@ -139,7 +122,7 @@ fn joined(parts: impl Iterator<Item = String>) -> String {
 fn wrapped(names: &[String]) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for name in names {
-        if lines.last().is_none_or(|line| line.len() + name.len() > 78 - NAME) {
+        if lines.last().is_none_or(|line| line.len() + name.len() > 78 - NamedLines::NAME) {
             lines.push(String::new());
         }
         if let Some(line) = lines.last_mut() {

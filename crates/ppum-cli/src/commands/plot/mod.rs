@@ -5,10 +5,11 @@ use std::path::{Path, PathBuf};
 use anyhow::{anyhow, ensure};
 use ppum::dataset::Dataset;
 use ppum_figure::plot::{LEAST, Plot, plot};
+use ppum_scene::list::parts;
 use ppum_scene::plots::{self, PlotError, Profiles};
 
 use crate::dataset::{field, open, open_results, open_step, quantities};
-use crate::formula_text::{self, parts};
+use crate::formula_text::files;
 use crate::output::{StandardStream, tell};
 use crate::page;
 use crate::profile::ProfileArgs;
@@ -181,9 +182,7 @@ impl PlotArgs {
 
     /// The files that are read.
     fn inputs(&self) -> impl Iterator<Item = &Path> {
-        let formulas =
-            self.quantity.iter().flat_map(|list| parts(list)).filter_map(formula_text::file);
-        self.files.iter().map(PathBuf::as_path).chain(formulas)
+        self.files.iter().map(PathBuf::as_path).chain(files(&self.quantity))
     }
 }
 

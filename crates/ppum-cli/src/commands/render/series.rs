@@ -5,11 +5,12 @@ use std::path::Path;
 use std::str::FromStr;
 
 use anyhow::ensure;
+use ppum_scene::animation::AnimationFormat;
 use ppum_scene::arguments::positive;
-use ppum_scene::moving::AnimationFormat;
 
 use crate::number::count;
 use crate::standard::is_standard;
+use crate::target::FileFormat;
 
 /// The options of series.
 #[derive(Debug, clap::Args)]
@@ -140,10 +141,9 @@ pub(super) fn refuse_moving(path: &Path) -> anyhow::Result<()> {
 
 /// The form of an animation that a name ends in; none for images.
 pub(super) fn form(path: &Path) -> Option<AnimationFormat> {
-    let ends_in = |wanted: &str| path.extension().is_some_and(|e| e.eq_ignore_ascii_case(wanted));
-    match () {
-        () if ends_in("gif") => Some(AnimationFormat::Gif),
-        () if ends_in("apng") => Some(AnimationFormat::Apng),
-        () => None,
+    match FileFormat::of(path)? {
+        FileFormat::Gif => Some(AnimationFormat::Gif),
+        FileFormat::Apng => Some(AnimationFormat::Apng),
+        _ => None,
     }
 }

@@ -128,7 +128,7 @@ fn words(frame: &RenderedFrame, facts: &Facts) -> String {
         Some(places) => RangeLocations::with(places, field),
         None => RangeLocations::new(dataset, field),
     };
-    let text = telling.colors(&frame.picture);
+    let text = telling.colors(&frame.colored);
     match frame.drawn.undefined() {
         [0, _] => text,
         [without, all] => format!("{text}; no value at {without} of {all} pixels"),

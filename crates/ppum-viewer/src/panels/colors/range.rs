@@ -21,7 +21,7 @@ const DIGITS: usize = 5;
 pub(super) fn show(ui: &mut Ui, pane: &mut Pane, viewport: &mut ViewState) {
     let colors = &mut pane.scene.colors;
     let bounds = viewport.frames.newest().map(|frame| {
-        let norm = &frame.picture.normalization;
+        let norm = &frame.colored.normalization;
         [norm.min(), norm.max()]
     });
     let bounds = bounds.unwrap_or([0.0, 1.0]);

@@ -8,7 +8,7 @@ use ppum::text::trimmed;
 use ppum_figure::plot::Plot;
 use ppum_render::cells;
 use ppum_scene::plots::{NamedDataset, SolverWork, adaptation, history as history_of};
-use ppum_scene::scene::OF_PATCHES;
+use ppum_scene::quantity::OF_PATCHES;
 use ppum_solve::report;
 
 use super::series::{over_steps, plot};

@@ -21,10 +21,10 @@ fn a_map_is_found_reversed_and_put_in_steps() {
     assert_eq!(scene(&window).colors.colormap.as_deref(), Some("vik_r"));
     click(&mut window, "in steps");
     let expected = Colormap::named("vik_r").unwrap().banded(8);
-    assert_eq!(frame(&window).picture.colormap, expected);
+    assert_eq!(frame(&window).colored.colormap, expected);
     click(&mut window, "contrast beyond the range");
     let expected = Colormap::named("vik_r").unwrap().contrasting().banded(8);
-    assert_eq!(frame(&window).picture.colormap, expected);
+    assert_eq!(frame(&window).colored.colormap, expected);
 }
 
 #[test]
@@ -42,18 +42,18 @@ fn shift_m_reverses_and_m_keeps_that() {
 fn scales_are_chosen_and_one_that_cannot_be_is_told() {
     let mut window = plate_window();
     click(&mut window, "symlog");
-    assert_eq!(frame(&window).picture.normalization.scale(), Scale::SymLog);
+    assert_eq!(frame(&window).colored.normalization.scale(), Scale::SymLog);
     click(&mut window, "linear");
     write(&mut window, "Quantity or formula", "ux");
     click(&mut window, "fixed");
     assert!(bounds(&window)[0] < 0.0);
     click(&mut window, "log");
     // the last good picture stays, the reason stands at its place
-    assert_eq!(frame(&window).picture.normalization.scale(), Scale::Linear);
+    assert_eq!(frame(&window).colored.normalization.scale(), Scale::Linear);
     assert!(window.query_by_label_contains("a logarithmic scale cannot begin at").is_some());
     click(&mut window, "auto");
     let failure = window.state().viewports[0].frames.failure();
-    assert_eq!(frame(&window).picture.normalization.scale(), Scale::Log, "{failure:?}");
+    assert_eq!(frame(&window).colored.normalization.scale(), Scale::Log, "{failure:?}");
     assert!(window.query_by_label_contains("a logarithmic scale cannot").is_none());
 }
 
@@ -83,7 +83,7 @@ fn percentiles_and_full_ranges_are_those_of_the_view() {
     click(&mut window, "percentiles");
     assert_eq!(scene(&window).colors.range, RangeChoice::Percentiles(2.0, 98.0));
     let [min, max] = bounds(&window);
-    let ppum_scene::drawing::RasterValues::Double(raster) = frame(&window).drawn.values.clone()
+    let ppum_scene::values::RasterValues::Double(raster) = frame(&window).drawn.values.clone()
     else {
         panic!("pictures are of double precision")
     };

@@ -5,7 +5,7 @@ use egui_kittest::kittest::Queryable;
 use ppum_render::resample::norms::norms;
 use ppum_render::resample::{Interpolation, SampleGrid};
 use ppum_scene::compare::Compare;
-use ppum_scene::drawing::RasterValues;
+use ppum_scene::values::RasterValues;
 
 use super::{click, frame, plate_window};
 use crate::kit::settle;

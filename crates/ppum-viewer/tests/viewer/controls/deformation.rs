@@ -2,7 +2,7 @@
 
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
-use ppum_scene::deformed::Magnification;
+use ppum_scene::magnification::Magnification;
 
 use super::{click, frame, open, plate_window, scene};
 use crate::kit::{plate, settle, show_until, window};

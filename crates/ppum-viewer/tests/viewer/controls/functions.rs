@@ -18,7 +18,7 @@ fn both(window: &super::Window, replacements: &Replacements) -> [f64; 2] {
     let tip = view.pixel_of_offset(ppum::vec2::vec2(0.5, 0.0) - view.center);
     // close to the border of two cells, where patches overlap and the weight matters
     let [i, j] = [tip.x as u32 + 8, tip.y as u32 - 30];
-    let ppum_scene::drawing::RasterValues::Double(raster) = &frame.drawn.values else {
+    let ppum_scene::values::RasterValues::Double(raster) = &frame.drawn.values else {
         panic!("pictures are of double precision")
     };
     let mut dataset: Dataset = plate();
@@ -100,7 +100,7 @@ fn a_quantity_of_the_file_is_replaced() {
     assert_eq!(scene(&window).subject.defined("spread"), Some("exx + 1"));
     let frame_of = frame(&window);
     let view = frame_of.request.view;
-    let ppum_scene::drawing::RasterValues::Double(raster) = &frame_of.drawn.values else {
+    let ppum_scene::values::RasterValues::Double(raster) = &frame_of.drawn.values else {
         panic!("pictures are of double precision")
     };
     let [i, j] = view.pixels.map(|n| n / 3);

@@ -61,6 +61,6 @@ pub(crate) fn write(window: &mut Window, field: &str, text: &str) {
 
 /// The bounds of the colours.
 pub(crate) fn bounds(window: &Window) -> [f64; 2] {
-    let norm = frame(window).picture.normalization;
+    let norm = frame(window).colored.normalization;
     [norm.min(), norm.max()]
 }

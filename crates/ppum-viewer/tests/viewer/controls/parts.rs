@@ -2,7 +2,7 @@
 
 use egui_kittest::kittest::{NodeT, Queryable};
 use ppum::vec2::vec2;
-use ppum_scene::drawing::RasterValues;
+use ppum_scene::values::RasterValues;
 
 use super::{Window, click, frame, open, plate_window, scene, write};
 use crate::kit::settle;

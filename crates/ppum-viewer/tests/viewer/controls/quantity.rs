@@ -13,7 +13,7 @@ fn values(window: &Window, text: &str) -> [f64; 2] {
     let frame = frame(window);
     let view = frame.request.view;
     let [i, j] = [view.pixels[0] / 3, view.pixels[1] / 3];
-    let ppum_scene::drawing::RasterValues::Double(raster) = &frame.drawn.values else {
+    let ppum_scene::values::RasterValues::Double(raster) = &frame.drawn.values else {
         panic!("pictures are of double precision")
     };
     let field = frame.field.field();

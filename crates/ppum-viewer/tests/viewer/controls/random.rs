@@ -4,7 +4,7 @@
 use egui::{Key, Modifiers};
 use ppum_render::range::RangeChoice;
 use ppum_render::scale::Scale;
-use ppum_scene::deformed::Magnification;
+use ppum_scene::magnification::Magnification;
 use ppum_scene::overlays::{IsolineLevels, Overlay};
 use ppum_scene::scene::SceneRequest;
 use ppum_testkit::random::Random;

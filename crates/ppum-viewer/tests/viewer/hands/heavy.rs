@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use egui::{Event, Key, Modifiers, pos2, vec2};
 use ppum::dataset::Dataset;
-use ppum_scene::deformed::Magnification;
+use ppum_scene::magnification::Magnification;
 use ppum_scene::overlays::{IsolineLevels, Overlay};
 use ppum_testkit::costly;
 use ppum_testkit::synthetic::Recipe;
