@@ -74,7 +74,8 @@ def factors(program, example, file):
         return None
     with h5py.File(file) as data:
         tips = data["steps"][max(data["steps"])]["intensities"]
-        return list(zip(tips["k1"][()], tips["k2"][()], tips["error"][()]))
+        errors = tips["error"][()] if "error" in tips else len(tips["k1"]) * [float("nan")]
+        return list(zip(tips["k1"][()], tips["k2"][()], errors))
 
 
 def movement(known, found):

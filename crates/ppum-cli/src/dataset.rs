@@ -44,7 +44,7 @@ pub(crate) fn series(path: &Path) -> anyhow::Result<Series> {
 }
 
 fn standard_input() -> anyhow::Result<Dataset> {
-    let bytes = standard::bytes("the dataset", standard::DATASET)?;
+    let bytes = standard::bytes(standard::THE_DATASET, standard::DATASET)?;
     ppum_format::from_bytes(bytes).context("standard input")
 }
 

@@ -9,11 +9,14 @@ use anyhow::{Context as _, bail, ensure};
 /// Longest dataset on standard input, in bytes.
 pub(crate) const DATASET: u64 = 1 << 30;
 
+/// The dataset in messages.
+pub(crate) const THE_DATASET: &str = "the dataset";
+
 /// Longest text on standard input, in bytes.
 const TEXT: u64 = 1 << 26;
 
-/// The reader of standard input: it ends but once.
-static READ: Mutex<Option<&str>> = Mutex::new(None);
+/// The name of what standard input is, and whether it was read: it ends but once.
+static READ: Mutex<Option<(&str, bool)>> = Mutex::new(None);
 
 /// True for `-`.
 pub(crate) fn is_standard(path: &Path) -> bool {
@@ -25,9 +28,19 @@ pub(crate) fn name(path: &Path) -> String {
     if is_standard(path) { "standard input".into() } else { path.display().to_string() }
 }
 
+/// Keeps standard input for the dataset, if it is that, while what is read before may ask for it.
+pub(crate) fn keep_for_dataset(file: &Path) {
+    if is_standard(file)
+        && let Ok(mut read) = READ.lock()
+    {
+        read.get_or_insert((THE_DATASET, false));
+    }
+}
+
 /// Standard input to its end.
 pub(crate) fn bytes(what: &'static str, limit: u64) -> anyhow::Result<Vec<u8>> {
-    if let Some(other) = READ.lock().ok().and_then(|mut read| read.replace(what)) {
+    let before = READ.lock().ok().and_then(|mut read| read.replace((what, true)));
+    if let Some((other, _)) = before.filter(|before| *before != (what, false)) {
         bail!(
             "standard input (-) is {other} already and cannot be {what} too; give a file for one of them"
         );

@@ -75,6 +75,7 @@ impl QuantityArgs {
     /// Returns the texts of the quantities, of a list with commas between, with the content of
     /// files; nothing if they are left to the program.
     pub(crate) fn texts(&self) -> anyhow::Result<Vec<FormulaText>> {
+        standard::keep_for_dataset(&self.step.file);
         self.quantity.iter().flat_map(|list| parts(list)).map(FormulaText::read).collect()
     }
 

@@ -39,7 +39,7 @@ pub(crate) struct MemberNames {
     pub(crate) shape: GroupShape,
 }
 
-/// What a group holds.
+/// The contents of a group.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum GroupShape {
     /// Members.

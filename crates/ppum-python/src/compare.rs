@@ -16,7 +16,8 @@ use pyo3::prelude::*;
 
 use crate::errors::{RenderError, render_error, rendering};
 use crate::field::{PyField, read_data};
-use crate::picture::{PyView, rows};
+use crate::picture::PyView;
+use crate::values::rows;
 use crate::watch::long;
 
 /// How far one image is from another: absolute and relative norms, and the pixels that are

@@ -18,7 +18,8 @@ use pyo3::types::PyBytes;
 
 use crate::errors::{RenderError, cancelled, quantity, render_error, unwritable};
 use crate::field::PyField;
-use crate::picture::{PyView, rows};
+use crate::picture::PyView;
+use crate::values::rows;
 use crate::watch::long;
 
 /// Triangles on which values are polynomials.

@@ -22,8 +22,7 @@ use crate::dataset::PyDataset;
 use crate::errors::{no_field, no_profile, quantity};
 use crate::facts::{QuantityFacts, quantities};
 use crate::owned::FieldInDataset;
-use crate::picture::rows;
-use crate::values::PointArrays;
+use crate::values::{PointArrays, rows};
 use crate::watch::{guard, long};
 
 /// Points that are evaluated on the calling thread, which takes less time than to wake others.

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods as _};
+use numpy::{PyArray1, PyArray3, PyArrayMethods as _};
 use ppum::progress::Watcher;
 use ppum::vec2::Vec2;
 use ppum_figure::canvas::Canvas;
@@ -31,6 +31,7 @@ use pyo3::types::PyBytes;
 use crate::errors::{RenderError, no_field, picture, quantity, render_error, rendering};
 use crate::facts::to_python;
 use crate::field::{PyField, read_data};
+use crate::values::rows;
 use crate::watch::{guard, long};
 
 /// Names of the built-in colour maps.
@@ -196,16 +197,6 @@ pub(crate) fn render<'py>(
         RasterValues::Double(raster) => rows(py, raster.values, view.pixels[0])?.into_any(),
         RasterValues::Single(raster) => rows(py, raster.values, view.pixels[0])?.into_any(),
     })
-}
-
-/// Numbers in rows of so many.
-pub(crate) fn rows<T: numpy::Element>(
-    py: Python<'_>,
-    numbers: Vec<T>,
-    width: u32,
-) -> PyResult<Bound<'_, PyArray2<T>>> {
-    let shape = [numbers.len() / width as usize, width as usize];
-    PyArray1::from_vec(py, numbers).reshape(shape)
 }
 
 /// The colours of a request, with what lies over them: rows from the top; red, green, blue, alpha;

@@ -1,9 +1,11 @@
 //! Values at many points, on all threads.
 
+use numpy::{PyArray1, PyArray2, PyArrayMethods as _};
 use ppum::crack::Side;
 use ppum::progress::{Cancelled, Phase, Progress, Watcher};
 use ppum::sample::{SampledQuantity, SidedPoint, evaluate_each};
 use ppum::vec2::{Vec2, vec2};
+use pyo3::prelude::*;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -12,6 +14,16 @@ use crate::owned::AnchoredField;
 /// Points that a thread takes at a time: enough that those of a patch come together, few enough
 /// that all threads have work.
 const PIECE: usize = 1 << 15;
+
+/// Numbers in rows of so many.
+pub(crate) fn rows<T: numpy::Element>(
+    py: Python<'_>,
+    numbers: Vec<T>,
+    width: u32,
+) -> PyResult<Bound<'_, PyArray2<T>>> {
+    let shape = [numbers.len() / width as usize, width as usize];
+    PyArray1::from_vec(py, numbers).reshape(shape)
+}
 
 /// Points, as two arrays of one length.
 #[derive(Clone, Copy)]

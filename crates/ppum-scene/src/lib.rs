@@ -2,10 +2,10 @@
 //! reports.
 //!
 //! Requests of people are plain data that can be compared, kept and written: a
-//! [`Request`](request::Request). With a field it makes a [subject](image::subject), of which an
+//! [`Request`](request::Request). With a field it makes a [`subject`], of which an
 //! image comes about in four stages, each of which is a value of its own, so that a program can
-//! keep what has not changed: the [values](image::values) of the [body](image::body) in a view;
-//! their [colours](image::coloring); the [layers](image::layers) over them; and their
+//! keep what has not changed: the [`values`] of the [`body`] in a view;
+//! their [colours](image::coloring); the [`layers`] over them; and their
 //! [composition](image::compose). The program, its window, pages and Python draw by this crate
 //! alone, so all draw the same.
 

@@ -302,7 +302,7 @@ pub struct Moduli<R> {
 }
 
 impl<R: Copy> Moduli<R> {
-    /// The same value of all.
+    /// One value for all.
     #[inline(always)]
     pub(crate) fn all(value: R) -> Self {
         Self {

@@ -43,7 +43,7 @@ impl CheckArgs {
     pub(crate) fn run(&self, out: &mut dyn Write) -> anyhow::Result<()> {
         let name = standard::name(&self.file);
         let errors = if standard::is_standard(&self.file) {
-            ppum_format::diagnose_bytes(&standard::bytes("the dataset", standard::DATASET)?)
+            ppum_format::diagnose_bytes(&standard::bytes(standard::THE_DATASET, standard::DATASET)?)
         } else {
             ppum_format::diagnose(&self.file)
         };

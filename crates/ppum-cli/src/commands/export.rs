@@ -135,7 +135,7 @@ impl ExportArgs {
 
     fn bytes(&self, largest: u64) -> anyhow::Result<Vec<u8>> {
         if is_standard(&self.file) {
-            return standard::bytes("the dataset", largest);
+            return standard::bytes(standard::THE_DATASET, largest);
         }
         let read = ppum_file::read(&self.file, largest);
         read.with_context(|| format!("cannot read {}", self.file.display()))

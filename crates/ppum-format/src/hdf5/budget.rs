@@ -47,7 +47,7 @@ const FREE_OBJECTS: u64 = 256;
 /// stored plain.
 pub(super) const PLAIN_BYTES: u64 = FREE_BYTES / 2;
 
-/// What is left of an allowance.
+/// The rest of an allowance.
 pub(super) struct Allowance(Cell<u64>);
 
 impl Allowance {

@@ -83,11 +83,6 @@ impl JudgedTip<'_> {
         factors.k1.hypot(factors.k2).max(NOTHING * self.result.energy_scale)
     }
 
-    /// Cells in which so small a length has ample room, in words.
-    fn ample_cells(length: f64) -> String {
-        format!("use cells of at most {} there", short(length / AMPLE_CLEARANCE))
-    }
-
     /// A length in cells at the tip, in words.
     fn in_cells(&self, length: f64) -> String {
         short((100.0 * length / self.result.cell).round() / 100.0)
@@ -129,17 +124,18 @@ impl JudgedTip<'_> {
     fn no_room(&self) -> Warning {
         let TipResult { clearance, cell, .. } = self.result;
         let (radius, needed) = (clearance.radius, self.result.needed());
-        let reason = match clearance.end {
+        let message = match clearance.end {
             TipObstacle::Interface => {
-                ", because it lies on an interface of two materials: stresses there are not \
-                 those of K_I and K_II, 1/√r, but of another power of r; let the crack end off the interface"
+                "no stress intensity factors, because it lies on an interface of two materials: stresses there \
+                 are not those of K_I and K_II, 1/√r, but of another power of r; let the crack end off the interface"
                     .into()
             }
             end if radius <= f64::EPSILON * needed => {
-                format!(", because it lies on {}; move it away", end.name())
+                let end = end.name();
+                format!("no stress intensity factors, because it lies on {end}; move it away")
             }
             end => format!(
-                ": the disc up to {} has a radius of {}, but {} is \
+                "no stress intensity factors: the disc up to {} has a radius of {}, but {} is \
                  needed with cells {} wide; use cells of at most {} there, or move the tip away",
                 end.name(),
                 short(radius),
@@ -148,7 +144,6 @@ impl JudgedTip<'_> {
                 short(radius * cell / needed)
             ),
         };
-        let message = format!("no stress intensity factors{reason}");
         self.warning(WarningKind::NoRoom, [radius, needed], &message)
     }
 
@@ -156,10 +151,11 @@ impl JudgedTip<'_> {
         let TipResult { clearance, cell, factors, .. } = self.result;
         let (radius, ample) = (clearance.radius, AMPLE_CLEARANCE * cell);
         let message = format!(
-            "the disc up to {} has a radius of {} cells only, and the factors may be off by 1 %; {}",
+            "the disc up to {} has a radius of {} cells only, and the factors may be off by 1 %; use \
+             cells of at most {} there",
             clearance.end.name(),
             self.in_cells(radius),
-            Self::ample_cells(radius)
+            short(radius / AMPLE_CLEARANCE)
         );
         (factors.is_some() && radius < ample)
             .then(|| self.warning(WarningKind::LittleRoom, [radius, ample], &message))
@@ -170,10 +166,10 @@ impl JudgedTip<'_> {
         let (distance, _) = interface.zip(factors.as_ref())?;
         let message = format!(
             "an interface of two materials passes at a distance of {} cells, and the factors may be \
-             off by {}; {}, and a `kink` along the interface",
+             off by {}; use cells of at most {} there, and a `kink` along the interface",
             self.in_cells(distance),
             if distance < 0.5 * cell { "several %" } else { "1 %" },
-            Self::ample_cells(distance)
+            short(distance / AMPLE_CLEARANCE)
         );
         let numbers = [distance, AMPLE_CLEARANCE * cell];
         Some(self.warning(WarningKind::NearInterface, numbers, &message))

@@ -16,8 +16,8 @@ use ppum_solve::space::TrialSpace;
 use ppum_solve::terms::known_fields;
 use ppum_solve::watched::WorkPhase;
 
-/// Part of the largest [energy scale](TipResult::energy_scale) of a tip below which factors count
-/// as nothing, and are no measure of their errors.
+/// Part of the largest [energy scale](crate::intensity::TipResult::energy_scale) of a tip below
+/// which factors count as nothing, and are no measure of their errors.
 const NOTHING: f64 = 1e-2;
 
 /// Part of the energy that a field of the same size could have up to which the energy is rounding:

@@ -54,7 +54,7 @@ impl Body {
         Self { cracks, ..self }
     }
 
-    /// The body whose cracks meet exactly where they are meant to, see [`cracks`](super::cracks()).
+    /// The body whose cracks meet exactly where they are meant to, see [`cracks`](crate::cracks()).
     pub(crate) fn settled(mut self) -> Self {
         let cracks = settled(std::mem::take(&mut self.cracks), &self.domain);
         self.with_cracks(cracks)

@@ -202,7 +202,7 @@ impl ProblemData {
         self.with_lines(lines)
     }
 
-    /// The problem with cracks along lines in place of its own, see [`cracks`](super::cracks()).
+    /// The problem with cracks along lines in place of its own, see [`cracks`](crate::cracks()).
     #[must_use]
     pub fn with_lines(self, lines: impl IntoIterator<Item = Vec<Vec2>>) -> Self {
         let body = (*self.body).clone().with_lines(lines).settled();

@@ -1,9 +1,9 @@
 //! The whole of a body of which a dataset holds one half or a quarter.
 //!
 //! The body is mirrored at edges of the box around it, and its field repeated beyond them,
-//! symmetric or antisymmetric ([`Reflection`]). An image of the whole has the pixels of the body
-//! itself, and where the body is not those of the reflected view: there the field is evaluated at
-//! the reflected centre of each pixel, so that nothing is interpolated.
+//! symmetric or antisymmetric ([`Reflection`](ppum::quantity::Reflection)). An image of the whole
+//! has the pixels of the body itself, and where the body is not those of the reflected view: there
+//! the field is evaluated at the reflected centre of each pixel, so that nothing is interpolated.
 
 use std::fmt;
 use std::str::FromStr;

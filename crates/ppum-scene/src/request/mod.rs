@@ -1,6 +1,6 @@
 //! All that is asked of an image: what it shows, where, and how that is drawn. An option of
 //! `ppum render` is a field of [`Request`] or of what it holds, once for the command line, for
-//! JSON and for [`command`](crate::command).
+//! JSON and for [`command`].
 
 #[cfg(feature = "clap")]
 pub mod arguments;

@@ -157,9 +157,10 @@ impl Shapes {
     fn set<R: Real<Scalar = f64>>(&mut self, function: usize, point: usize, [v, x, y]: [R; 3]) {
         let (at, lanes) = (function * self.points + point, R::LANES.min(self.points - point));
         v.store_some(&mut self.value[at..at + lanes]);
-        for (array, slope) in self.slopes.iter_mut().zip([x, y]) {
-            slope.store_some(&mut array[at..at + lanes]);
-        }
+        // one by one: lanes in an array would go through memory
+        let [along_x, along_y] = &mut self.slopes;
+        x.store_some(&mut along_x[at..at + lanes]);
+        y.store_some(&mut along_y[at..at + lanes]);
     }
 
     /// Writes a factor times all monomials to functions from `function` on, at as many points from

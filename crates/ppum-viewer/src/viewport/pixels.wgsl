@@ -7,15 +7,15 @@
 
 struct Corner {
     @builtin(position) position: vec4<f32>,
-    // in pixels of the picture
-    @location(0) pixel: vec2<f32>,
+    // in parts of the picture
+    @location(0) part: vec2<f32>,
 }
 
 @vertex
 fn corner(@builtin(vertex_index) index: u32) -> Corner {
     let part = vec2<f32>(f32(index & 1u), f32(index >> 1u));
     let position = mix(corners.xy, corners.zw, part);
-    return Corner(vec4<f32>(position, 0.0, 1.0), part * vec2<f32>(textureDimensions(picture)));
+    return Corner(vec4<f32>(position, 0.0, 1.0), part);
 }
 
 // opacity is multiplied in on the screen, and not in the picture
@@ -25,11 +25,11 @@ fn shown(color: vec4<f32>) -> vec4<f32> {
 
 @fragment
 fn exact(in: Corner) -> @location(0) vec4<f32> {
-    return shown(textureLoad(picture, vec2<i32>(in.pixel), 0));
+    let pixel = in.part * vec2<f32>(textureDimensions(picture));
+    return shown(textureLoad(picture, vec2<i32>(pixel), 0));
 }
 
 @fragment
 fn smoothed(in: Corner) -> @location(0) vec4<f32> {
-    let size = vec2<f32>(textureDimensions(picture));
-    return shown(textureSampleLevel(picture, smoothing, in.pixel / size, 0.0));
+    return shown(textureSampleLevel(picture, smoothing, in.part, 0.0));
 }

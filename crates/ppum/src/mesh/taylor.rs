@@ -1,6 +1,6 @@
 //! Polynomials as seen from another point: P(at + δ) in powers of δ, with twice the digits.
 //!
-//! NearElement a crack's tip or an edge values are differences of coefficients that nearly cancel; formed
+//! Near a crack's tip or an edge values are differences of coefficients that nearly cancel; formed
 //! once with twice the digits, a view 10⁻¹⁵ of an element wide has no noise.
 
 use crate::compensated::{SumWithError, plus, product};
