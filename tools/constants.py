@@ -22,7 +22,7 @@ import tarfile
 ROOT = pathlib.Path(__file__).parents[1]
 CRATES = ("ppum-solve", "ppum-fracture")
 EXAMPLES = """centre-crack centre-crack-tension edge-crack edge-shear compact-tension slanted-crack kinked-crack
-    arc-crack cracked-hole bimaterial-plate meeting-cracks many-cracks three-point-bending pressed-crack""".split()
+    arc-crack cracked-hole insulated-crack meeting-cracks many-cracks three-point-bending pressed-crack""".split()
 CONSTANT = re.compile(r"((?:^ *//.*\n)*)^(.*\bconst ([A-Z0-9_]+): f64 = )([0-9][0-9_.e-]*);", re.M)
 FOREIGN = re.compile(r"\b(bytes?|memory|exponent|rounding|roundings)\b", re.I)
 
@@ -80,7 +80,7 @@ def factors(program, example, file):
 
 def movement(known, found):
     """The largest movement of K of a tip, as a part of its size, and of its estimated error."""
-    if known is None or found is None or len(known) != len(found):
+    if not known or not found or len(known) != len(found):
         return float("nan"), float("nan")
     moves = [((a - x) ** 2 + (b - y) ** 2) ** 0.5 for (a, b, _), (x, y, _) in zip(known, found)]
     sizes = [(a * a + b * b) ** 0.5 for a, b, _ in known]
