@@ -7,7 +7,8 @@
 
 struct Corner {
     @builtin(position) position: vec4<f32>,
-    // in parts of the picture
+    // in parts of the picture: only the second stage asks for its size, as wgpu derives no layout
+    // for a texture of both stages that one of them samples
     @location(0) part: vec2<f32>,
 }
 
