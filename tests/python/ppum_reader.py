@@ -142,6 +142,42 @@ POISSON = {
 }
 
 
+class Edge:
+    """A segment or an arc, seen from a point: section "Edges".
+
+    `ends` has for each end how far the point lies along the tangent there, beside it, and away; `parts` is true if the
+    edge of a polygon changes whether the point is inside: a ray crosses its chord, or an arc lies beyond it.
+    """
+
+    def __init__(self, p, a, b, bulge, field):
+        a, b = (tuple(map(field.real, q)) for q in (a, b))
+        self.bulge = beta = field.real(bulge)
+        root = lambda value: field.n.call("sqrt", value)
+        (ux, uy), (vx, vy), (dx, dy) = ([q[k] - c[k] for k in range(2)] for q, c in ((p, a), (p, b), (b, a)))
+        length, weight, chord = root(dx * dx + dy * dy), 1 + beta * beta, dx * uy - dy * ux
+        circle = (1 - beta * beta) * chord - 2 * beta * (ux * vx + uy * vy)
+        s, kappa = 2 * circle / (weight * length), 4 * beta / (weight * length)
+        self.distance = s / (1 + root(max(1 - kappa * s, field.real(0))))
+        cos, sin = (1 - beta * beta) / weight, 2 * beta / weight
+        tx, ty = dx / length, dy / length
+        self.tangents = [(cos * tx + o * sin * ty, cos * ty - o * sin * tx) for o in (1, -1)]
+        self.ends = [
+            (tx * x + ty * y, tx * y - ty * x, root(x * x + y * y))
+            for (tx, ty), (x, y) in zip(self.tangents, ((ux, uy), (vx, vy)))
+        ]
+        inside = (self.ends[0][0] >= 0, self.ends[1][0] <= 0)
+        self.is_beside = any(inside) if abs(beta) > 1 else all(inside)
+        crosses = (uy < 0) != (vy < 0) and (chord > 0) == (vy < 0)
+        # points of the chord are with those on its right, and if it is level with those above
+        right = chord < 0 or (chord == 0 and not (dy == 0 and dx > 0))
+        if beta == 0:
+            self.is_on, self.parts = chord == 0 and ux * vx + uy * vy <= 0, crosses
+        else:
+            beyond = right == (beta > 0)
+            self.is_on = circle == 0 and (beyond or (ux, uy) == (0, 0) or (vx, vy) == (0, 0))
+            self.parts = crosses != (beyond and (circle > 0) == (beta > 0))
+
+
 class Field:
     """One field of one step. `evaluate` gives value and gradient at a point, `quantity` what is made of
     them."""
@@ -157,6 +193,7 @@ class Field:
         self.read_partition(group["partition"], fields)
         points, offsets = group["cracks/points"][()], group["cracks/offsets"][()]
         self.cracks = [points[a:b] for a, b in zip(offsets, offsets[1:])]
+        self.bulges = self.read_bulges(group["cracks"])
         self.read_functions(group["functions"])
         data = group[f"fields/{field:04}"]
         self.components = texts(data["components"])
@@ -175,7 +212,14 @@ class Field:
             holes = group["holes"]
             offsets, points = holes["offsets"][()], holes["points"][()]
             parts = [points[a:b] for a, b in zip(offsets, offsets[1:])]
-            self.holes = list(zip(texts(holes["kind"]), parts, holes["radius"][()]))
+            self.holes = list(zip(texts(holes["kind"]), parts, holes["radius"][()], self.read_bulges(holes)))
+
+    @staticmethod
+    def read_bulges(group):
+        """The bulges of the edges behind the points of each crack or hole."""
+        offsets = group["offsets"][()]
+        bulges = group["bulges"][()] if "bulges" in group else np.zeros(len(group["points"]))
+        return [bulges[a:b] for a, b in zip(offsets, offsets[1:])]
 
     def contains(self, p):
         """True if a point, given by numbers of the field, lies in the domain."""
@@ -184,20 +228,18 @@ class Field:
         box = all(self.real(self.min[k]) <= p[k] <= self.real(self.max[k]) for k in range(2))
         return box and not any(self.in_hole(p, *hole) for hole in self.holes)
 
-    def in_hole(self, p, kind, points, radius):
-        corners = [[p[k] - self.real(c[k]) for k in range(2)] for c in points]
+    def in_hole(self, p, kind, points, radius, bulges):
         if kind == "circle":
-            ((x, y),) = corners
+            (center,) = points
+            x, y = (p[k] - self.real(center[k]) for k in range(2))
             return x * x + y * y < self.real(radius) ** 2
-        assert kind in ("polygon", "outside")
-        inside = kind == "outside"
-        for (ax, ay), (bx, by) in zip(corners, corners[1:] + corners[:1]):
-            # twice the area of the triangle of the side and the point
-            area = ax * by - ay * bx
-            if area == 0 and ax * bx + ay * by <= 0:
+        assert kind.removeprefix("curved-") in ("polygon", "outside")
+        inside = kind.endswith("outside")
+        for a, b, bulge in zip(points, np.roll(points, -1, axis=0), bulges):
+            edge = Edge(p, a, b, bulge, self)
+            if edge.is_on:
                 return False
-            if (ay > 0) != (by > 0):
-                inside ^= (area > 0) == (by > 0)
+            inside ^= edge.parts
         return inside
 
     def read_tables(self, file):
@@ -354,7 +396,7 @@ class Field:
         part = 0
         while part >= 0:
             crack, segment, left, right = cuts[part]
-            distance = list(self.segments(p, crack))[segment][2]
+            distance = self.edges(p, crack)[segment].distance
             part = left if self.sign(distance) > 0 else right
         return self.real(1 if part == -2 else 0)
 
@@ -364,28 +406,26 @@ class Field:
     def sign(self, distance):
         return 1 if distance > 0 or (distance == 0 and self.side > 0) else -1
 
-    def segments(self, p, crack):
-        """Unit tangent, along, distance and squared distance for each segment of a crack."""
-        points = [tuple(map(self.real, q)) for q in self.cracks[crack]]
-        last = len(points) - 2
-        for k, (a, b) in enumerate(zip(points, points[1:])):
-            dx, dy = b[0] - a[0], b[1] - a[1]
-            length = self.n.call("sqrt", dx * dx + dy * dy)
-            tx, ty = dx / length, dy / length
-            px, py = p[0] - a[0], p[1] - a[1]
-            along, distance = tx * px + ty * py, (dx * py - dy * px) / length
-            before = -along if along < 0 and k > 0 else 0
-            beyond = along - length if along > length and k < last else 0
-            yield (tx, ty), along, distance, distance**2 + before**2 + beyond**2, length
+    def edges(self, p, crack):
+        """The edges of a crack, seen from a point."""
+        points = self.cracks[crack]
+        return [Edge(p, *edge, self) for edge in zip(points, points[1:], self.bulges[crack])]
 
     def nearest(self, p, crack):
-        """Signed line distance of the nearest segment; at a vertex the larger one of its two segments."""
-        segments = list(self.segments(p, crack))
-        k = min(range(len(segments)), key=lambda k: segments[k][3])
-        _, along, distance, square, length = segments[k]
-        if square == distance**2:
-            return distance
-        return max(distance, segments[k + 1 if along > length else k - 1][2], key=abs)
+        """The number whose sign is the side of the point: that of the nearest edge."""
+        edges = self.edges(p, crack)
+        candidates = []
+        for k, edge in enumerate(edges):
+            if edge.is_beside:
+                candidates.append((abs(edge.distance), edge.distance))
+                continue
+            for end, other, way in ((0, k - 1, -1), (1, k + 1, 1)):
+                along, across, away = edge.ends[end]
+                if 0 <= other < len(edges):
+                    candidates.append((away, max(across, edges[other].ends[1 - end][1], key=abs)))
+                elif way * along > 0:
+                    candidates.append((abs(across), across))
+        return min(candidates, key=lambda candidate: candidate[0])[1]
 
     def in_frame(self, p, row):
         """A formula of x, y, r, theta of its frame, with derivatives in the world."""
@@ -424,10 +464,11 @@ class Field:
         return self.n.call("atan2", abs(y), x) if x != 0 or y != 0 else self.real(0)
 
     def tip(self, p, row):
-        segments, start = list(self.segments(p, row["crack"])), row["frame_end"] == "start"
-        (tx, ty), along, distance, _, length = segments[0 if start else -1]
-        o = -1 if start else 1
-        x, y = o * (along if start else along - length), o * distance
+        start = row["frame_end"] == "start"
+        edge = self.edges(p, row["crack"])[0 if start else -1]
+        (along, across, _), (tx, ty) = (values[0 if start else 1] for values in (edge.ends, edge.tangents))
+        o, distance = -1 if start else 1, edge.distance if edge.bulge == 0 else across
+        x, y = o * along, o * distance
         line = self.sign(distance)
         theta = o * line * self.angle(x, y)
         if self.sign(self.nearest(p, row["crack"])) != line:

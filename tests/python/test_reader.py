@@ -25,7 +25,7 @@ from ppum_reader import Field, is_right, seal, text, texts
 
 ROOT = pathlib.Path(__file__).parents[2]
 OLD = DATA / "version-1.0.h5"
-COUNT = 6
+COUNT = 8  # of these 3 and 7 have cracks with arcs
 TEMPORARY = tempfile.TemporaryDirectory(prefix="ppum-")
 FOLDER = pathlib.Path(TEMPORARY.name)
 mpmath.mp.dps = 40
@@ -55,19 +55,25 @@ def points(field, distances, count=25):
 
 
 def anywhere(field, distances, count):
-    """(anchor, offset): random points, points close to tips and kinks, and middles of cracks."""
+    """(anchor, offset): random points, points close to tips and kinks, and middles of edges of cracks."""
     random = np.random.default_rng(1)
     for point in field.min + (field.max - field.min) * random.random((count, 2)):
         yield point, np.zeros(2)
-    for crack in field.cracks:
+    for crack, bulges in zip(field.cracks, field.bulges):
         for vertex in crack:
             for distance in distances:
                 angle = random.random() * 2 * math.pi
                 offset = distance * np.array([math.cos(angle), math.sin(angle)])
                 if (vertex + offset > field.min).all() and (vertex + offset < field.max).all():
                     yield vertex, offset
-        for middle in (crack[:-1] + crack[1:]) / 2:
-            yield middle, distances[-1] * (random.random(2) - 0.5)
+        for a, b, bulge in zip(crack, crack[1:], bulges):
+            yield middle(a, b, bulge), distances[-1] * (random.random(2) - 0.5)
+
+
+def middle(a, b, bulge):
+    """The middle of an edge."""
+    (dx, dy) = b - a
+    return (a + b - bulge * np.array([-dy, dx])) / 2
 
 
 def exact_sum(anchor, offset):
@@ -94,7 +100,7 @@ def test_h5py_reads_and_the_checksum_agrees():
     for path in files():
         with h5py.File(path) as file:
             assert text(file.attrs["format"]) == "ppum"
-            assert list(file.attrs["format_version"]) == [1, 7]
+            assert list(file.attrs["format_version"]) == [1, 8]
             assert text(file.attrs["title"]) == f"Übung {int(path.stem)}"
             assert is_right(file)
             assert counts_attributes(file)
@@ -372,6 +378,7 @@ def test_the_component_of_the_page():
     field = Field.__new__(Field)
     field.n, field.real = Extended, Extended.real
     field.cracks = [np.array([[-1.0, 0], [1, 0]]), np.array([[0.0, 0], [0, 1]])]
+    field.bulges = np.zeros((2, 2))
     cuts = [(0, 0, 1, -1), (1, 0, -2, -1)]
     for x, y, above, below in [
         (-0.5, 0.5, 1, 1),
@@ -406,6 +413,8 @@ def test_both_sides_of_a_crack():
         with h5py.File(path) as file:
             field = Field(file, numbers=Extended)
             for k, crack in enumerate(field.cracks):
+                if field.bulges[k].any():
+                    continue  # points on arcs are no numbers
                 a, b = [tuple(map(mpmath.mpf, map(float, p))) for p in crack[:2]]
                 middle = [(u + v) / 2 for u, v in zip(a, b)]
                 left = (a[1] - b[1], b[0] - a[0])
@@ -417,6 +426,62 @@ def test_both_sides_of_a_crack():
                 above, below = field.evaluate(*middle, 1), field.evaluate(*middle, -1)
                 jumps += any(abs(p[0] - q[0]) > 1e-3 for p, q in zip(above, below))
     assert jumps > 0
+
+
+def curved():
+    """A file whose first crack is a segment, an arc of its tangent, and a large arc; the second one is an arc of more
+    than half a turn, the third one two arcs with a kink."""
+    path = FOLDER / "curved.h5"
+    shutil.copy(files()[3], path)
+    with h5py.File(path, "a") as file:
+        cracks = file["steps/0000/cracks"]
+        points, offsets = cracks["points"][()], cracks["offsets"][()]
+        assert offsets.tolist() == [0, 4, 6, 9]
+        (cos, sin), (x, y) = points[1] - points[0], points[2] - points[1]
+        # half of the sweep is the angle between the tangent and the chord
+        half = math.atan2(cos * y - sin * x, cos * x + sin * y)
+        cracks["bulges"][...] = [0, math.tan(half / 2), -3, 0, 1.5, 0, 0.4, -0.9, 0]
+        seal(file)
+    return path
+
+
+def test_deep_places_beside_arcs():
+    """1e-12 and less beside arcs, joints and tips: on the side that they are put, values as in extended precision."""
+    worst, asked, sides = 0, [], []
+    path, random = curved(), np.random.default_rng(4)
+    with h5py.File(path) as file:
+        field = Field(file, numbers=Extended)
+        for k, (crack, bulges) in enumerate(zip(field.cracks, field.bulges)):
+            for a, b, bulge in zip(crack, crack[1:], bulges):
+                at = middle(a, b, bulge)
+                left = np.array([a[1] - b[1], b[0] - a[0]]) / math.dist(a, b)
+                for distance in (1e-2, 1e-6, 1e-12):
+                    for side in (1, -1):
+                        asked.append((at, side * distance * left, 1))
+                        sides.append((k, side if distance < 1e-3 else None))
+            for vertex in crack:
+                for distance in (1e-6, 1e-12, 1e-14):
+                    for angle in 2 * math.pi * random.random(6):
+                        asked.append((vertex, distance * np.array([math.cos(angle), math.sin(angle)]), 1))
+                        sides.append((k, None))
+        for (anchor, offset, side), (k, known), numbers in zip(asked, sides, program(path, asked), strict=True):
+            p = exact_sum(anchor, offset)
+            if not field.contains(p):
+                continue
+            assert known is None or field.sign(field.nearest(p, k)) == known, (k, anchor, offset)
+            jets = [numbers[j : j + 3] for j in range(0, len(numbers), 3)]
+            worst = max(worst, difference(jets, field.evaluate(*p, side)))
+    print(f"    largest difference {worst:.1e} of the local size at {len(asked)} places")
+    assert worst < 1e-13
+
+
+def test_earlier_words_are_not_those_of_arcs():
+    """Readers of versions before 1.8 know none of the words of cracks and rims with arcs."""
+    with h5py.File(curved()) as file:
+        ends = [text(end) for end in file["steps/0000/cracks/ends"][()].ravel()]
+        kinds = texts(file["domain/holes/kind"])
+        assert len(ends) == 6 and all(end.startswith("curved-") for end in ends)
+        assert [kind for kind in kinds if kind not in ("circle", "polygon", "outside")] == ["curved-outside", "curved-polygon"]
 
 
 def test_outside_the_domain_is_nan():
@@ -432,12 +497,13 @@ def test_holes_are_cut_out_sharply():
         with h5py.File(path) as file:
             field = Field(file, numbers=Extended)
             random, asked = np.random.default_rng(2), []
-            for kind, corners, radius in field.holes:
+            for kind, corners, radius, bulges in field.holes:
                 if kind == "circle":
                     angles = random.random(20) * 2 * math.pi
                     anchors = [corners[0] + radius * np.array([math.cos(a), math.sin(a)]) for a in angles]
                 else:
-                    anchors = [*corners, *(corners + np.roll(corners, 1, axis=0)) / 2]
+                    sides = zip(corners, np.roll(corners, -1, axis=0), bulges)
+                    anchors = [*corners, *(middle(*side) for side in sides)]
                 for anchor in anchors:
                     for distance in (1e-2, 1e-6, 1e-14):
                         asked.append((anchor, distance * (random.random(2) - 0.5), 1))
@@ -489,7 +555,7 @@ def test_the_program_reads_what_h5py_writes():
         assert status == 0, message
         with h5py.File(copy, "a") as target:
             target["steps/0000/from-the-future"] = np.arange(3.0)
-            target.attrs["format_version"] = np.array([1, 8], dtype="u4")
+            target.attrs["format_version"] = np.array([1, 9], dtype="u4")
             seal(target)
         status, _, message = fixture("same", original, copy)
         assert status == 0, message

@@ -99,7 +99,7 @@ impl Case {
 
     fn cracks(&self) -> [Crack; 1] {
         let points = vec![vec2(-self.half.x, 0.0), Vec2::ZERO];
-        [Crack { points, ends: [CrackEnd::Mouth, CrackEnd::Tip] }]
+        [Crack::polyline(points, [CrackEnd::Mouth, CrackEnd::Tip])]
     }
 
     fn panel<'a>(&self, picture: &'a ColoredRaster, cracks: &'a [Crack]) -> Panel<'a> {

@@ -76,7 +76,7 @@ impl CrackRecipe {
         maker.fill(self.enriched);
         let FieldMaker { partition, data, .. } = maker;
         let mut step = Step::new(partition).with_field(data);
-        step.cracks = vec![Crack { points: TIPS.to_vec(), ends: [CrackEnd::Tip; 2] }];
+        step.cracks = vec![Crack::polyline(TIPS.to_vec(), [CrackEnd::Tip; 2])];
         step.functions = functions();
         Ok(wrap(step))
     }

@@ -269,6 +269,27 @@ macro_rules! list {
     };
 }
 
+/// The bulges of the edges behind the points of each row, which are there if words of the rows say
+/// that there are arcs.
+macro_rules! bulges {
+    ($row:ty, $words:literal) => {{
+        const LIST: Member<[$row]> = $crate::member::list!($row, "bulges", "offsets", bulges);
+        $crate::member::Member::<[$row]> {
+            is_used: |rows| rows.iter().any(<$row>::is_curved),
+            take: |rows, group, name, n| {
+                if rows.iter().any(<$row>::is_curved) {
+                    (LIST.take)(rows, group, name, n);
+                } else if !group.is_wrong($words) {
+                    let kind = $crate::content::ObjectKind::Dataset;
+                    group.refuse(name, kind, concat!($words, "` without `curved-"));
+                }
+            },
+            ..LIST
+        }
+        .optional()
+    }};
+}
+
 /// Numbers for each row, a row of a matrix.
 macro_rules! matrix {
     ($row:ty, $name:literal, $field:ident) => {
@@ -312,5 +333,6 @@ macro_rules! any_vector {
 }
 
 pub(crate) use {
-    any_vector, attribute, cell, custom, list, matrix, members, rows, some_attribute, vector,
+    any_vector, attribute, bulges, cell, custom, list, matrix, members, rows, some_attribute,
+    vector,
 };

@@ -2,13 +2,13 @@
 //! data model.
 
 mod domain;
+mod edges;
 mod equation;
 mod functions;
 mod growth;
 mod partition;
 mod tables;
 
-use ppum::crack::Crack;
 use ppum::dataset::{
     Attribute, Dataset, FieldData, NamedQuantity, Reaction, Record, Step, TipIntensity, Warning,
 };
@@ -50,7 +50,7 @@ pub(crate) const STEPS: Member<Dataset> = Member::<Dataset>::group(
 );
 
 pub(crate) const STEP: &[Member<Step>] = members!(Step:
-    attribute("load", load), custom(partition::PARTITION), rows("cracks", cracks, CRACKS),
+    attribute("load", load), custom(partition::PARTITION), custom(edges::CRACKS),
     rows("intensities", intensities, INTENSITIES).optional_to_read(),
     rows("history", history, HISTORY).optional_to_read(),
     rows("warnings", warnings, WARNINGS).optional(), custom(growth::GROWTH),
@@ -60,9 +60,6 @@ pub(crate) const STEP: &[Member<Step>] = members!(Step:
 
 /// The members of a step that are read without its patches.
 pub(crate) const RESULTS: &[&str] = &["cracks", "intensities", "history", "warnings", "growth"];
-
-const CRACKS: &TableMembers<Crack> =
-    members!(Crack: cell("ends", ends), list("points", "offsets", points));
 
 const FIELDS: Member<Step> = Member::<Step>::group(
     "fields",

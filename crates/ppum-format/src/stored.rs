@@ -198,8 +198,27 @@ impl<T: StoredWord> StoredValue for T {
     }
 }
 
+/// The kind of an end of a crack, and whether the crack has arcs: readers of files before 1.8 do
+/// not know the words of those.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct StoredEnd {
+    pub(crate) kind: CrackEnd,
+    pub(crate) is_curved: bool,
+}
+
+impl StoredWord for StoredEnd {
+    const WORDS: &'static WordTable<Self> = &[
+        (Self { kind: CrackEnd::Tip, is_curved: false }, "tip"),
+        (Self { kind: CrackEnd::Mouth, is_curved: false }, "mouth"),
+        (Self { kind: CrackEnd::Junction, is_curved: false }, "junction"),
+        (Self { kind: CrackEnd::Tip, is_curved: true }, "curved-tip"),
+        (Self { kind: CrackEnd::Mouth, is_curved: true }, "curved-mouth"),
+        (Self { kind: CrackEnd::Junction, is_curved: true }, "curved-junction"),
+    ];
+}
+
 /// The kinds of a crack's first and last point.
-impl StoredValue for [CrackEnd; 2] {
+impl StoredValue for [StoredEnd; 2] {
     type Element = String;
     const SHAPE: &'static [u64] = &[2];
 
@@ -208,7 +227,7 @@ impl StoredValue for [CrackEnd; 2] {
     }
 
     fn restore(row: usize, elements: &[String], report: &mut dyn FnMut(String)) -> Self {
-        [0, 1].map(|k| CrackEnd::restore(row, &elements[k..], report))
+        [0, 1].map(|k| StoredEnd::restore(row, &elements[k..], report))
     }
 }
 
@@ -236,7 +255,6 @@ macro_rules! words {
 
 words! {
     StressState: PlaneStrain "plane-strain", PlaneStress "plane-stress";
-    CrackEnd: Tip "tip", Mouth "mouth", Junction "junction";
     End: Start "start", Last "last";
     GrowthStop: NoTips "no-tips", AllHeld "all-held", Fracture "fracture",
         PieceComesOff "piece-comes-off", Unsolvable "unsolvable";
@@ -262,7 +280,8 @@ macro_rules! kinds {
 
 kinds! {
     EquationKind: Elasticity "elasticity", Eigenstrain "eigenstrain", Poisson "poisson", None "none";
-    HoleKind: Circle "circle", Polygon "polygon", Outside "outside";
+    HoleKind: Circle "circle", Polygon "polygon", Outside "outside",
+        CurvedPolygon "curved-polygon", CurvedOutside "curved-outside";
     // readers of files before 1.2 know the first alone
     DomainKind: Box "box", BoxWithHoles "box-with-holes", Mesh "mesh";
     PartitionKind: Boxes "shepard-box", Mesh "mesh";

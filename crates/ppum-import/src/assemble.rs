@@ -1,7 +1,8 @@
 //! Outline, holes and cracks from curves: chains that close, and how they lie in each other.
 
-use ppum::segment;
-use ppum::vec2::Vec2;
+use ppum::domain::{Hole, PolygonSide};
+use ppum::edge::Edge;
+use ppum::vec2::{Rect, Vec2};
 
 use crate::chain::{CurveChain, Joints, Network};
 use crate::crossing;
@@ -12,7 +13,7 @@ use crate::sketch::{NO_CURVES, NamedCurve, Sketch};
 /// Most closed curves, and most open ones.
 const MOST_CHAINS: usize = 10_000;
 
-/// How far cracks may end beyond the outline, in parts of the size: flattened arcs are so exact.
+/// How far cracks may end beyond the outline, in parts of the size.
 const BEYOND: f64 = 1e-3;
 
 /// The boundary and the cracks of a body.
@@ -36,21 +37,34 @@ pub struct BodyDrawing {
     pub(crate) is_layered: bool,
 }
 
-/// A closed curve with its points.
+/// A closed curve with its edges, counter-clockwise.
 struct ClosedCurve {
     chain: CurveChain,
-    points: Vec<Vec2>,
+    edges: Vec<Edge>,
+    /// Its inside.
+    inside: Hole,
     area: f64,
 }
 
 impl ClosedCurve {
     fn new(chain: CurveChain) -> Self {
-        let points = chain.flattened();
-        let area = segment::signed_area(&points);
+        let edges = chain.edges();
+        let origin = edges[0].from;
+        let beside = |edge: &Edge| {
+            0.5 * (edge.from - origin).cross(edge.to - origin) + edge.area_beside_chord()
+        };
+        let area: f64 = edges.iter().map(beside).sum();
         if area < 0.0 {
             return Self::new(chain.reversed());
         }
-        Self { chain, points, area }
+        let points = edges.iter().map(|edge| edge.from).collect();
+        let bulges = edges.iter().map(|edge| edge.bulge).collect();
+        let inside = Hole::Polygon { points, bulges, side: PolygonSide::Inside };
+        Self { chain, edges, inside, area }
+    }
+
+    fn start(&self) -> Vec2 {
+        self.edges[0].from
     }
 }
 
@@ -72,7 +86,8 @@ pub(crate) fn assemble(mut sketch: Sketch, tolerance: f64) -> Result<BodyDrawing
     };
     let cracks: Vec<_> = open.into_iter().chain(cracks).collect();
     check_cracks(&cracks, outline, size)?;
-    let borders = straight_segments([&*outline].into_iter().chain(&*holes));
+    let borders: Vec<Edge> =
+        [&*outline].into_iter().chain(&*holes).flat_map(|border| border.edges.clone()).collect();
     let cracks = cracks.into_iter().map(|crack| snapped(crack, &borders, tolerance)).collect();
     let holes = holes.iter_mut().map(|hole| hole.chain.clone()).collect();
     Ok(BodyDrawing {
@@ -101,15 +116,15 @@ fn without_copies(curves: Vec<NamedCurve>, tolerance: f64, sketch: &mut Sketch) 
     let mut joints = Joints::new(tolerance);
     let mut seen = std::collections::HashSet::new();
     let mut is_kept = |named: &NamedCurve| {
-        let points = named.curve.flattened();
-        let length: f64 = points.windows(2).map(|p| (p[1] - p[0]).length()).sum();
+        let edges = named.curve.edges();
+        let length: f64 = edges.iter().map(Edge::length).sum();
         if length <= tolerance {
             sketch.leave("curve shorter than the tolerance", named.source);
             return false;
         }
         let mut key = named.curve.ends().map(|p| joints.number(p));
         key.sort_unstable();
-        let is_new = seen.insert((key, joints.number(centroid(&points, length))));
+        let is_new = seen.insert((key, joints.number(centroid(&edges, length))));
         if !is_new {
             sketch.leave("copy of another curve", named.source);
         }
@@ -118,10 +133,10 @@ fn without_copies(curves: Vec<NamedCurve>, tolerance: f64, sketch: &mut Sketch) 
     curves.into_iter().filter(|named| is_kept(named)).collect()
 }
 
-/// The centre of a polyline's length, the same whichever way it runs.
-fn centroid(points: &[Vec2], length: f64) -> Vec2 {
-    let part = |p: &[Vec2]| (p[0] + p[1]) * (0.5 * (p[1] - p[0]).length() / length);
-    points.windows(2).map(part).fold(Vec2::ZERO, |sum, part| sum + part)
+/// The centre of the edges' length, the same whichever way they run.
+fn centroid(edges: &[Edge], length: f64) -> Vec2 {
+    let part = |edge: &Edge| edge.centroid() * (edge.length() / length);
+    edges.iter().map(part).fold(Vec2::ZERO, |sum, part| sum + part)
 }
 
 /// The closed curves, the outline first; the others lie in it and not in each other.
@@ -134,19 +149,19 @@ fn nested(
     }
     closed.sort_by(|a, b| b.area.total_cmp(&a.area));
     let source = |c: &ClosedCurve| c.chain.curves[0].source;
-    crossing::check(&closed.iter().map(|c| (&c.points[..], source(c))).collect::<Vec<_>>())?;
+    crossing::check(&closed.iter().map(|c| (&c.edges[..], source(c))).collect::<Vec<_>>())?;
     let Some((outline, holes)) = closed.split_first() else { return Ok(closed) };
-    if let Some(beside) = holes.iter().find(|hole| !contains(&outline.points, hole.points[0])) {
+    if let Some(beside) = holes.iter().find(|hole| !outline.inside.contains(hole.start())) {
         let [first, second] =
-            [outline, beside].map(|c| format!("{} ({})", shown(c.points[0]), source(c)));
+            [outline, beside].map(|c| format!("{} ({})", shown(c.start()), source(c)));
         return Err(ImportError(format!(
             "the closed curves at {first} and at {second} lie beside each other: there is more than one body; keep \
              one of them"
         )));
     }
     for (k, hole) in holes.iter().enumerate() {
-        let at = hole.points[0];
-        if let Some(around) = holes[..k].iter().find(|around| contains(&around.points, at)) {
+        let at = hole.start();
+        if let Some(around) = holes[..k].iter().find(|around| around.inside.contains(at)) {
             return Err(ImportError(format!(
                 "the closed curve at {} ({}) lies in the hole of {}: it would be another body; remove it",
                 shown(at),
@@ -158,21 +173,11 @@ fn nested(
     Ok(closed)
 }
 
-/// True for points in a closed polyline, by the number of its segments to the right.
-pub(crate) fn contains(points: &[Vec2], p: Vec2) -> bool {
-    let is_right = |s: &&[Vec2]| {
-        (s[0].y > p.y) != (s[1].y > p.y)
-            && p.x < s[0].x + (s[1].x - s[0].x) * ((p.y - s[0].y) / (s[1].y - s[0].y))
-    };
-    points.windows(2).filter(is_right).count() % 2 == 1
-}
-
 /// The error of a drawing without a closed curve.
 fn no_outline(open: &[CurveChain]) -> ImportError {
     let spread = |chain: &&CurveChain| {
-        let points = chain.flattened();
-        let corner = points.iter().fold(points[0], |a, b| a.min(*b));
-        points.iter().map(|p| (*p - corner).length()).fold(0.0, f64::max)
+        let edges = chain.edges().into_iter();
+        edges.fold(Rect::EMPTY, |all, edge| all.union(&edge.bounds())).size().length()
     };
     let largest = open.iter().max_by(|a, b| spread(a).total_cmp(&spread(b)));
     let Some([first, .., last] | [first @ last]) = largest.map(|chain| &chain.curves[..]) else {
@@ -196,41 +201,33 @@ fn check_cracks(
     size: f64,
 ) -> Result<(), ImportError> {
     for crack in cracks {
-        let (points, curve) = (crack.flattened(), crack.curves[0].source);
+        let (edges, curve) = (crack.edges(), crack.curves[0].source);
         if crack.is_closed {
             return Err(ImportError(format!(
                 "the crack at {} ({curve}) closes, and would cut the body; open it, or give it another name",
-                shown(points[0])
+                shown(edges[0].from)
             )));
         }
-        let distance = |p: &Vec2| segment::polyline_distance(&outline.points, *p);
-        let is_outside = |p: &&Vec2| !contains(&outline.points, **p) && distance(p) > BEYOND * size;
-        if let Some(at) = points.iter().find(is_outside) {
+        let is_outside = |p: &Vec2| {
+            !outline.inside.contains(*p) && outline.inside.rim_distance(*p) > BEYOND * size
+        };
+        let parts = edges.iter().flat_map(|edge| [0.0, 0.5, 1.0].map(|part| edge.at(part)));
+        if let Some(at) = parts.into_iter().find(is_outside) {
             return Err(ImportError(format!(
                 "the open curve of {curve}, a crack, leaves the body at {}; shorten it, or leave it out",
-                shown(*at)
+                shown(at)
             )));
         }
     }
     Ok(())
 }
 
-/// The segments of the straight parts of boundaries.
-fn straight_segments<'a>(borders: impl Iterator<Item = &'a ClosedCurve>) -> Vec<[Vec2; 2]> {
-    let curves = borders.flat_map(|border| &border.chain.curves);
-    let polylines = curves.filter_map(|named| match &named.curve {
-        PlaneCurve::Polyline(points) => Some(points),
-        _ => None,
-    });
-    polylines.flat_map(|points| points.windows(2).map(|p| [p[0], p[1]])).collect()
-}
-
-/// The crack with ends on the boundary, where they miss a straight part of it by the tolerance.
-fn snapped(crack: CurveChain, borders: &[[Vec2; 2]], tolerance: f64) -> CurveChain {
+/// The crack with ends on the boundary, where they miss it by the tolerance.
+fn snapped(crack: CurveChain, borders: &[Edge], tolerance: f64) -> CurveChain {
     let ([first, .., last] | [first @ last]) = &crack.curves[..] else { return crack };
     let ends = [first.curve.ends()[0], last.curve.ends()[1]];
     let on_border = ends.map(|end| {
-        let points = borders.iter().map(|segment| segment::closest_point(*segment, end));
+        let points = borders.iter().map(|edge| edge.closest_point(end));
         let nearest = points.min_by(|a, b| (*a - end).length().total_cmp(&(*b - end).length()));
         nearest.filter(|point| (*point - end).length() <= tolerance).unwrap_or(end)
     });

@@ -1,14 +1,18 @@
-//! B-splines and Bézier curves, made splines of the problem file as finely as a tolerance asks.
+//! B-splines and Bézier curves, made arcs as finely as a tolerance asks.
 
+use ppum::arc_spline::arc_spline;
 use ppum::segment;
-use ppum::spline::Spline;
 use ppum::vec2::Vec2;
 
 use crate::affine::PlaneMap;
-use crate::curve::PlaneCurve;
+use crate::curve::{MOST_ARCS, PlaneCurve};
 
-/// Most spans of the spline that stands for a smooth curve.
-const MOST_SPANS: usize = 1024;
+/// Points by span of the polyline that stands for a curve with a cusp.
+const BY_SPAN: usize = 64;
+
+/// Part of a span beside which a curve that stops has its tangent: in an end of a Bézier curve of
+/// two equal points.
+const BESIDE: f64 = 1e-6;
 
 /// Highest degree that is read.
 const HIGHEST: usize = 15;
@@ -66,22 +70,38 @@ impl BSpline {
         &self.points
     }
 
-    /// The point at a parameter (de Boor 1972), in the span that begins with knot number `span`.
-    fn at(&self, span: usize, t: f64) -> Vec2 {
+    /// The point at a parameter and the derivative there (de Boor 1972), in the span that begins
+    /// with knot number `span`.
+    fn at(&self, span: usize, t: f64) -> [Vec2; 2] {
         let first = span - self.degree;
         let weighted = |k: usize| (self.points[k] * self.weights[k], self.weights[k]);
         let mut row: Vec<_> = (first..=span).map(weighted).collect();
+        let mut slope = (Vec2::ZERO, 0.0);
         for level in 1..=self.degree {
             for k in (level..=self.degree).rev() {
                 let [from, to] =
                     [self.knots[first + k], self.knots[first + k + self.degree + 1 - level]];
                 let s = (t - from) / (to - from);
                 let ((a, v), (b, w)) = (row[k - 1], row[k]);
+                let rate = self.degree as f64 / (to - from);
+                slope = ((b - a) * rate, (w - v) * rate);
                 row[k] = (a * (1.0 - s) + b * s, v * (1.0 - s) + w * s);
             }
         }
         let (point, weight) = row[self.degree];
-        point / weight
+        let at = point / weight;
+        [at, (slope.0 - at * slope.1) / weight]
+    }
+
+    /// The point and the unit tangent at a part of a span.
+    fn tangent_at(&self, span: usize, part: f64) -> [Vec2; 2] {
+        let [from, to] = [self.knots[span], self.knots[span + 1]];
+        let at = |part: f64| self.at(span, from + (to - from) * part);
+        let size = self.points.iter().map(|p| (*p - self.points[0]).length()).fold(0.0, f64::max);
+        let [point, slope] = at(part);
+        let stops = slope.length() * (to - from) <= BESIDE * size;
+        let inner = part + BESIDE * (0.5 - part);
+        [point, if stops { at(inner)[1].unit() } else { slope.unit() }]
     }
 
     /// The spans that are no points, by the numbers of their knots; those apart where the curve
@@ -100,77 +120,33 @@ impl BSpline {
         runs
     }
 
-    /// Points of a run of spans, `parts` by span.
-    fn sampled(&self, run: &[usize], parts: usize) -> Vec<Vec2> {
-        let points = run.iter().flat_map(|&span| {
-            let [from, to] = [self.knots[span], self.knots[span + 1]];
-            (0..parts).map(move |k| self.at(span, from + (to - from) * (k as f64 / parts as f64)))
-        });
-        let end = run.last().map(|&span| self.at(span, self.knots[span + 1]));
-        points.chain(end).collect()
-    }
-
-    /// The curves of the problem file that stand for it, and their largest distance to it, which
-    /// is below the tolerance unless the curve has a cusp.
-    pub(crate) fn fitted(&self, tolerance: f64) -> (Vec<PlaneCurve>, f64) {
+    /// The curves that stand for it, and whether one has a cusp.
+    pub(crate) fn fitted(&self, tolerance: f64) -> (Vec<PlaneCurve>, bool) {
         let fits = self.smooth_runs().into_iter().map(|run| self.fitted_run(&run, tolerance));
-        let (curves, distances): (Vec<_>, Vec<f64>) = fits.unzip();
-        (curves, distances.into_iter().fold(0.0, f64::max))
+        let (curves, cusps): (Vec<_>, Vec<bool>) = fits.unzip();
+        (curves, cusps.contains(&true))
     }
 
-    /// Halves the parts of the spans until points between those of the spline lie on it. A curve
-    /// that stops somewhere becomes a polyline.
-    fn fitted_run(&self, run: &[usize], tolerance: f64) -> (PlaneCurve, f64) {
-        let fine = self.sampled(run, 16);
-        let ends = [fine[0], fine[fine.len() - 1]];
-        if fine.iter().all(|p| segment::distance(ends, *p) < 1e-3 * tolerance) {
-            return (PlaneCurve::Polyline(ends.to_vec()), 0.0);
+    /// The arcs that stand for a run of spans, or the segment that it is. A curve that stops
+    /// somewhere becomes a polyline.
+    fn fitted_run(&self, run: &[usize], tolerance: f64) -> (PlaneCurve, bool) {
+        let at = |t: f64| {
+            let k = (t as usize).min(run.len() - 1);
+            self.tangent_at(run[k], t - k as f64)
+        };
+        let point = |k: usize, by: usize| at(k as f64 / by as f64)[0];
+        let ends = [point(0, 1), point(run.len(), 1)];
+        if (0..16 * run.len()).all(|k| segment::distance(ends, point(k, 16)) < 0.1 * tolerance) {
+            return (PlaneCurve::Polyline(ends.to_vec()), false);
         }
-        let mut parts = 4;
-        loop {
-            let (points, between) = (self.sampled(run, parts), self.sampled(run, 4 * parts));
-            let distance = distance_of_spline(&points, &between);
-            if distance <= tolerance {
-                return (PlaneCurve::Spline(points), distance);
+        match arc_spline(at, [0.0, run.len() as f64], tolerance, MOST_ARCS) {
+            Ok(edges) => (PlaneCurve::Edges(edges), false),
+            Err(_) => {
+                let points = (0..=BY_SPAN * run.len()).map(|k| point(k, BY_SPAN));
+                let mut points: Vec<Vec2> = points.collect();
+                points.dedup();
+                (PlaneCurve::Polyline(points), true)
             }
-            parts *= 2;
-            if parts * run.len() > MOST_SPANS {
-                return polyline(points, &between);
-            }
         }
     }
-}
-
-/// The polyline through points, and the largest distance of the points amid its segments, three
-/// each.
-fn polyline(mut points: Vec<Vec2>, between: &[Vec2]) -> (PlaneCurve, f64) {
-    let chords = points.windows(2).zip(between.chunks(4));
-    let distances = chords
-        .flat_map(|(chord, of)| of.iter().map(|p| segment::distance([chord[0], chord[1]], *p)));
-    let largest = distances.fold(0.0, f64::max);
-    points.dedup();
-    (PlaneCurve::Polyline(points), largest)
-}
-
-/// Largest distance of points, four by span, to the spline through every fourth of them, by
-/// Newton's method; infinite where the spline does not exist.
-fn distance_of_spline(points: &[Vec2], between: &[Vec2]) -> f64 {
-    if points.windows(2).any(|p| p[0] == p[1]) {
-        return f64::INFINITY;
-    }
-    let spline = Spline::open(points);
-    let distance = |(k, p): (usize, &Vec2)| {
-        let mut t = k as f64 / 4.0;
-        for _ in 0..3 {
-            let [at, slope, _] = spline.at(t);
-            t += (*p - at).dot(slope) / slope.dot(slope);
-        }
-        (*p - spline.at(t)[0]).length()
-    };
-    let largest = between
-        .iter()
-        .enumerate()
-        .map(distance)
-        .fold(0.0, |a: f64, b| if b > a || b.is_nan() { b } else { a });
-    if largest.is_nan() { f64::INFINITY } else { largest }
 }

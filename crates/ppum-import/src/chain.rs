@@ -2,6 +2,7 @@
 
 use std::collections::HashMap;
 
+use ppum::edge::Edge;
 use ppum::vec2::Vec2;
 
 use crate::error::{ImportError, shown};
@@ -188,20 +189,9 @@ impl CurveChain {
         self
     }
 
-    /// Points along all curves; those of a closed chain end with the first one.
+    /// The edges of all curves.
     #[must_use]
-    pub fn flattened(&self) -> Vec<Vec2> {
-        let mut points: Vec<Vec2> = Vec::new();
-        for named in &self.curves {
-            // joints are equal to rounding
-            points.pop();
-            points.extend(named.curve.flattened());
-        }
-        if self.is_closed {
-            points.pop();
-            points.extend(points.first().copied());
-        }
-        points.dedup();
-        points
+    pub fn edges(&self) -> Vec<Edge> {
+        self.curves.iter().flat_map(|named| named.curve.edges()).collect()
     }
 }

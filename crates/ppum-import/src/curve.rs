@@ -1,15 +1,19 @@
-//! Curves of a drawing that the problem file knows: polylines, arcs of ellipses, splines.
+//! Curves of a drawing that the problem file knows: polylines, arcs of ellipses, splines, chains of
+//! arcs.
 
+use ppum::arc_spline::arc_spline;
+use ppum::edge::Edge;
 use ppum::spline::Spline;
 use ppum::vec2::{Vec2, vec2};
 
 use crate::affine::PlaneMap;
 
-/// Turn from point to point of a flattened arc, in radians: chords miss it by 1e-4 radii.
-const TURN: f64 = 1.0 / 32.0;
+/// Largest distance of arcs from the ellipse or spline for which they are taken, in parts of its
+/// size.
+const TOLERANCE: f64 = 1e-9;
 
-/// Points by span of a flattened spline.
-const BY_SPAN: usize = 16;
+/// Most arcs of one curve.
+pub(crate) const MOST_ARCS: usize = 1 << 14;
 
 /// A curve from its begin to its end.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +24,8 @@ pub enum PlaneCurve {
     Arc(EllipseArc),
     /// The cubic spline of the problem file through three points or more.
     Spline(Vec<Vec2>),
+    /// Arcs and segments, each from where the one before ends.
+    Edges(Vec<Edge>),
 }
 
 /// The points c + p cos t + q sin t for t between two parameters; p and q are conjugate radii.
@@ -99,6 +105,30 @@ impl EllipseArc {
         a == b
     }
 
+    /// The two arcs of a circle, or arcs that follow the ellipse.
+    fn edges(&self) -> Vec<Edge> {
+        let EllipseAxes { axes: [a, b], .. } = self.axes();
+        if a == b {
+            let arc = |half: Self| {
+                let [from, to] = half.range.map(|t| half.point(t));
+                let sweep = half.axes().range;
+                Edge { from, to, bulge: (0.25 * (sweep[1] - sweep[0])).tan() }
+            };
+            return self.halves().map(arc).to_vec();
+        }
+        let way = (self.range[1] - self.range[0]).signum();
+        let at = |t: f64| {
+            let (sin, cos) = t.sin_cos();
+            let slope = self.radii[1] * cos - self.radii[0] * sin;
+            [self.point(t), slope.unit() * way]
+        };
+        let arcs = arc_spline(at, self.range, TOLERANCE * a.max(b), MOST_ARCS);
+        // with a cusp it is an error of the problem file
+        let [from, to] = self.range;
+        let chord = |k: u32| self.point(from + (to - from) * (f64::from(k) / 64.0));
+        arcs.unwrap_or_else(|_| segments(&(0..=64).map(chord).collect::<Vec<_>>()))
+    }
+
     /// Its halves.
     pub(crate) fn halves(&self) -> [Self; 2] {
         let [from, to] = self.range;
@@ -114,6 +144,7 @@ impl PlaneCurve {
         match self {
             Self::Polyline(points) | Self::Spline(points) => [points[0], points[points.len() - 1]],
             Self::Arc(arc) => arc.range.map(|t| arc.point(t)),
+            Self::Edges(edges) => [edges[0].from, edges[edges.len() - 1].to],
         }
     }
 
@@ -123,6 +154,10 @@ impl PlaneCurve {
         match &mut self {
             Self::Polyline(points) | Self::Spline(points) => points.reverse(),
             Self::Arc(arc) => arc.range.reverse(),
+            Self::Edges(edges) => {
+                edges.reverse();
+                edges.iter_mut().for_each(|edge| *edge = edge.reversed());
+            }
         }
         self
     }
@@ -133,6 +168,15 @@ impl PlaneCurve {
             Self::Polyline(points) => Self::Polyline(all(points)),
             Self::Spline(points) => Self::Spline(all(points)),
             Self::Arc(arc) => Self::Arc(arc.mapped(map)),
+            // only maps that keep shapes come this far
+            Self::Edges(edges) => {
+                let sign = map.x.cross(map.y).signum();
+                let mapped = |edge: &Edge| {
+                    let [from, to] = [edge.from, edge.to].map(|p| map.point(p));
+                    Edge { from, to, bulge: sign * edge.bulge }
+                };
+                Self::Edges(edges.iter().map(mapped).collect())
+            }
         }
     }
 
@@ -152,22 +196,26 @@ impl PlaneCurve {
         }
     }
 
-    /// Points along the curve, of arcs every 1.8°, of splines 16 by span.
+    /// Its edges: segments, arcs of circles as they are, of ellipses and splines arcs that follow
+    /// them.
     #[must_use]
-    pub fn flattened(&self) -> Vec<Vec2> {
+    pub fn edges(&self) -> Vec<Edge> {
         match self {
-            Self::Polyline(points) => points.clone(),
-            Self::Arc(arc) => {
-                let [from, to] = arc.range;
-                let count = ((to - from).abs() / TURN).ceil().clamp(2.0, 1e3) as usize;
-                let at = |k: usize| arc.point(from + (to - from) * (k as f64 / count as f64));
-                (0..=count).map(at).collect()
-            }
+            Self::Polyline(points) => segments(points),
+            Self::Arc(arc) => arc.edges(),
             Self::Spline(points) => {
-                let (spline, count) = (Spline::open(points), BY_SPAN * (points.len() - 1));
-                let at = |k: usize| spline.at(k as f64 / BY_SPAN as f64)[0];
-                (0..count).map(at).chain(points.last().copied()).collect()
+                let spline = Spline::open(points);
+                let at = |t: f64| {
+                    let [at, slope, _] = spline.at(t);
+                    [at, slope.unit()]
+                };
+                let size = points.iter().map(|p| (*p - points[0]).length()).fold(0.0, f64::max);
+                let range = [0.0, spline.spans() as f64];
+                let arcs = arc_spline(at, range, TOLERANCE * size, MOST_ARCS);
+                // with a cusp it is an error of the problem file
+                arcs.unwrap_or_else(|_| segments(points))
             }
+            Self::Edges(edges) => edges.clone(),
         }
     }
 
@@ -180,6 +228,11 @@ impl PlaneCurve {
                 let [p, q] = arc.radii;
                 [arc.center, p, q].iter().all(is_small) && arc.range.iter().all(|t| t.abs() < 1e3)
             }
+            Self::Edges(edges) => edges.iter().all(|edge| is_small(&edge.from)),
         }
     }
+}
+
+fn segments(points: &[Vec2]) -> Vec<Edge> {
+    points.windows(2).map(|p| Edge::segment([p[0], p[1]])).collect()
 }

@@ -101,8 +101,9 @@ fn cosine(a: Vec2, b: Vec2, c: Vec2) -> f64 {
 }
 
 fn is_corner(before: &NamedCurve, after: &NamedCurve) -> bool {
-    let (before, after) = (before.curve.flattened(), after.curve.flattened());
-    cosine(before[before.len() - 2], after[0], after[1]) < CORNER
+    let (before, after) = (before.curve.edges(), after.curve.edges());
+    let [_, end] = before[before.len() - 1].end_tangents();
+    end.dot(after[0].end_tangents()[0]) < CORNER
 }
 
 fn split_at_corners(named: &NamedCurve) -> Vec<NamedCurve> {

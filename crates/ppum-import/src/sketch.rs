@@ -14,6 +14,10 @@ use crate::source::SourceLine;
 /// Most curves that are read: a problem file holds fewer.
 const MOST_CURVES: usize = 1 << 20;
 
+/// Distance of arcs from the Bézier curve or B-spline for which they are taken, in parts of the
+/// tolerance: 10⁻⁸ of the drawing, for which a quarter of a circle's size takes some 50.
+const FIT: f64 = 1e-2;
+
 /// The begin of the message about a drawing without curves.
 pub(crate) const NO_CURVES: &str = "the file has no curves that can be read";
 
@@ -44,7 +48,7 @@ impl<C> NamedCurve<C> {
 pub(crate) enum DrawnCurve {
     /// One that the problem file knows.
     Plane(PlaneCurve),
-    /// One that becomes splines once the size of the drawing is known.
+    /// One that becomes arcs once the size of the drawing is known.
     BSpline(BSpline),
 }
 
@@ -89,6 +93,7 @@ impl DrawnCurve {
             Self::Plane(PlaneCurve::Arc(arc)) => {
                 arc.halves().iter().flat_map(|half| half.range.map(|t| half.point(t))).collect()
             }
+            Self::Plane(PlaneCurve::Edges(edges)) => edges.iter().map(|edge| edge.from).collect(),
             Self::BSpline(spline) => spline.points().to_vec(),
         }
     }
@@ -195,7 +200,7 @@ impl Sketch {
     /// The curves of the problem file that stand for those of the drawing, those for B-splines
     /// last.
     pub(crate) fn fitted(&mut self, tolerance: f64) -> Vec<NamedCurve> {
-        let (mut largest, mut known, mut fitted) = (0.0_f64, Vec::new(), Vec::new());
+        let (mut is_fitted, mut known, mut fitted) = (false, Vec::new(), Vec::new());
         for NamedCurve { curve, name, source, is_crack } in std::mem::take(&mut self.curves) {
             let spline = match curve {
                 DrawnCurve::Plane(curve) => {
@@ -204,17 +209,18 @@ impl Sketch {
                 }
                 DrawnCurve::BSpline(spline) => spline,
             };
-            let (curves, distance) = spline.fitted(tolerance);
+            let (curves, has_cusp) = spline.fitted(FIT * tolerance);
+            is_fitted |= curves.iter().any(|curve| matches!(curve, PlaneCurve::Edges(_)));
             fitted.extend(
                 curves.into_iter().map(|curve| NamedCurve::new(curve, name.clone(), source)),
             );
-            if distance > tolerance {
+            if has_cusp {
                 self.remark("the curve has a cusp and became a polyline", source);
             }
-            largest = largest.max(distance);
         }
-        self.fit = (largest > 0.0).then(|| {
-            format!("Bézier curves and B-splines became splines, {largest:.1e} from them at most")
+        self.fit = is_fitted.then(|| {
+            let distance = FIT * tolerance;
+            format!("Bézier curves and B-splines became arcs, {distance:.1e} from them at most")
         });
         known.extend(fitted);
         known

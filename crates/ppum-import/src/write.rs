@@ -11,6 +11,9 @@ use crate::sketch::NamedCurve;
 /// Digits behind the point of angles in degrees.
 const ANGLE_DIGITS: usize = 13;
 
+/// Digits behind the point of bulges: an arc is off by less than 1e-15 of its length.
+const BULGE_DIGITS: usize = 15;
+
 /// Significant digits of lengths: the error is below 1e-14 of the drawing.
 const DIGITS: f64 = 15.0;
 
@@ -135,6 +138,13 @@ impl BodyDrawing {
         match curve {
             PlaneCurve::Polyline(points) => format!("points = {}", self.points(points)),
             PlaneCurve::Spline(points) => format!("spline = {}", self.points(points)),
+            PlaneCurve::Edges(edges) => {
+                let ends = edges.iter().map(|edge| edge.to);
+                let points: Vec<Vec2> = [edges[0].from].into_iter().chain(ends).collect();
+                let bulges = edges.iter().map(|edge| rounded(edge.bulge, BULGE_DIGITS));
+                let bulges = list(&bulges.collect::<Vec<_>>());
+                format!("points = {}, bulges = {bulges}", self.points(&points))
+            }
             PlaneCurve::Arc(arc) if arc.is_circle() => format!(
                 "arc = {{ center = {}, radius = {}, {} }}",
                 self.point(arc.center),
@@ -155,18 +165,7 @@ impl BodyDrawing {
     }
 
     fn points(&self, points: &[Vec2]) -> String {
-        let (mut text, mut column) = ("[".to_owned(), 12);
-        for (k, point) in points.iter().enumerate() {
-            let (point, comma) = (self.point(*point), if k == 0 { "" } else { ", " });
-            column += comma.len() + point.len();
-            if column > COLUMNS && k > 0 {
-                column = 4 + point.len();
-                text += &format!(",\n    {point}");
-            } else {
-                text += &format!("{comma}{point}");
-            }
-        }
-        text + "]"
+        list(&points.iter().map(|point| self.point(*point)).collect::<Vec<_>>())
     }
 
     fn point(&self, p: Vec2) -> String {
@@ -177,6 +176,22 @@ impl BodyDrawing {
     fn number(&self, value: f64) -> String {
         rounded(value, (DIGITS - self.size.log10().ceil()).clamp(0.0, 300.0) as usize)
     }
+}
+
+/// A list in lines that are not too long.
+fn list(items: &[String]) -> String {
+    let (mut text, mut column) = ("[".to_owned(), 12);
+    for (k, item) in items.iter().enumerate() {
+        let comma = if k == 0 { "" } else { ", " };
+        column += comma.len() + item.len();
+        if column > COLUMNS && k > 0 {
+            column = 4 + item.len();
+            text += &format!(",\n    {item}");
+        } else {
+            text += &format!("{comma}{item}");
+        }
+    }
+    text + "]"
 }
 
 /// The parameters of an arc in degrees, the first one from 0 to 360.

@@ -12,7 +12,7 @@
 //! | module | what is in it |
 //! |---|---|
 //! | `data` | the problem: [`Body`], [`BoundaryCondition`], forces, discretisation, steps; what follows from them, such as symmetries and the points of drawings |
-//! | [`geometry`] | lines, boxes, curves and cracks of bodies, whoever asks |
+//! | [`geometry`] | edges, boxes, curves and cracks of bodies, whoever asks |
 //! | `file` | the text: [`keys`], its values with their places, the tables and points that it names |
 //! | `read` | from the text to the data, a table of the file a module |
 //! | `check` | rules that the data must obey, whether read or built in code |
@@ -49,5 +49,5 @@ mod tests;
 pub use check::features::Feature;
 pub use data::*;
 pub use file::{MAX_LENGTH, keys, read_table};
-pub use geometry::{arc_from, crack, cracks};
+pub use geometry::{crack, cracks};
 pub use ppum::expression::Expression;

@@ -2,6 +2,7 @@
 
 use ppum::crack::tips;
 use ppum::dataset::Dataset;
+use ppum::domain::Hole;
 use ppum::field::Field;
 use ppum::quantity::{Quantity, available};
 use ppum_scene::facts::{CommonFacts, CrackFacts, JsonNumber, ResultFacts, Tip};
@@ -14,6 +15,8 @@ struct DatasetFacts<'d> {
     #[serde(flatten)]
     about: CommonFacts,
     problem: Option<&'d str>,
+    /// The bulges of the sides of each hole, none of one without arcs.
+    bulges: Vec<Vec<f64>>,
 }
 
 /// A step, with what is no part of the program's JSON.
@@ -22,6 +25,8 @@ struct StepFacts<'d> {
     load: f64,
     patches: usize,
     cracks: Vec<CrackFacts>,
+    /// The bulges of the edges of each crack, none of one without arcs.
+    bulges: Vec<&'d [f64]>,
     functions: Vec<&'d str>,
     /// Names of the components of the first field.
     components: &'d [String],
@@ -37,7 +42,12 @@ struct StepFacts<'d> {
 /// Returns the data that all steps of a dataset have in common.
 pub(crate) fn about<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<'py, PyAny>> {
     let (about, problem) = (CommonFacts::new(dataset), dataset.problem.as_deref());
-    to_python(py, &DatasetFacts { about, problem })
+    let of_sides = |hole: &Hole| match hole {
+        Hole::Polygon { bulges, .. } => bulges.clone(),
+        Hole::Circle { .. } => Vec::new(),
+    };
+    let bulges = dataset.domain.holes.iter().map(of_sides).collect();
+    to_python(py, &DatasetFacts { about, problem, bulges })
 }
 
 /// Dictionaries, lists, texts and numbers of Python.
@@ -63,6 +73,7 @@ pub(crate) fn step_json(dataset: &Dataset, number: usize) -> String {
         load: step.load,
         patches: step.partition.len(),
         cracks: step.cracks.iter().map(CrackFacts::new).collect(),
+        bulges: step.cracks.iter().map(|crack| crack.bulges.as_slice()).collect(),
         functions: step.functions.iter().map(|f| f.name.as_str()).collect(),
         components: step.fields.first().map_or(&[], |field| &field.components),
         tips: &results.tips,

@@ -471,6 +471,68 @@ def test_outlines_are_holes_outside_of_a_polygon(tmp_path):
     assert float(pressed.field.at(1.0, 0.7)["sxx"]) == pytest.approx(-2.0, abs=1e-9)
 
 
+def arc(radius, center, angles):
+    """Ends and bulge of an arc of a circle."""
+    ends = np.asarray(center) + radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    return ends, np.array([np.tan((angles[1] - angles[0]) / 4)])
+
+
+def test_cracks_and_rims_may_be_arcs(tmp_path):
+    """The side of an arc is that of its circle; a round hole of two arcs is a circle; ends on arcs are found."""
+    cover, center, radius = ppum.build.Cover.uniform([(0, 0), (2, 2)], (4, 4)), np.array((1.0, 1.1)), 0.6
+    points, bulges = arc(radius, center, np.radians((200, 350)))
+    disc = ppum.Hole(points=np.array([(0.2, 0.3), (0.5, 0.3)]), bulges=np.ones(2))
+    # from the arc to the rim of the disc
+    straight = np.array([center + radius * np.array((np.cos(4.0), np.sin(4.0))), np.array((0.35, 0.3)) + 0.15 * np.sqrt([0.5, 0.5])])
+    cracks = [ppum.Crack(0, points, ("tip", "tip"), bulges), straight]
+    one, zero = np.ones((16, 1)), np.zeros((16, 1))
+    # where the support of a patch is cut, beyond the ends the tangents go on
+    inside = lambda x, y: np.hypot(x - center[0], y - center[1]) < radius
+    near = lambda x, y: np.abs(np.hypot(x - center[0], y - center[1]) - radius) < 1e-6
+    verify = lambda x, y: np.where(near(x, y), np.where(inside(x, y), 2.0, 0.0), np.nan)
+    make = lambda verify=None: ppum.build.dataset(
+        ppum.build.State(
+            cover, ppum.build.Coefficients("u", {"one": one, "side": one}, verify=verify),
+            cracks=cracks, functions={"side": ppum.build.Jump(0)},
+        ),
+        holes=[disc],
+    )  # fmt: skip
+    ds = make()
+    curved, line = ds.cracks
+    assert curved.ends == ("tip", "tip") and line.ends == ("junction", "mouth") and line.bulges is None
+    assert (curved.bulges == bulges).all() and not curved.bulges.flags.writeable
+    assert curved.length == pytest.approx(radius * np.radians(150), rel=1e-14)
+    assert line.length == pytest.approx(np.hypot(*(straight[1] - straight[0])), rel=1e-14)
+    assert repr(curved) == "<ppum.Crack 0, 2 points, 1 arc, tip to tip>"
+    assert (ds.holes[0].bulges == 1).all() and (ds.holes[0].points == disc.points).all()
+    angles = np.radians(np.linspace(201, 349, 40))
+    for offset, value in [(-1e-12, 2.0), (1e-12, 0.0)]:
+        x, y = (center + (radius + offset) * np.column_stack([np.cos(angles), np.sin(angles)])).T
+        assert np.allclose(ds.field.at(x, y)["u"], value, rtol=0, atol=1e-15), offset
+    x, y = np.random.default_rng(3).uniform(0, 0.7, (2, 400))
+    assert (np.isnan(ds.field.at(x, y)["u"]) == (np.hypot(x - 0.35, y - 0.3) < 0.15)).all()
+    ds.save(tmp_path / "arcs.h5")
+    assert ppum.open(tmp_path / "arcs.h5") == ds
+    with pytest.raises(ppum.BuildError, match="verify"):
+        make(lambda x, y: np.where(near(x, y), np.where(inside(x, y), 0.0, 2.0), ds.field.at(x, y)["u"]))
+    make(lambda x, y: np.where(near(x, y) & (y < 0.9), verify(x, y), ds.field.at(x, y)["u"]))
+
+
+@pytest.mark.parametrize("bulges, message", [
+    ([0.1], r"^cracks\[0\].bulges: has the shape \(1,\), expected \(2,\)"),
+    ([0.1, np.nan], r"^cracks\[0\].bulges\[1\]: is nan"),
+    ([0.1, -70.0], r"^cracks\[0\].bulges\[1\]: is -70, not a number of at most 64: divide the arc"),
+])  # fmt: skip
+def test_bulges_that_are_none_are_named(bulges, message):
+    cover = ppum.build.Cover.uniform([(0, 0), (2, 2)], (4, 4))
+    field = ppum.build.Coefficients("u", {"one": np.ones((16, 1))})
+    points = np.array([(0.5, 0.5), (1.0, 0.6), (1.5, 0.5)])
+    with pytest.raises(ppum.BuildError, match=message):
+        ppum.build.dataset(ppum.build.State(cover, field, cracks=[ppum.Crack(0, points, ("tip", "tip"), np.array(bulges))]))
+    with pytest.raises(ppum.BuildError, match=r"^holes\[0\].bulges"):
+        ppum.build.dataset(ppum.build.State(cover, field), holes=[ppum.Hole((1, 1), 0.1, bulges=np.ones(1))])
+
+
 def test_forms_of_blocks_are_the_same():
     rng = np.random.default_rng(2)
     c = rng.normal(size=(8, 6))

@@ -10,7 +10,7 @@ import ppum
 LAYERS = {
     "compiled": ["_core"],
     "errors, units, text": ["_warnings", "_errors", "_units", "_text", "_options", "_files"],
-    "data": ["_tables", "_facts"],
+    "data": ["_edges", "_tables", "_facts"],
     "field": ["_views", "_values", "_styles", "_field"],
     "accessors": ["_sample", "_compare", "_axes", "_draw", "_export"],
     "datasets": ["_dataset", "results"],

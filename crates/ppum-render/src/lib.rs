@@ -37,6 +37,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+pub mod anchored_edge;
 pub mod animation;
 pub mod cells;
 pub mod colormap;

@@ -23,13 +23,14 @@
 //! corner          equilibrium                      singular points; pieces of the body
 //! smoothness      terms                            kinks of integrands; what features add
 //! law                                              stresses
-//! quadrature      report          watched
+//! quadrature      report          watched          edges
 //! ```
 
 pub mod adapt;
 pub mod assembly;
 pub mod basis;
 pub mod corner;
+mod edges;
 pub mod equilibrium;
 pub mod hierarchy;
 pub mod law;

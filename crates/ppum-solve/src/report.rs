@@ -201,8 +201,6 @@ coded! {
         Memory "memory",
         /// No cell that is to be improved can be divided, and no order raised.
         Limits "limits",
-        /// The segments that stand for a curved crack err by more than is wanted.
-        Segments "segments",
     }
 }
 

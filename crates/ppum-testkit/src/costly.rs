@@ -97,7 +97,7 @@ fn piled(patches: usize) -> BoxPartition {
 
 /// A crack from the left to the right with two tips.
 fn straight(left: Vec2, length: f64) -> Crack {
-    Crack { points: vec![left, left + vec2(length, 0.0)], ends: [CrackEnd::Tip; 2] }
+    Crack::polyline(vec![left, left + vec2(length, 0.0)], [CrackEnd::Tip; 2])
 }
 
 /// One crack in the middle.
@@ -185,7 +185,7 @@ fn cracks() -> Dataset {
 /// A crack that goes forth and back many times.
 fn zigzag(n: u32, y: f64) -> Crack {
     let at = |k: u32| vec2(0.25 + 0.5 * f64::from(k) / f64::from(n), y + f64::from(k % 2) / 128.0);
-    Crack { points: (0..=n).map(at).collect(), ends: [CrackEnd::Tip; 2] }
+    Crack::polyline((0..=n).map(at).collect(), [CrackEnd::Tip; 2])
 }
 
 fn tip_functions(cracks: &[Crack]) -> Vec<Function> {

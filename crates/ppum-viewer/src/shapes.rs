@@ -27,10 +27,18 @@ impl ImagePlacement {
         self.corner + vec2(point.x as f32, point.y as f32) * self.scale
     }
 
+    /// Largest distance of arcs from what is drawn for them, in pixels of the image.
+    fn smooth(&self) -> f64 {
+        SMOOTH / f64::from(self.scale).max(1.0)
+    }
+
     fn length(&self, pixels: f64) -> f32 {
         pixels as f32 * self.pen
     }
 }
+
+/// Largest distance of arcs from what is drawn for them, in points of the window.
+const SMOOTH: f64 = 1.0 / 64.0;
 
 /// Longest side of what is a sign and no line of the body \[pixels\].
 const SIGN: f64 = 64.0;
@@ -50,8 +58,8 @@ pub fn draw_lines(painter: &egui::Painter, placed: ImagePlacement, items: &[Canv
     };
     for item in items {
         if let CanvasItem::Line { path, pen } = item {
-            let pieces = path.pieces.iter().filter(|piece| is_long(piece)).cloned().collect();
-            lines(painter, placed, &CanvasPath { pieces }, pen);
+            let pieces = path.polylines(placed.smooth()).filter(is_long).collect();
+            lines(painter, placed, &CanvasPath { pieces, ..CanvasPath::default() }, pen);
         }
     }
 }
@@ -112,7 +120,10 @@ pub(crate) fn color([r, g, b, a]: Rgba) -> Color32 {
 }
 
 fn lines(painter: &egui::Painter, placed: ImagePlacement, path: &CanvasPath, pen: &StrokeStyle) {
-    let pieces = || path.pieces.iter().map(|piece| apart(piece.iter().map(|p| placed.at(*p))));
+    let pieces = || {
+        let lines = path.polylines(placed.smooth());
+        lines.map(|piece| apart(piece.iter().map(|p| placed.at(*p))))
+    };
     if let Some(halo) = pen.halo {
         let stroke = Stroke::new(placed.length(pen.width + 2.0 * halo.width), color(halo.color));
         pieces().for_each(|piece| {
@@ -138,7 +149,7 @@ fn lines(painter: &egui::Painter, placed: ImagePlacement, path: &CanvasPath, pen
 }
 
 fn fill(painter: &egui::Painter, placed: ImagePlacement, outline: &CanvasPath, fill: Rgba) {
-    for piece in &outline.pieces {
+    for piece in outline.polylines(placed.smooth()) {
         let points = corners(piece.iter().map(|p| placed.at(*p)));
         if can_be_filled(&points) {
             painter.add(Shape::convex_polygon(points, color(fill), Stroke::NONE));
@@ -267,7 +278,10 @@ mod tests {
                 let (sin, cos) = (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
                 corner + vec2(cos, flat * sin) * size
             };
-            let outline = CanvasPath { pieces: vec![(0..count).map(point).collect()] };
+            let outline = CanvasPath {
+                pieces: vec![(0..count).map(point).collect()],
+                ..CanvasPath::default()
+            };
             let mut pen = StrokeStyle::new([0, 0, 0, 255], 1.5);
             pen.dashes = (random.below(2) == 0).then_some([4.0, 2.0]);
             let path = outline.clone();
@@ -292,9 +306,11 @@ mod tests {
     #[test]
     fn lines_are_no_wider_where_a_picture_is_enlarged_and_signs_are_left_out() {
         let line = |length: f64| vec![vec2(3.0, 5.0), vec2(3.0 + length, 5.0)];
-        let path = CanvasPath { pieces: vec![line(400.0), line(10.0)] };
-        let head =
-            CanvasPath { pieces: vec![vec![vec2(0.0, 0.0), vec2(8.0, 0.0), vec2(4.0, 8.0)]] };
+        let path = CanvasPath { pieces: vec![line(400.0), line(10.0)], ..CanvasPath::default() };
+        let head = CanvasPath {
+            pieces: vec![vec![vec2(0.0, 0.0), vec2(8.0, 0.0), vec2(4.0, 8.0)]],
+            ..CanvasPath::default()
+        };
         let items = [
             CanvasItem::Line { path, pen: StrokeStyle::new([0, 0, 0, 255], 1.5) },
             CanvasItem::Fill { outline: head, color: [0, 0, 0, 255] },

@@ -1,8 +1,9 @@
 //! Straight lines of the boundary, on which cracks of half models lie, and at which bodies are
 //! mirrored.
 
-use crate::crack::Side;
+use crate::crack::{Crack, Side};
 use crate::domain::{Domain, Hole};
+use crate::edge::Edge;
 use crate::segment::{self, Segment};
 use crate::vec2::{Rect, Vec2};
 
@@ -102,43 +103,59 @@ impl Domain {
         self.bounds.sides().into_iter().map(|ends| BorderLine { ends, hole: None })
     }
 
-    /// The straight line of the boundary that holds all points of a crack.
+    /// The straight line of the boundary that holds all of a crack, which has no arcs then.
     #[must_use]
-    pub fn line_along(&self, points: &[Vec2]) -> Option<BorderLine> {
+    pub fn line_along(&self, crack: &Crack) -> Option<BorderLine> {
+        if crack.is_curved() { None } else { self.line_through(&crack.points) }
+    }
+
+    /// The straight line of the boundary that holds some points.
+    fn line_through(&self, points: &[Vec2]) -> Option<BorderLine> {
         let touch = touch(&self.bounds);
         let holds =
             |line: &BorderLine| points.len() > 1 && points.iter().all(|p| line.holds(*p, touch));
         let on_rim = |(k, hole): (usize, &Hole)| {
-            Some(BorderLine { ends: hole.line_along(points)?, hole: Some(k) })
+            Some(BorderLine { ends: hole.line_through(points)?, hole: Some(k) })
         };
         let mut holes = self.holes.iter().enumerate();
         self.edge_lines().find(holds).or_else(|| holes.find_map(on_rim))
     }
 
-    /// The side of a segment on the boundary that lies outside of the body: of a crack on a line of
-    /// symmetry one face is in the body.
+    /// The straight line of the boundary that holds an edge, which is no arc then.
     #[must_use]
-    pub fn outer_side(&self, ends: Segment) -> Option<Side> {
-        self.line_along(&ends).map(|line| line.outer_side(ends))
+    pub fn line_of(&self, edge: Edge) -> Option<BorderLine> {
+        if edge.is_arc() { None } else { self.line_through(&[edge.from, edge.to]) }
+    }
+
+    /// The side of an edge on a straight line of the boundary that lies outside of the body: of a
+    /// crack on a line of symmetry one face is in the body.
+    #[must_use]
+    pub fn outer_side(&self, edge: Edge) -> Option<Side> {
+        self.line_of(edge).map(|line| line.outer_side([edge.from, edge.to]))
     }
 }
 
 impl Hole {
     /// The straight lines of a polygon from corner to corner, with the hole on their right.
     fn straight_lines(&self) -> Vec<Segment> {
-        let (sides, touch): (Vec<Segment>, _) = (self.sides().collect(), touch(&self.rim_bounds()));
+        let (sides, touch): (Vec<Edge>, _) = (self.edges().collect(), touch(&self.rim_bounds()));
         let n = sides.len();
         let goes_on = |[a, b]: Segment, c: Vec2| {
             let way = c - a;
             (b - a).dot(c - b) > 0.0 && (b - a).cross(way).abs() <= touch * way.length()
         };
-        let is_corner = |k: &usize| !goes_on(sides[(*k + n - 1) % n], sides[*k][1]);
+        let is_corner = |k: &usize| {
+            let (before, own) = (sides[(*k + n - 1) % n], sides[*k]);
+            before.is_arc() || own.is_arc() || !goes_on([before.from, before.to], own.to)
+        };
         let first = (0..n).find(is_corner).unwrap_or(0);
         let mut lines: Vec<Segment> = Vec::new();
-        for [a, b] in sides.iter().cycle().skip(first).take(n).copied() {
+        for Edge { from, to, .. } in
+            sides.iter().cycle().skip(first).take(n).filter(|side| !side.is_arc())
+        {
             match lines.last_mut() {
-                Some(line) if goes_on(*line, b) => line[1] = b,
-                _ => lines.push([a, b]),
+                Some(line) if line[1] == *from && goes_on(*line, *to) => line[1] = *to,
+                _ => lines.push([*from, *to]),
             }
         }
         if self.orientation() > 0.0 {
@@ -147,9 +164,13 @@ impl Hole {
         lines
     }
 
-    /// The straight line of the rim of a polygon that holds all points of a crack.
+    /// The straight line of the rim of a polygon that holds all of a crack, which has no arcs then.
     #[must_use]
-    pub fn line_along(&self, points: &[Vec2]) -> Option<Segment> {
+    pub fn line_along(&self, crack: &Crack) -> Option<Segment> {
+        if crack.is_curved() { None } else { self.line_through(&crack.points) }
+    }
+
+    fn line_through(&self, points: &[Vec2]) -> Option<Segment> {
         let touch = touch(&self.rim_bounds());
         let (Self::Polygon { .. }, [first, _, ..]) = (self, points) else { return None };
         if self.rim_distance(*first) > touch {

@@ -5,6 +5,7 @@
 
 mod coverage;
 mod domain;
+mod edges;
 mod errors;
 mod fields;
 mod formulas;
@@ -144,6 +145,7 @@ mod tests {
     use super::*;
     use crate::crack::{Crack, CrackEnd, End, SegmentId, TipId};
     use crate::dataset::{Attribute, BoxPartition, FieldData, Ring, TipIntensity};
+    use crate::edge::Edge;
     use crate::equation::{Material, StressState};
     use crate::function::{Cut, CutBranch, Frame, FunctionKind};
     use crate::vec2::{Rect, vec2};
@@ -174,10 +176,8 @@ mod tests {
     pub(super) fn dataset() -> Dataset {
         let tip = TipId { crack: 0, end: End::Last };
         let ring = Ring { r1: 0.0, r2: 0.1, k1: 1.0, k2: 0.0 };
-        let crack = Crack {
-            points: vec![vec2(0.0, 0.5), vec2(0.5, 0.5)],
-            ends: [CrackEnd::Mouth, CrackEnd::Tip],
-        };
+        let crack =
+            Crack::polyline(vec![vec2(0.0, 0.5), vec2(0.5, 0.5)], [CrackEnd::Mouth, CrackEnd::Tip]);
         let mut step = Step::new(partition())
             .with_crack(crack)
             .with_function("one", FunctionKind::One)
@@ -255,6 +255,40 @@ mod tests {
             place_after(|d| d.steps[0].functions[1].kind = tip_formula),
             "steps[0].functions[1].frame.crack"
         );
+    }
+
+    /// Bulges are finite, of a size whose arcs have a chord, and one for each edge; an arc does not
+    /// run back on the edge before it.
+    #[test]
+    fn bulges_of_cracks() {
+        let with = |points: &[[f64; 2]], bulges: &[f64]| Crack {
+            points: points.iter().copied().map(Into::into).collect(),
+            bulges: bulges.to_vec(),
+            ends: [CrackEnd::Mouth, CrackEnd::Tip],
+        };
+        let points = [[0.0, 0.5], [0.5, 0.5], [0.5, 0.7]];
+        let quarter = std::f64::consts::FRAC_PI_8.tan();
+        let mut good = dataset();
+        // the second one turns back towards itself, beside it
+        let fine = [[0.5, -64.0], [quarter, -quarter], [0.0, 1e-300], [0.4, -0.4]];
+        good.steps[0].cracks.extend(fine.map(|bulges| with(&points, &bulges)));
+        assert_eq!(good.check(), Ok(()));
+        let there_and_back = [points[0], points[1], points[0]];
+        let part =
+            Edge { from: points[0].into(), to: points[1].into(), bulge: 0.5 }.part([0.3, 1.0]);
+        let back = [points[0], points[1], part.from.into()];
+        for (points, bulges, place) in [
+            (&points[..], &[0.5][..], ".bulges"),
+            (&points, &[f64::NAN, 0.0], ".bulges[0]"),
+            (&points, &[0.0, f64::INFINITY], ".bulges[1]"),
+            (&points, &[-64.1, 0.0], ".bulges[0]"),
+            (&there_and_back, &[0.5, -0.5], ".segment[1]"),
+            (&back, &[0.5, -part.bulge], ".segment[1]"),
+            (&[points[0], points[0], points[1]], &[0.5, 0.0], ".segment[0]"),
+        ] {
+            let found = place_after(|d| d.steps[0].cracks[0] = with(points, bulges));
+            assert_eq!(found, format!("steps[0].cracks[0]{place}"));
+        }
     }
 
     #[test]

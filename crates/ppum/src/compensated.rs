@@ -60,3 +60,20 @@ pub(crate) fn circle(center: Vec2, radius: f64, p: Vec2) -> f64 {
     let (high, low) = minus(minus(product(dx, dx), rr), (-yy.0, -yy.1));
     high + low
 }
+
+/// (1 − β²) (b − a) × (p − a) + 2β (p − a)·(b − p), correctly rounded except for a last bit: zero
+/// on the circle of an arc from a to b with the bulge β, positive on its left.
+pub(crate) fn arc(a: Vec2, b: Vec2, bulge: f64, p: Vec2) -> f64 {
+    let between = |a: Vec2, b: Vec2| (difference(b.x, a.x), difference(b.y, a.y));
+    let ((dx, dy), (ux, uy), (vx, vy)) = (between(a, b), between(a, p), between(p, b));
+    let cross = minus(product(dx, uy), product(dy, ux));
+    let dot = plus(product(ux, vx), product(uy, vy));
+    let (square, twice) = (exact_product(bulge, bulge), (2.0 * bulge, 0.0));
+    let (high, low) = plus(product(minus((1.0, 0.0), square), cross), product(twice, dot));
+    high + low
+}
+
+/// b² − 4 a c as a pair.
+pub(crate) fn discriminant(a: f64, b: f64, c: f64) -> SumWithError {
+    minus(exact_product(b, b), exact_product(4.0 * a, c))
+}

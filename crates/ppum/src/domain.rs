@@ -7,7 +7,9 @@
 //! As everywhere points are `anchor + offset`, and what the anchor has to do with a rim is formed
 //! once, without cancellation: a rim in a view 10⁻¹² of the domain wide has no noise.
 
-use crate::compensated::{circle, cross};
+use crate::box_tree::BoxTree;
+use crate::compensated::{arc, circle, cross};
+use crate::edge::Edge;
 use crate::segment;
 use crate::vec2::{Rect, Vec2, vec2};
 
@@ -30,12 +32,14 @@ pub enum Hole {
         /// Radius, positive.
         radius: f64,
     },
-    /// One of the sides of a closed polygon that does not cross itself; either orientation. Were it
-    /// to cross itself, a point would be inside if a ray from it crosses the rim an odd number
-    /// of times.
+    /// One of the sides of a closed polygon, whose sides may be arcs, that does not cross itself;
+    /// either orientation. Were it to cross itself, a point would be inside if a ray from it
+    /// crosses the rim an odd number of times.
     Polygon {
-        /// The corners, three or more; the last one is joined to the first.
+        /// The corners, three or more, or two between arcs; the last one is joined to the first.
         points: Vec<Vec2>,
+        /// The [bulge](Edge::bulge) of the side after each corner; empty if all are segments.
+        bulges: Vec<f64>,
         /// The side that is cut out.
         side: PolygonSide,
     },
@@ -89,13 +93,13 @@ impl Hole {
     /// The inside of a polygon.
     #[must_use]
     pub fn polygon(points: Vec<Vec2>) -> Self {
-        Self::Polygon { points, side: PolygonSide::Inside }
+        Self::Polygon { points, bulges: Vec::new(), side: PolygonSide::Inside }
     }
 
     /// The outside of a polygon, which is the outline of the body.
     #[must_use]
     pub fn outside(points: Vec<Vec2>) -> Self {
-        Self::Polygon { points, side: PolygonSide::Outside }
+        Self::Polygon { points, bulges: Vec::new(), side: PolygonSide::Outside }
     }
 
     /// True if it is the outside of an outline, and not bounded.
@@ -107,21 +111,32 @@ impl Hole {
     /// The hole as seen from an anchor.
     #[must_use]
     pub fn at(&self, anchor: Vec2) -> LocalHole {
-        LocalHole(match self {
+        self.between(anchor, [f64::NEG_INFINITY, f64::INFINITY])
+    }
+
+    /// The hole seen from an anchor, as far as points from one height above the anchor to another
+    /// ask for it: without the sides below and above.
+    #[must_use]
+    pub fn between(&self, anchor: Vec2, [low, high]: [f64; 2]) -> LocalHole {
+        let meets = |edge: &Edge| {
+            let [from, to] = edge.heights();
+            from - anchor.y <= high && low <= to - anchor.y
+        };
+        LocalHole::from(match self {
             Self::Circle { center, radius } => {
                 LocalRim::Circle { d: anchor - *center, excess: circle(*center, *radius, anchor) }
             }
-            Self::Polygon { side, .. } => LocalRim::Polygon(
-                self.sides().map(|[a, b]| LocalSide::new(a, b, anchor)).collect(),
-                *side,
-            ),
+            Self::Polygon { side, .. } => {
+                let sides = self.edges().filter(meets).map(|edge| LocalSide::new(edge, anchor));
+                LocalRim::Polygon(sides.collect(), *side)
+            }
         })
     }
 
     /// True if `p` lies inside; not on the rim.
     #[must_use]
     pub fn contains(&self, p: Vec2) -> bool {
-        self.at(p).contains(Vec2::ZERO)
+        self.between(p, [0.0; 2]).contains(Vec2::ZERO)
     }
 
     /// The smallest box that holds the hole; that of the outside of a polygon is infinite.
@@ -136,8 +151,8 @@ impl Hole {
     pub fn rim_bounds(&self) -> Rect {
         match self {
             Self::Circle { center, radius } => Rect::around(*center, vec2(*radius, *radius)),
-            Self::Polygon { points, .. } => {
-                points.iter().fold(Rect::EMPTY, |all, &p| all.union(&Rect::new(p, p)))
+            Self::Polygon { .. } => {
+                self.edges().fold(Rect::EMPTY, |all, edge| all.union(&edge.bounds()))
             }
         }
     }
@@ -145,11 +160,18 @@ impl Hole {
     /// Boxes that together hold the rim, and of a bounded hole its inside.
     pub fn boxes(&self) -> impl Iterator<Item = Rect> + '_ {
         let bounded = (!self.is_outside()).then(|| self.rim_bounds());
-        let sides = self.sides().filter(|_| self.is_outside());
-        bounded.into_iter().chain(sides.map(|[a, b]| Rect::new(a.min(b), a.max(b))))
+        let edges = self.edges().filter(|_| self.is_outside());
+        bounded.into_iter().chain(edges.map(|edge| edge.bounds()))
     }
 
     /// The sides of a polygon, in order; nothing for a circle.
+    pub fn edges(&self) -> impl Iterator<Item = Edge> + '_ {
+        let bulges: &[f64] = if let Self::Polygon { bulges, .. } = self { bulges } else { &[] };
+        let bulges = bulges.iter().copied().chain(std::iter::repeat(0.0));
+        self.sides().zip(bulges).map(|([from, to], bulge)| Edge { from, to, bulge })
+    }
+
+    /// The chords of the sides of a polygon, in order; nothing for a circle.
     pub fn sides(&self) -> impl Iterator<Item = [Vec2; 2]> + '_ {
         let points: &[Vec2] = match self {
             Self::Circle { .. } => &[],
@@ -162,8 +184,11 @@ impl Hole {
     #[must_use]
     pub fn orientation(&self) -> f64 {
         let origin = self.rim_bounds().min;
-        let twice: f64 = self.sides().map(|[a, b]| (a - origin).cross(b - origin)).sum();
-        if (twice < 0.0) == self.is_outside() { 1.0 } else { -1.0 }
+        let area = |edge: Edge| {
+            0.5 * (edge.from - origin).cross(edge.to - origin) + edge.area_beside_chord()
+        };
+        let area: f64 = self.edges().map(area).sum();
+        if (area < 0.0) == self.is_outside() { 1.0 } else { -1.0 }
     }
 
     /// Distance of `p` to the rim, on either side of it.
@@ -172,7 +197,7 @@ impl Hole {
         match self {
             Self::Circle { center, radius } => ((p - *center).length() - radius).abs(),
             Self::Polygon { .. } => {
-                self.sides().map(|side| segment::distance(side, p)).fold(f64::INFINITY, f64::min)
+                self.edges().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min)
             }
         }
     }
@@ -215,9 +240,16 @@ impl LocalDomain {
     }
 }
 
+/// Sides of a rim from which on those at the height of a point are looked up.
+const MANY: usize = 32;
+
 /// A hole seen from an anchor.
 #[derive(Clone, Debug)]
-pub struct LocalHole(LocalRim);
+pub struct LocalHole {
+    rim: LocalRim,
+    /// The heights of the sides, if there are many.
+    heights: Option<BoxTree>,
+}
 
 /// The rim of a hole seen from an anchor.
 #[derive(Clone, Debug)]
@@ -233,22 +265,41 @@ pub enum LocalRim {
     Polygon(Vec<LocalSide>, PolygonSide),
 }
 
+impl From<LocalRim> for LocalHole {
+    fn from(rim: LocalRim) -> Self {
+        let heights = match &rim {
+            LocalRim::Polygon(sides, _) if sides.len() > MANY => {
+                let level = |side: &LocalSide| {
+                    let [low, high] = side.heights();
+                    Rect::new(vec2(-1.0, low), vec2(1.0, high))
+                };
+                Some(BoxTree::from(sides.iter().map(level).collect::<Vec<_>>()))
+            }
+            _ => None,
+        };
+        Self { rim, heights }
+    }
+}
+
 impl LocalHole {
     /// The numbers behind it.
     #[must_use]
     pub fn rim(&self) -> &LocalRim {
-        &self.0
+        &self.rim
     }
 
     /// True if `anchor + offset` lies inside; not on the rim.
     #[must_use]
     pub fn contains(&self, offset: Vec2) -> bool {
-        match &self.0 {
-            LocalRim::Circle { d, excess } => excess + (*d * 2.0 + offset).dot(offset) < 0.0,
-            LocalRim::Polygon(sides, side) => {
-                let crossed = sides.iter().filter(|side| side.crosses(offset)).count();
-                let is_in = (crossed % 2 == 1) == (*side == PolygonSide::Inside);
-                is_in && !sides.iter().any(|side| side.holds(offset))
+        match (&self.rim, &self.heights) {
+            (LocalRim::Circle { d, excess }, _) => excess + (*d * 2.0 + offset).dot(offset) < 0.0,
+            (LocalRim::Polygon(sides, side), None) => is_within(sides.iter(), *side, offset),
+            (LocalRim::Polygon(sides, side), Some(heights)) => {
+                let (y, mut found) = (offset.y, Vec::new());
+                // the boxes found are open
+                let level = Rect::new(vec2(-1.0, y.next_down()), vec2(1.0, y.next_up()));
+                heights.query_box(&level, &mut found);
+                is_within(found.iter().map(|k| &sides[*k as usize]), *side, offset)
             }
         }
     }
@@ -256,8 +307,11 @@ impl LocalHole {
     /// The hole as far as points at a height ask for it: without the sides above and below.
     #[must_use]
     pub fn at_height(&self, y: f64) -> Self {
-        let meets = |side: &LocalSide| side.a.y.min(side.b.y) <= y && y <= side.a.y.max(side.b.y);
-        Self(match &self.0 {
+        let meets = |side: &LocalSide| {
+            let [low, high] = side.heights();
+            low <= y && y <= high
+        };
+        Self::from(match &self.rim {
             LocalRim::Polygon(sides, side) => {
                 LocalRim::Polygon(sides.iter().copied().filter(meets).collect(), *side)
             }
@@ -271,7 +325,7 @@ impl LocalHole {
         if !self.contains(offset) {
             return offset;
         }
-        match &self.0 {
+        match &self.rim {
             LocalRim::Circle { d, excess } => {
                 let (out, value) = (*d + offset, excess + (*d * 2.0 + offset).dot(offset));
                 let far = out.length();
@@ -283,13 +337,25 @@ impl LocalHole {
             LocalRim::Polygon(sides, _) => {
                 let near = sides.iter().filter(|side| side.distance(offset) <= reach);
                 let beyond = |side: &LocalSide| {
-                    let step = side.direction.unit().left() * (2.0 * reach);
-                    offset + if side.left(offset) > 0.0 { -step } else { step }
+                    let (value, normal) = side.rim(offset);
+                    let step = normal.unit() * (2.0 * reach);
+                    offset + if value > 0.0 { -step } else { step }
                 };
                 near.map(beyond).find(|&p| !self.contains(p)).unwrap_or(offset)
             }
         }
     }
+}
+
+/// True if a point lies in the part of the plane that these sides bound, by those at its height.
+fn is_within<'s>(
+    sides: impl Iterator<Item = &'s LocalSide> + Clone,
+    of: PolygonSide,
+    offset: Vec2,
+) -> bool {
+    let crossed = sides.clone().filter(|side| side.parts(offset)).count();
+    let is_in = (crossed % 2 == 1) == (of == PolygonSide::Inside);
+    is_in && !sides.into_iter().any(|side| side.holds(offset))
 }
 
 /// A side of a polygon from `a` to `b`, relative to the anchor.
@@ -303,33 +369,95 @@ pub struct LocalSide {
     pub direction: Vec2,
     /// direction × (anchor − a), formed without cancellation.
     pub cross: f64,
+    /// The circle of an arc; the side is its chord then.
+    pub arc: Option<LocalArc>,
+}
+
+/// The arc of a side: its edge relative to the anchor, and S at the anchor, formed without
+/// cancellation, of which S(o) = S + g·o − 2β o·o is positive on the left of the circle.
+#[derive(Clone, Copy, Debug)]
+pub struct LocalArc {
+    /// The arc.
+    pub edge: Edge,
+    /// S at the anchor.
+    pub value: f64,
+    /// The gradient g of S at the anchor.
+    pub gradient: Vec2,
+}
+
+impl LocalArc {
+    /// S and its gradient at a point.
+    fn left(&self, offset: Vec2) -> (f64, Vec2) {
+        let slope = self.gradient - offset * (2.0 * self.edge.bulge);
+        (self.value + slope.dot(offset), slope - offset * (2.0 * self.edge.bulge))
+    }
+
+    /// True if a point lies on the arc's left, where its circle is if it turns left.
+    fn is_inside(&self, offset: Vec2) -> bool {
+        (self.left(offset).0 > 0.0) == (self.edge.bulge > 0.0)
+    }
 }
 
 impl LocalSide {
-    fn new(a: Vec2, b: Vec2, anchor: Vec2) -> Self {
-        Self { a: a - anchor, b: b - anchor, direction: b - a, cross: cross(a, b, anchor) }
+    fn new(edge: Edge, anchor: Vec2) -> Self {
+        let Edge { from, to, bulge } = edge;
+        let (a, b) = (from - anchor, to - anchor);
+        let arc = edge.is_arc().then(|| LocalArc {
+            edge: Edge { from: a, to: b, bulge },
+            value: arc(from, to, bulge, anchor),
+            gradient: (to - from).left() * (1.0 - bulge * bulge) + (a + b) * (2.0 * bulge),
+        });
+        Self { a, b, direction: to - from, cross: cross(from, to, anchor), arc }
     }
 
-    /// Positive on the left of the side's line.
+    /// Heights between which the side surely lies.
+    fn heights(&self) -> [f64; 2] {
+        let chord = || Edge::segment([self.a, self.b]);
+        self.arc.map_or_else(chord, |arc| arc.edge).heights()
+    }
+
+    /// Positive on the left of the chord's line.
     fn left(&self, offset: Vec2) -> f64 {
         self.cross + self.direction.cross(offset)
     }
 
+    /// A number that is positive on the left of the side's line or circle, and its gradient.
+    fn rim(&self, offset: Vec2) -> (f64, Vec2) {
+        let line = (self.left(offset), self.direction.left());
+        self.arc.map_or(line, |arc| arc.left(offset))
+    }
+
     /// Distance of the point from the side.
     fn distance(&self, offset: Vec2) -> f64 {
+        if let Some(arc) = self.arc {
+            return arc.edge.distance(offset);
+        }
         let tangent = self.direction.unit();
         let beyond = tangent.dot(self.a - offset).max(tangent.dot(offset - self.b)).max(0.0);
         beyond.hypot(self.left(offset) / self.direction.length())
     }
 
-    /// True if the ray from the point to the right crosses the side.
-    fn crosses(&self, offset: Vec2) -> bool {
+    /// True if the side changes whether the point is inside: if the ray from the point to the right
+    /// crosses the chord, or else the point lies between chord and arc.
+    fn parts(&self, offset: Vec2) -> bool {
         let (up, above) = (self.b.y > offset.y, self.a.y > offset.y);
-        up != above && up == (self.left(offset) > 0.0)
+        let left = self.left(offset);
+        let crosses = up != above && up == (left > 0.0);
+        // points of the chord are with those on its right, and if it is level with those above
+        let is_on_right =
+            left < 0.0 || (left == 0.0 && !(self.a.y == self.b.y && self.a.x < self.b.x));
+        let is_between =
+            |arc: LocalArc| arc.is_inside(offset) && is_on_right == (arc.edge.bulge > 0.0);
+        crosses != self.arc.is_some_and(is_between)
     }
 
     /// True if the point lies on the side.
     fn holds(&self, offset: Vec2) -> bool {
+        if let Some(arc) = self.arc {
+            let is_beside = (self.left(offset) < 0.0) == (arc.edge.bulge > 0.0);
+            return arc.left(offset).0 == 0.0
+                && (is_beside || offset == self.a || offset == self.b);
+        }
         let hull = Rect::new(self.a.min(self.b), self.a.max(self.b));
         self.left(offset) == 0.0 && hull.contains(offset)
     }
@@ -338,6 +466,8 @@ impl LocalSide {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use ppum_testkit::random::Random;
+    use std::f64::consts::TAU;
 
     const BOX: Rect = Rect::new(vec2(-2.0, -1.0), vec2(2.0, 1.0));
 
@@ -425,5 +555,81 @@ mod tests {
         assert_eq!([&triangle, &outside].map(Hole::orientation), [1.0, -1.0]);
         assert_eq!(triangle.rim_distance(vec2(0.25, 0.125)), 0.125);
         assert_eq!(triangle.rim_distance(vec2(-3.0, -4.0)), 5.0);
+    }
+
+    /// Slots, lenses and rims of arcs that bend in and out, both ways round, beside polygons of
+    /// many corners on them.
+    #[test]
+    fn rims_of_arcs_agree_with_polygons() {
+        let mut random = Random(91);
+        for case in 0..60 {
+            let n = 2 + case % 5;
+            let turn = random.between(0.0, TAU);
+            let points: Vec<Vec2> = (0..n)
+                .map(|k| {
+                    let angle = turn + TAU * k as f64 / n as f64;
+                    vec2(angle.cos(), angle.sin()) * random.between(0.5, 0.9)
+                })
+                .collect();
+            let least = if n == 2 { 0.2 } else { -0.25 };
+            let bulges: Vec<f64> = (0..n).map(|_| random.between(least, 0.8)).collect();
+            let hole = |points, bulges| Hole::Polygon { points, bulges, side: PolygonSide::Inside };
+            let own = hole(points.clone(), bulges.clone());
+            let mut turned = (points.clone(), bulges.iter().map(|b| -b).collect::<Vec<_>>());
+            turned.0.reverse();
+            turned.1.reverse();
+            turned.1.rotate_left(1);
+            let reversed = hole(turned.0, turned.1);
+            let fine = own.edges().flat_map(|edge| edge.flattened(1e-7).split_off(1)).collect();
+            let fine = Hole::polygon(fine);
+            assert_eq!([own.orientation(), reversed.orientation()], [1.0, -1.0]);
+            let (bounds, all) = (own.rim_bounds(), fine.rim_bounds());
+            assert!((bounds.min - all.min).length() + (bounds.max - all.max).length() < 1e-6);
+            for _ in 0..100 {
+                let p = vec2(random.between(-1.5, 1.5), random.between(-1.5, 1.5));
+                let off = own.rim_distance(p);
+                assert!((off - fine.rim_distance(p)).abs() < 2e-7);
+                if off > 1e-6 {
+                    let expected = fine.contains(p);
+                    assert_eq!([&own, &reversed].map(|hole| hole.contains(p)), [expected; 2]);
+                    assert_eq!(own.at(p).at_height(0.0).contains(Vec2::ZERO), expected);
+                    let outside = Domain { bounds: BOX, holes: vec![own.clone()] };
+                    let settled = outside.at(p).settled(Vec2::ZERO, 1.01 * off);
+                    assert!(
+                        settled.is_none_or(|o| outside.contains(p + o) && o.length() < 4.1 * off)
+                    );
+                }
+            }
+        }
+    }
+
+    /// Beside an exact point of an arc, (3, 4) of the circle of radius 5 about the origin, the rim
+    /// is sharp at 10⁻¹⁸ of a view of 10⁻¹².
+    #[test]
+    fn arcs_are_sharp_at_a_width_of_1e_12() {
+        let points = vec![vec2(5.0, 0.0), vec2(-5.0, 0.0)];
+        let half = Hole::Polygon { points, bulges: vec![1.0, 0.0], side: PolygonSide::Inside };
+        let anchor = vec2(3.0, 4.0);
+        let local = half.at(anchor);
+        for k in -500..500 {
+            let height = 1e-18 * f64::from(k) + 5e-19;
+            for along in [-1e-12, 0.0, 3e-13] {
+                let p = vec2(0.6, 0.8) * height + vec2(-0.8, 0.6) * along;
+                assert_eq!(local.contains(p), height < 0.0, "{k} {along}");
+            }
+        }
+        assert!(!half.contains(anchor) && half.contains(vec2(0.0, 1.0)));
+        assert!(!half.contains(vec2(0.0, -1.0)) && !half.contains(vec2(1.0, 0.0)), "on a side");
+        for (turned, end) in [1.0, -1.0].into_iter().flat_map(|turned| {
+            [vec2(5.0, 0.0), vec2(0.0, 5.0), vec2(3.0, 4.0), vec2(-4.0, 3.0)]
+                .map(|end| (turned, end))
+        }) {
+            let bulges = vec![turned; 2];
+            let disc = Hole::Polygon { points: vec![end, -end], bulges, side: PolygonSide::Inside };
+            for k in -9_i32..10 {
+                let p = end * (0.125 * f64::from(k));
+                assert_eq!(disc.contains(p), k.abs() < 8, "on the chord of both, {end:?} {k}");
+            }
+        }
     }
 }

@@ -5,6 +5,7 @@
 //! a series goes on from its last step as if it had never been interrupted.
 
 use crate::crack::TipId;
+use crate::edge::Edge;
 use crate::vec2::Vec2;
 
 /// The growth that follows a step: the next increment of each tip, and the end of the series.
@@ -35,8 +36,8 @@ pub struct TipIncrement {
     pub direction: f64,
     /// Curvature of the arc, positive where it turns left \[1/length\].
     pub curvature: f64,
-    /// The vertices that the crack gets at this end, from the tip on, which is none of them; none
-    /// of a tip that stays.
+    /// The vertices that the crack gets at this end, from the tip on, which is none of them: the
+    /// end of the arc; none of a tip that stays. Older files have several, joined by segments.
     pub path: Vec<Vec2>,
     /// Length of the path.
     pub length: f64,
@@ -47,6 +48,18 @@ pub struct TipIncrement {
 }
 
 impl TipIncrement {
+    /// The edges that the crack gets at this end, from the tip on, which lies at a point.
+    #[must_use]
+    pub fn edges(&self, tip: Vec2) -> Vec<Edge> {
+        let bulge = match self.path[..] {
+            [_] => (0.25 * self.curvature * self.length).tan(),
+            _ => 0.0,
+        };
+        let starts = std::iter::once(tip).chain(self.path.iter().copied());
+        let edge = |(from, &to): (Vec2, &Vec2)| Edge { from, to, bulge };
+        starts.zip(&self.path).map(edge).collect()
+    }
+
     /// A tip that stays where it is, of which nothing else is known.
     #[must_use]
     pub fn staying(tip: TipId, fate: TipStatus) -> Self {

@@ -71,10 +71,7 @@
 //! let partition = Cover::uniform(domain, 3)?.partition(1.3, WeightFunction::Linear)?;
 //! assert_eq!(partition.len(), 64);
 //!
-//! let crack = Crack {
-//!     points: vec![vec2(-1.0, 0.0), vec2(0.0, 0.0)],
-//!     ends: [CrackEnd::Mouth, CrackEnd::Tip],
-//! };
+//! let crack = Crack::polyline(vec![vec2(-1.0, 0.0), vec2(0.0, 0.0)], [CrackEnd::Mouth, CrackEnd::Tip]);
 //! let tip = Frame::Tip(TipId { crack: 0, end: End::Last });
 //! let opening = FunctionKind::formula(WESTERGAARD[1], tip); // sqrt(r)*sin(theta/2)
 //! // One block per patch: function 0 times a polynomial of degree 0, that is one coefficient.
@@ -135,6 +132,7 @@
 //! - Formulas are interpreted, functions of the plane in blocks of points on lanes; the Westergaard
 //!   functions, recognised by their text, have a kernel of their own.
 
+pub mod arc_spline;
 pub mod border;
 pub mod box_tree;
 pub mod check;
@@ -144,6 +142,7 @@ pub mod crack;
 pub mod dataset;
 pub mod decompose;
 pub mod domain;
+pub mod edge;
 pub mod equation;
 pub mod expression;
 pub mod field;

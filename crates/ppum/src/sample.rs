@@ -231,7 +231,7 @@ struct TipAxes {
     tip: Vec2,
     /// Unit direction of growth.
     axis: Vec2,
-    /// The segment that ends at the tip, and its length.
+    /// The edge that ends at the tip, and how far the crack is straight there.
     segment: SegmentId,
     length: f64,
     /// The side of the crack where θ is positive.
@@ -246,7 +246,8 @@ impl TipAxes {
             End::Start => (0, Side::Below),
             End::Last => (last, Side::Above),
         };
-        let length = (crack.points[segment + 1] - crack.points[segment]).length();
+        let edge = crack.edge(segment);
+        let length = if edge.is_arc() { 0.0 } else { edge.length() };
         let segment = SegmentId { crack: tip.crack, segment: segment as u32 };
         let (end, axis) = (crack.end_point(tip.end), crack.growth_direction(tip.end));
         Some(Self { tip: end, axis, segment, length, positive })
@@ -302,7 +303,7 @@ pub struct SamplePoints(Vec<SamplePoint>);
 pub struct SamplePoint {
     /// Arc length from the crack's start.
     pub s: f64,
-    /// Unit direction of the segment.
+    /// Unit tangent of the crack.
     pub tangent: Vec2,
     anchor: Vec2,
     offset: Vec2,
@@ -316,8 +317,8 @@ impl SamplePoints {
     pub fn along(cracks: &[Crack], index: u32, parts: &[f64]) -> Option<Self> {
         let crack = cracks.get(index as usize)?;
         let mut starts = vec![0.0];
-        for p in crack.points.windows(2) {
-            starts.push(starts[starts.len() - 1] + (p[1] - p[0]).length());
+        for edge in crack.edges() {
+            starts.push(starts[starts.len() - 1] + edge.length());
         }
         let total = starts[starts.len() - 1];
         let at = |part: &f64| SamplePoint::new(crack, index, &starts, total * part);
@@ -343,12 +344,18 @@ impl SamplePoint {
     fn new(crack: &Crack, index: u32, starts: &[f64], s: f64) -> Self {
         let last = crack.points.len() - 2;
         let segment = starts.partition_point(|&start| start <= s).saturating_sub(1).min(last);
-        let [a, b] = [crack.points[segment], crack.points[segment + 1]];
-        let (tangent, inner) = ((b - a).unit(), s - starts[segment]);
+        let edge = crack.edge(segment);
+        let (length, inner) = (edge.length(), s - starts[segment]);
         let beyond = starts[segment + 1] - s;
-        let (anchor, way) = if inner <= beyond { (a, inner) } else { (b, -beyond) };
+        let tangent = edge.tangent(inner / length);
+        let (anchor, way) = if inner <= beyond { (edge.from, inner) } else { (edge.to, -beyond) };
+        let offset = match (edge.is_arc(), inner <= beyond) {
+            (false, _) => tangent * way,
+            (true, true) => edge.way(inner / length),
+            (true, false) => edge.reversed().way(beyond / length),
+        };
         let segment = SegmentId { crack: index, segment: segment as u32 };
-        Self { s, tangent, anchor, offset: tangent * way, segment }
+        Self { s, tangent, anchor, offset, segment }
     }
 
     /// The point.
@@ -448,7 +455,7 @@ mod tests {
     #[test]
     fn circles_around_tips_end_on_the_faces() {
         let points = vec![vec2(-0.5, 0.1), vec2(0.3, 0.4)];
-        let cracks = [Crack { points, ends: [CrackEnd::Tip; 2] }];
+        let cracks = [Crack::polyline(points, [CrackEnd::Tip; 2])];
         for (end, above) in [(End::Last, PI), (End::Start, -PI)] {
             let tip = TipId { crack: 0, end };
             for radius in [0.2, 1e-9] {
@@ -477,7 +484,7 @@ mod tests {
     #[test]
     fn rays_are_evenly_spaced_in_the_logarithm() {
         let points = vec![vec2(0.0, 0.0), vec2(0.0, 1.0)];
-        let cracks = [Crack { points, ends: [CrackEnd::Mouth, CrackEnd::Tip] }];
+        let cracks = [Crack::polyline(points, [CrackEnd::Mouth, CrackEnd::Tip])];
         let tip = TipId { crack: 0, end: End::Last };
         let places = ray(&cracks, tip, 0.0, [1e-12, 1.0], 13).expect("a tip");
         for (k, (r, place)) in places.iter().enumerate() {

@@ -11,14 +11,15 @@
 //! use ppum::vec2::{Vec2, vec2};
 //!
 //! let points = vec![vec2(-1.0, -0.3), vec2(1.0, 0.4)];
-//! let cracks = [Crack { points, ends: [CrackEnd::Tip; 2] }];
+//! let cracks = [Crack::polyline(points, [CrackEnd::Tip; 2])];
 //! let segments = Segments::new(&cracks);
 //! assert_eq!(segments.at(vec2(0.3, 0.155), Vec2::ZERO), Some(SegmentId { crack: 0, segment: 0 }));
 //! assert_eq!(segments.at(vec2(0.3, 0.155), vec2(0.0, 1e-30)), None);
 //! ```
 
 use crate::box_tree::BoxTree;
-use crate::crack::{Crack, CrackEnd, SegmentId};
+use crate::crack::{Crack, CrackEnd, LocalSegment, SegmentId};
+use crate::edge::Edge;
 use crate::vec2::{Rect, Vec2, vec2};
 
 /// Rounding of a point's coordinates and of its distance from a line, in parts of their size.
@@ -41,8 +42,8 @@ impl<'c> Segments<'c> {
     pub fn new(cracks: &'c [Crack]) -> Self {
         let (mut all, mut boxes, mut size) = (Vec::new(), Vec::new(), 0.0f64);
         for (index, crack) in (0..).zip(cracks) {
-            for (segment, ends) in (0..).zip(crack.points.windows(2)) {
-                let (min, max) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+            for (segment, edge) in (0..).zip(crack.edges()) {
+                let Rect { min, max } = edge.bounds();
                 all.push(SegmentId { crack: index, segment });
                 boxes.push(Rect::new(min, max));
                 size = size.max(min.max_norm()).max(max.max_norm());
@@ -73,7 +74,27 @@ fn touches_segment(crack: &Crack, segment: u32, anchor: Vec2, offset: Vec2) -> b
     let (k, last) = (segment as usize, crack.points.len() - 2);
     let is_tip =
         [k == 0 && crack.ends[0] == CrackEnd::Tip, k == last && crack.ends[1] == CrackEnd::Tip];
-    touches([crack.points[k], crack.points[k + 1]], is_tip, anchor, offset)
+    let edge = crack.edge(k);
+    if edge.is_arc() {
+        touches_arc(edge, is_tip, anchor, offset)
+    } else {
+        touches([edge.from, edge.to], is_tip, anchor, offset)
+    }
+}
+
+/// True if `anchor + offset` lies on an arc, up to rounding.
+fn touches_arc(arc: Edge, is_tip: [bool; 2], anchor: Vec2, offset: Vec2) -> bool {
+    let size = [anchor, arc.from, arc.to].iter().fold(0.0, |size: f64, p| size.max(p.max_norm()));
+    let rounding = ROUNDING * if offset == Vec2::ZERO { size } else { offset.max_norm() };
+    let is_beyond = |(end, is_tip): (Vec2, bool), is_closest: bool| {
+        let is_at = ((anchor - end) + offset).length() <= rounding;
+        if is_tip { is_at || is_closest } else { is_closest && !is_at }
+    };
+    let part = arc.closest_part(anchor + offset);
+    let distance = LocalSegment::new(arc, anchor).curved_distance_of([offset.x, offset.y]);
+    distance.abs() <= rounding
+        && !is_beyond((arc.from, is_tip[0]), part == 0.0)
+        && !is_beyond((arc.to, is_tip[1]), part == 1.0)
 }
 
 /// True if `anchor + offset` lies on a segment, up to rounding.
@@ -99,7 +120,7 @@ mod tests {
     use super::*;
 
     fn crack(points: &[(f64, f64)], ends: [CrackEnd; 2]) -> Crack {
-        Crack { points: points.iter().map(|&(x, y)| vec2(x, y)).collect(), ends }
+        Crack::polyline(points.iter().map(|&(x, y)| vec2(x, y)).collect(), ends)
     }
 
     /// The segment that is found, and that asking all segments in their order finds the same.
@@ -146,5 +167,30 @@ mod tests {
         assert!(at(-1e-30, 0.0).is_some());
         assert_eq!(at(1e-30, 0.0), None);
         assert_eq!(at(-1e-30, 1e-40), None);
+    }
+
+    /// Rounded points of arcs lie on them, at tips and beside them by 10⁻¹² not; with an offset
+    /// only what is meant does.
+    #[test]
+    fn rounded_points_on_arcs() {
+        let mut random = ppum_testkit::random::Random(92);
+        for _ in 0..300 {
+            let mut end = || vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+            let (from, to) = (end(), end());
+            let bulge = random.between(-2.0, 2.0);
+            let (arc, ends) = (Edge { from, to, bulge }, [CrackEnd::Mouth, CrackEnd::Tip]);
+            let crack = [Crack { points: vec![from, to], bulges: vec![bulge], ends }];
+            let on = Some(SegmentId { crack: 0, segment: 0 });
+            for part in [0.0, 0.1, 0.5, 0.9, 1.0] {
+                let (point, out) = (arc.at(part), arc.tangent(part).left());
+                let expected = if part < 1.0 { on } else { None };
+                assert_eq!(segment_at(&crack, point, Vec2::ZERO), expected, "{arc:?} {part}");
+                assert_eq!(segment_at(&crack, point + out * 1e-12, Vec2::ZERO), None, "{arc:?}");
+                // where rounding has put the point
+                let offset = out * -arc.side(point);
+                let beside = segment_at(&crack, point, offset + out * 1e-15);
+                assert_eq!(beside, None, "{arc:?} {part}");
+            }
+        }
     }
 }

@@ -142,10 +142,8 @@ mod tests {
     fn places(size: f64, xs: &[f64]) -> Vec<String> {
         let bounds = Rect::new(vec2(-size, -size), vec2(size, size));
         let points: Vec<_> = xs.iter().map(|&x| vec2(x, 0.0)).collect();
-        let places = LocationText::new(
-            &bounds,
-            &[Crack { points: points.clone(), ends: [CrackEnd::Tip; 2] }],
-        );
+        let places =
+            LocationText::new(&bounds, &[Crack::polyline(points.clone(), [CrackEnd::Tip; 2])]);
         points.into_iter().map(|p| places.show(p)).collect()
     }
 

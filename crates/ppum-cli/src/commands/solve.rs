@@ -140,6 +140,11 @@ impl SolveArgs {
         writeln!(out, "{}: nothing wrong", standard::name(&self.problem))?;
         let of_what = if problem.adaptivity.is_some() { "the first step: " } else { "" };
         writeln!(out, "{of_what}{estimate}")?;
+        let arcs = problem.arcs();
+        if arcs > 0 {
+            writeln!(out, "curves of {arcs} arcs")?;
+        }
+        problem.notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))?;
         Ok(())
     }
 

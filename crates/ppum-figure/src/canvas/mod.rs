@@ -13,6 +13,7 @@ mod svg;
 pub mod xml;
 pub mod zlib;
 
+use ppum::edge::Edge;
 use ppum::segment::sides;
 use ppum::vec2::{Vec2, vec2};
 use ppum_render::image::{Image, Rgba};
@@ -67,11 +68,13 @@ pub enum CanvasItem {
     },
 }
 
-/// Straight lines in pieces.
+/// Straight and round lines.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CanvasPath {
-    /// The pieces: points, in order.
+    /// Straight lines: points, in order.
     pub pieces: Vec<Vec<Vec2>>,
+    /// Segments and arcs, each of which begins where the one before ends.
+    pub curves: Vec<Vec<Edge>>,
 }
 
 /// The way lines are drawn.
@@ -207,6 +210,10 @@ impl CanvasItem {
         match &mut self {
             Self::Fill { outline: path, .. } | Self::Line { path, .. } => {
                 path.pieces.iter_mut().flatten().for_each(flip);
+                for edge in path.curves.iter_mut().flatten() {
+                    [&mut edge.from, &mut edge.to].into_iter().for_each(flip);
+                    edge.bulge = if across == down { edge.bulge } else { -edge.bulge };
+                }
             }
             Self::Text(line) => flip(&mut line.at),
             Self::Picture { .. } | Self::Inset { .. } => {}
@@ -265,7 +272,27 @@ impl CanvasPath {
     /// One line through points.
     #[must_use]
     pub fn through(points: Vec<Vec2>) -> Self {
-        Self { pieces: vec![points] }
+        Self { pieces: vec![points], ..Self::default() }
+    }
+
+    /// Adds a segment or an arc, to the end of the last one if it begins there.
+    pub fn edge(&mut self, edge: Edge) {
+        match self.curves.last_mut() {
+            Some(curve) if curve.last().is_some_and(|last| is_same(last.to, edge.from)) => {
+                curve.push(edge);
+            }
+            _ => self.curves.push(vec![edge]),
+        }
+    }
+
+    /// All lines as points in order, no farther from arcs than a tolerance.
+    pub fn polylines(&self, tolerance: f64) -> impl Iterator<Item = Vec<Vec2>> + '_ {
+        let flattened = move |curve: &Vec<Edge>| {
+            let first = curve.iter().take(1).map(|edge| edge.from);
+            let rest = curve.iter().flat_map(|edge| edge.flattened(tolerance).into_iter().skip(1));
+            first.chain(rest).collect()
+        };
+        self.pieces.iter().cloned().chain(self.curves.iter().map(flattened))
     }
 
     /// Adds a straight line.
@@ -290,7 +317,7 @@ impl CanvasPath {
         self.pieces.push((0..=count).map(at).collect());
     }
 
-    /// The pieces all turning one way, so that none takes away what another fills.
+    /// The lines all turning one way, so that none takes away what another fills.
     fn turned_alike(&self) -> Self {
         let turned = |points: &Vec<Vec2>| {
             let area: f64 = sides(points).map(|[a, b]| a.cross(b)).sum();
@@ -300,19 +327,65 @@ impl CanvasPath {
             }
             points
         };
-        Self { pieces: self.pieces.iter().map(turned).collect() }
+        let turned_curve = |curve: &Vec<Edge>| {
+            let area = |e: &Edge| 0.5 * e.from.cross(e.to) + e.area_beside_chord();
+            let is_turned = curve.iter().map(area).sum::<f64>() < 0.0;
+            let reversed = curve.iter().rev().map(Edge::reversed);
+            if is_turned { reversed.collect() } else { curve.clone() }
+        };
+        Self {
+            pieces: self.pieces.iter().map(turned).collect(),
+            curves: self.curves.iter().map(turned_curve).collect(),
+        }
     }
 
-    /// The box around the points: least and largest coordinates; of no points, the least are +∞.
+    /// The box around the lines: least and largest coordinates; of no lines, the least are +∞.
     fn bounds(&self) -> [Vec2; 2] {
-        text::bounds(self.pieces.iter().flatten())
+        let boxes: Vec<_> = self.curves.iter().flatten().map(Edge::bounds).collect();
+        let corners = boxes.iter().flat_map(|bounds| [&bounds.min, &bounds.max]);
+        text::bounds(self.pieces.iter().flatten().chain(corners))
     }
 
     /// True if there is nothing to draw.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.pieces.is_empty()
+        self.pieces.is_empty() && self.curves.is_empty()
     }
+
+    /// The curves without places that are none.
+    fn finite_curves(&self) -> impl Iterator<Item = &Vec<Edge>> {
+        let is_finite =
+            |edge: &Edge| edge.from.is_finite() && edge.to.is_finite() && edge.bulge.is_finite();
+        self.curves.iter().filter(move |curve| curve.iter().all(is_finite))
+    }
+}
+
+/// Distance of two places that are one.
+const SAME: f64 = 1e-3;
+
+fn is_same(a: Vec2, b: Vec2) -> bool {
+    (b - a).length() <= SAME
+}
+
+/// Arcs no farther than this from segments or Bézier curves may be drawn as these.
+const UNSEEN: f64 = 1e-4;
+
+/// The parts of an edge that cubic Bézier curves stand for, by their inner control points and
+/// their end: a segment is one.
+fn bezier_curves(edge: &Edge) -> Vec<[Vec2; 3]> {
+    // a cubic is (φ/(π/2))⁶ · 2.73e-4 r away from an arc of a sweep φ
+    let sweep = edge.sweep().abs() / std::f64::consts::FRAC_PI_2;
+    let radius = edge.curvature().abs().recip();
+    let count =
+        if edge.is_arc() { sweep * (2.73e-4 * radius / UNSEEN).powf(1.0 / 6.0) } else { 1.0 };
+    let count = count.ceil().max(1.0);
+    let part = |k: f64| {
+        let part = edge.part([k / count, (k + 1.0) / count]);
+        let ([start, end], chord) = (part.end_tangents(), part.chord().length());
+        let handle = (1.0 + part.bulge * part.bulge) * chord / 3.0;
+        [part.from + start * handle, part.to - end * handle, part.to]
+    };
+    (0..count as u32).map(|k| part(f64::from(k))).collect()
 }
 
 impl StrokeStyle {

@@ -8,6 +8,9 @@ use super::mask::{CoverageMask, PixelWindow, over};
 use super::{Canvas, CanvasItem, CanvasPath, StrokeStyle, TextItem};
 use crate::text::{self, GlyphCurve};
 
+/// Largest distance of arcs from the chords that are drawn \[pixels\].
+const SMOOTH: f64 = 1.0 / 64.0;
+
 /// Draws a page.
 pub(super) fn image(canvas: &Canvas) -> Image {
     let mut image = Image::filled(canvas.size, canvas.paper);
@@ -81,8 +84,8 @@ impl Painter<'_> {
 
     fn fill(&mut self, outline: &CanvasPath, color: Rgba) {
         let mut mask = self.mask(outline.bounds(), 0.0);
-        for corners in &outline.pieces {
-            mask.polygon(&self.shifted(corners));
+        for corners in outline.polylines(SMOOTH) {
+            mask.polygon(&self.shifted(&corners));
         }
         mask.paint(self.image, color);
     }
@@ -96,8 +99,8 @@ impl Painter<'_> {
 
     fn stroke(&mut self, path: &CanvasPath, pen: &StrokeStyle) {
         let mut mask = self.mask(path.bounds(), 0.5 * pen.width + 1.0);
-        for points in &path.pieces {
-            let points = self.shifted(points);
+        for points in path.polylines(SMOOTH) {
+            let points = self.shifted(&points);
             match pen.dashes {
                 Some(lengths) => {
                     dashes(&points, lengths).iter().for_each(|dash| mask.stroke(dash, pen.width));

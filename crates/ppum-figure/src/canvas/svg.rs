@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use ppum::edge::Edge;
 use ppum::printable::printable;
 use ppum::vec2::Vec2;
 use ppum_render::image::{Image, Rgba};
@@ -9,7 +10,7 @@ use ppum_render::png::{self, TextChunk};
 
 use super::base64::base64;
 use super::xml::escaped;
-use super::{Align, Canvas, CanvasItem, CanvasPath, StrokeStyle, TextItem};
+use super::{Align, Canvas, CanvasItem, CanvasPath, StrokeStyle, TextItem, UNSEEN, bezier_curves};
 use crate::text::{self, FONT_FILE};
 
 /// Fonts of letters: the one in the file, or where a program ignores that, the same or a similar
@@ -147,8 +148,39 @@ fn data(path: &CanvasPath, is_closed: bool) -> String {
             _ => {}
         }
     }
+    for curve in path.finite_curves() {
+        let _ = write!(data, "M{}", place(curve[0].from));
+        curve.iter().for_each(|edge| data.push_str(&command(edge)));
+        if is_closed {
+            data.push('Z');
+        }
+    }
     data
 }
+
+/// The command that leads along an edge: an arc, but for those that programs which form its centre
+/// in single precision would not draw well.
+fn command(edge: &Edge) -> String {
+    let height = 0.5 * edge.bulge.abs() * edge.chord().length();
+    if height <= UNSEEN {
+        return format!("L{}", place(edge.to));
+    }
+    if edge.bulge.abs() < FLAT {
+        let curve = |points: [Vec2; 3]| format!("C{}", points.map(place).join(" "));
+        return bezier_curves(edge).into_iter().map(curve).collect();
+    }
+    // an end is known to a thousandth: of a nearly whole circle that is not enough
+    let count = (edge.sweep().abs() / std::f64::consts::PI).ceil();
+    let arc = |k: f64| {
+        let part = edge.part([k / count, (k + 1.0) / count]);
+        let (radius, is_left) = (part.curvature().abs().recip(), u8::from(part.bulge > 0.0));
+        format!("A{0} {0} 0 0 {is_left} {1}", number(radius), place(part.to))
+    };
+    (0..count as u32).map(|k| arc(f64::from(k))).collect()
+}
+
+/// Bulges below this are those of arcs whose radius is many times their chord.
+const FLAT: f64 = 0.005;
 
 fn place(p: Vec2) -> String {
     format!("{} {}", number(p.x), number(p.y))

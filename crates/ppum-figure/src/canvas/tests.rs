@@ -3,6 +3,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use ppum::vec2::vec2;
+use ppum_testkit::random::Random;
 use roxmltree::{Document, Node};
 
 use super::*;
@@ -31,8 +32,10 @@ pub(super) fn page() -> Canvas {
     let mut lines =
         CanvasPath::through(vec![vec2(20.0, 160.0), vec2(120.0, 110.0), vec2(200.0, 165.0)]);
     lines.line(vec2(60.0, 100.0), vec2(150.0, 170.0));
-    let dots =
-        CanvasPath { pieces: vec![vec![vec2(30.0, 110.0)], vec![], vec![vec2(f64::NAN, 1.0)]] };
+    let dots = CanvasPath {
+        pieces: vec![vec![vec2(30.0, 110.0)], vec![], vec![vec2(f64::NAN, 1.0)]],
+        ..CanvasPath::default()
+    };
     let text = |text: &str, at| TextItem::new(text, 14.0, at, [38, 38, 42, 255]);
     let halo = Some(Halo { color: [255, 230, 0, 200], width: 2.0 });
     page.items = vec![
@@ -172,6 +175,131 @@ fn fills_turn_one_way() {
     };
     let areas: Vec<f64> = path.turned_alike().pieces.iter().map(area).collect();
     assert_eq!(areas, [32.0, 32.0, 9.0]);
+}
+
+fn random_arc(random: &mut Random, size: f64) -> Edge {
+    let mut end = || vec2(random.between(0.1, 0.9), random.between(0.1, 0.9)) * size;
+    let (from, to) = (end(), end());
+    Edge { from, to, bulge: random.between(-3.0, 3.0) }
+}
+
+fn line_of(edges: &[Edge]) -> CanvasItem {
+    let mut path = CanvasPath::default();
+    edges.iter().for_each(|edge| path.edge(*edge));
+    CanvasItem::Line { path, pen: StrokeStyle::new(RED, 3.0).with_halo(PALE, 2.0) }
+}
+
+fn image_of(item: CanvasItem) -> Image {
+    Canvas { size: [160, 160], paper: WHITE, items: vec![item] }.image()
+}
+
+/// Largest difference of the shades of two images.
+fn difference(a: &Image, b: &Image) -> u8 {
+    a.rgba.iter().zip(&b.rgba).map(|(a, b)| a.abs_diff(*b)).max().unwrap_or(0)
+}
+
+/// Pixels of an arc are those of a polyline of many chords, of the reversed arc and of ten parts.
+#[test]
+fn pixels_of_arcs_are_those_of_many_chords() {
+    let mut random = Random(31);
+    for _ in 0..40 {
+        let arc = random_arc(&mut random, 160.0);
+        let image = image_of(line_of(&[arc]));
+        let chords = CanvasPath::through((0..=4000).map(|k| arc.at(f64::from(k) / 4e3)).collect());
+        let pen = StrokeStyle::new(RED, 3.0).with_halo(PALE, 2.0);
+        // a shade for each hundredth of a pixel, and chords are a 64th away
+        let limit = image_of(CanvasItem::Line { path: chords, pen });
+        assert!(difference(&image, &limit) <= 5, "{arc:?}");
+        assert!(difference(&image, &image_of(line_of(&[arc.reversed()]))) <= 1, "{arc:?}");
+        let parts: Vec<Edge> =
+            (0..10).map(|k| arc.part([k, k + 1].map(|k| f64::from(k) / 10.0))).collect();
+        assert!(difference(&image, &image_of(line_of(&parts))) <= 5, "{arc:?}");
+        let flipped = line_of(&[arc]).flipped([true, false], [160, 160]);
+        let (flipped, size) = (image_of(flipped), 160);
+        let pixel = |i: u32, j: u32| flipped.pixel(size - 1 - i, j);
+        let all = (0..size).flat_map(|i| (0..size).map(move |j| (i, j)));
+        let most = all.flat_map(|(i, j)| {
+            image.pixel(i, j).into_iter().zip(pixel(i, j)).map(|(a, b)| a.abs_diff(b))
+        });
+        assert!(most.max().unwrap_or(0) <= 5, "{arc:?}");
+    }
+}
+
+/// The edges of a path of an SVG file.
+fn edges_of(data: &str) -> Vec<Edge> {
+    let (mut edges, mut at) = (Vec::new(), Vec2::ZERO);
+    let starts: Vec<usize> = data.match_indices(char::is_alphabetic).map(|(k, _)| k).collect();
+    for (k, &start) in starts.iter().enumerate() {
+        let end = starts.get(k + 1).copied().unwrap_or(data.len());
+        let numbers: Vec<f64> =
+            data[start + 1..end].split_whitespace().map(|n| n.parse().unwrap()).collect();
+        let to = vec2(numbers[numbers.len() - 2], numbers[numbers.len() - 1]);
+        if let ("A", [radius, other, _, large, left, ..]) = (&data[start..=start], &numbers[..]) {
+            assert_eq!((radius, *large), (other, 0.0));
+            let half = (0.5 * (to - at).length() / radius).min(1.0).asin();
+            let bulge = (0.5 * half).tan() * (2.0 * left - 1.0);
+            edges.push(Edge { from: at, to, bulge });
+        } else if &data[start..=start] == "L" {
+            edges.push(Edge::segment([at, to]));
+        }
+        at = to;
+    }
+    edges
+}
+
+/// Arcs are arcs in SVG: on the same circle to the thousandths that numbers have.
+#[test]
+fn arcs_are_arcs_in_the_svg() {
+    let mut random = Random(32);
+    for _ in 0..200 {
+        let arc = random_arc(&mut random, 160.0);
+        if arc.bulge.abs() < 0.01 {
+            continue;
+        }
+        let page = Canvas { size: [160, 160], paper: WHITE, items: vec![line_of(&[arc])] };
+        let svg = page.svg(96.0, &[]);
+        let document = Document::parse(&svg).unwrap();
+        let edges = edges_of(named(&document, "path")[0].attribute("d").unwrap());
+        assert!(!edges.is_empty() && edges.iter().all(Edge::is_arc));
+        let sweep: f64 = edges.iter().map(Edge::sweep).sum();
+        assert!((sweep - arc.sweep()).abs() < 0.02, "{arc:?} {edges:?}");
+        // of half a circle whose radius is rounded up the middle is not known as well
+        let of = |t: f64| edges.iter().map(|e| e.distance(arc.at(t))).fold(f64::INFINITY, f64::min);
+        let most = (0..=20).map(|k| of(f64::from(k) / 20.0)).fold(0.0, f64::max);
+        let radius = arc.curvature().abs().recip();
+        assert!(most < 2e-3 + (2e-3 * radius).sqrt().min(0.6), "{most} {arc:?} {edges:?}");
+    }
+}
+
+/// Cubics of arcs lie on them and meet.
+#[test]
+fn cubics_lie_on_their_arcs() {
+    let mut random = Random(33);
+    for size in [10.0, 100.0, 1e4] {
+        for _ in 0..50 {
+            let arc = random_arc(&mut random, size);
+            let mut from = arc.from;
+            for [a, b, to] in bezier_curves(&arc) {
+                for k in 0..=10 {
+                    let (t, u) = (f64::from(k) / 10.0, 1.0 - f64::from(k) / 10.0);
+                    let p = from * (u * u * u)
+                        + a * (3.0 * u * u * t)
+                        + b * (3.0 * u * t * t)
+                        + to * (t * t * t);
+                    assert!(arc.distance(p) < 1.1 * UNSEEN, "{arc:?} {t}");
+                }
+                from = to;
+            }
+            assert_eq!(from, arc.to);
+        }
+    }
+    let pdf = Canvas {
+        size: [9, 9],
+        paper: WHITE,
+        items: vec![line_of(&[random_arc(&mut random, 9.0)])],
+    };
+    let content = &streams(&pdf.pdf(96.0, &[]))[0].1;
+    assert!(String::from_utf8_lossy(content).lines().any(|line| line.ends_with(" c")));
 }
 
 /// The streams of a PDF file, decompressed, each with its dictionary before.

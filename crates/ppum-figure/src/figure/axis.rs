@@ -148,9 +148,8 @@ mod tests {
     #[test]
     fn deep_axes_count_from_the_nearest_tip_in_view() {
         let tip = vec2(0.3, -0.7);
-        let crack = |tip: Vec2| Crack {
-            points: vec![tip + vec2(-0.1, 0.0), tip],
-            ends: [CrackEnd::Mouth, CrackEnd::Tip],
+        let crack = |tip: Vec2| {
+            Crack::polyline(vec![tip + vec2(-0.1, 0.0), tip], [CrackEnd::Mouth, CrackEnd::Tip])
         };
         let cracks = [crack(tip + vec2(3e-10, 0.0)), crack(tip), crack(tip + vec2(1e-8, 0.0))];
         let view = View::new(tip, 1e-9, [300, 300]).unwrap();

@@ -1,6 +1,7 @@
 //! Isolines with their levels.
 
 use ppum::crack::Crack;
+use ppum::edge::Edge;
 use ppum::line::Line;
 use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -9,6 +10,7 @@ use ppum_render::isoline::Isoline;
 use ppum_render::picture::ColoredRaster;
 use ppum_render::view::View;
 
+use super::strokes::visible_edges;
 use crate::canvas::Halo;
 use crate::canvas::{Align, CanvasItem, CanvasPath, StrokeStyle, TextItem};
 use crate::ticks::Notation;
@@ -20,6 +22,9 @@ const WIDTH: f64 = 1.2;
 const TEXT: f64 = 11.5;
 /// A line this many times as long as its label, and as that is high, has one.
 const ROOM: [f64; 2] = [2.5, 6.0];
+
+/// Distance from an arc at which pixels count as those along it \[pixels\].
+const NEAR: f64 = 0.1;
 
 /// The pixels that labels may cover: those of the body, away from cracks.
 #[derive(Clone, Debug)]
@@ -41,10 +46,20 @@ impl Room {
         let is_free = image.rgba.chunks_exact(4).map(|pixel| pixel[3] > 0).collect();
         let mut room =
             Self { columns: image.size[0] as usize, is_free, notation, labels: Vec::new() };
-        for ends in cracks.iter().flat_map(|crack| crack.points.windows(2)) {
-            room.close([ends[0], ends[1]].map(|p| picture.view.pixel(p)));
+        for edge in cracks.iter().flat_map(Crack::edges) {
+            room.close_edge(&picture.view, edge);
         }
         room
+    }
+
+    /// Takes away the pixels along an edge.
+    fn close_edge(&mut self, view: &View, edge: Edge) {
+        if !edge.is_arc() {
+            self.close([edge.from, edge.to].map(|p| view.pixel(p)));
+        }
+        for arc in visible_edges(view, edge).into_iter().filter(Edge::is_arc) {
+            arc.flattened(NEAR).windows(2).for_each(|ends| self.close([ends[0], ends[1]]));
+        }
     }
 
     /// Takes away the pixels along a line.
@@ -99,7 +114,10 @@ impl Room {
 /// wanted, where there is room.
 #[must_use]
 pub fn isolines(view: &View, scale: f64, lines: &[Isoline], room: Option<Room>) -> Vec<CanvasItem> {
-    let path = CanvasPath { pieces: lines.iter().map(|line| points(view, line)).collect() };
+    let path = CanvasPath {
+        pieces: lines.iter().map(|line| points(view, line)).collect(),
+        ..CanvasPath::default()
+    };
     let pen = StrokeStyle::new(LINE, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
     let mut items = vec![CanvasItem::Line { path: path.clone(), pen }];
     if let Some(mut room) = room {
@@ -327,7 +345,7 @@ mod tests {
             let at = places(&[], x)[0];
             assert!((at - vec2(560.0, 300.0)).length() > 108.0, "{at:?}");
         }
-        let crack = |ends: [Vec2; 2]| Crack { points: ends.to_vec(), ends: [CrackEnd::Tip; 2] };
+        let crack = |ends: [Vec2; 2]| Crack::polyline(ends.to_vec(), [CrackEnd::Tip; 2]);
         // a crack along the line, far beyond the image, leaves no room
         assert!(places(&[crack([vec2(-0.2, -1e9), vec2(-0.2, 1e9)])], -0.2).is_empty());
         assert_eq!(places(&[crack([vec2(0.2, -1.0), vec2(0.2, 1.0)])], -0.2).len(), 1);

@@ -22,7 +22,7 @@ mod supports;
 use ppum::border::{is_mirrored_side, touch};
 use ppum::crack::{Crack, tips};
 use ppum::domain::Hole;
-use ppum::vec2::Vec2;
+use ppum::edge::Edge;
 use ppum_render::view::View;
 
 use crate::canvas::{CanvasItem, CanvasPath, StrokeStyle};
@@ -34,7 +34,10 @@ pub use isolines::{Room, isolines};
 pub(crate) use legend::{LegendBox, MARGIN as LEGEND_MARGIN, TEXT as LEGEND_TEXT};
 pub use legend::{LegendEntry, Symbol, legend, legend_box};
 pub use rings::rings;
-use strokes::{CRACK, CRACK_WIDTH, RIM_WIDTH, SEAM, SEAM_WIDTH, TIP_RADIUS, arc};
+use strokes::{
+    CRACK, CRACK_WIDTH, RIM_WIDTH, SEAM, SEAM_WIDTH, TIP_RADIUS, circle, visible_edges,
+    visible_part,
+};
 pub use supports::{LoadMark, SupportMark, loads, supports};
 
 /// Scale of a bare image's lines and letters: 1 up to 1024 × 768 pixels, lest they be unreadable,
@@ -48,11 +51,15 @@ pub fn line_scale(size: [u32; 2]) -> f64 {
 /// The cracks as lines and their tips as dots.
 #[must_use]
 pub fn cracks(view: &View, scale: f64, cracks: &[Crack]) -> Vec<CanvasItem> {
-    let segments = cracks.iter().flat_map(|crack| crack.points.windows(2));
-    let seen = segments.filter_map(|ends| visible_part(view, ends[0], ends[1]));
-    let lines = CanvasPath { pieces: seen.map(Vec::from).collect() };
+    let mut lines = CanvasPath::default();
+    for crack in cracks {
+        add_edges(&mut lines, view, crack.edges(), crack.is_curved());
+    }
     let ends = tips(cracks).map(|tip| cracks[tip.crack as usize].end_point(tip.end));
-    let dots = CanvasPath { pieces: ends.map(|end| vec![view.pixel(end)]).collect() };
+    let dots = CanvasPath {
+        pieces: ends.map(|end| vec![view.pixel(end)]).collect(),
+        ..CanvasPath::default()
+    };
     let pen =
         |width: f64| StrokeStyle::new(CRACK, width * scale).with_halo(SEAM, SEAM_WIDTH * scale);
     // seams below all lines
@@ -72,33 +79,31 @@ pub fn rims(view: &View, scale: f64, holes: &[Hole], mirrors: [Option<f64>; 2]) 
     let mut path = CanvasPath::default();
     for hole in holes {
         if let Hole::Circle { center, radius } = hole {
-            path.pieces.push(arc(view, *center, *radius));
+            circle(view, *center, *radius).into_iter().for_each(|edge| path.edge(edge));
         }
         let touch = touch(&hole.rim_bounds());
-        let sides = hole.sides().filter(|ends| !is_mirrored_side(*ends, mirrors, touch));
-        path.pieces.extend(sides.filter_map(|[a, b]| visible_part(view, a, b)).map(Vec::from));
+        let is_drawn =
+            |edge: &Edge| edge.is_arc() || !is_mirrored_side([edge.from, edge.to], mirrors, touch);
+        let is_curved = hole.edges().any(|edge| edge.is_arc());
+        add_edges(&mut path, view, hole.edges().filter(is_drawn), is_curved);
     }
     vec![CanvasItem::Line { path, pen: StrokeStyle::new(CRACK, RIM_WIDTH * scale) }]
 }
 
-/// The part of a segment in or near the view, in continuous pixel coordinates.
-fn visible_part(view: &View, a: Vec2, b: Vec2) -> Option<[Vec2; 2]> {
-    let (from, to) = (a - view.center, b - view.center);
-    let along = (b - a).unit();
-    if !along.is_finite() {
-        return None;
+/// Adds what is seen of edges: of polylines each segment, of others curves that go on at joints.
+fn add_edges(
+    path: &mut CanvasPath,
+    view: &View,
+    edges: impl Iterator<Item = Edge>,
+    is_curved: bool,
+) {
+    for edge in edges {
+        if is_curved {
+            visible_edges(view, edge).into_iter().for_each(|edge| path.edge(edge));
+        } else {
+            path.pieces.extend(visible_part(view, edge.from, edge.to).map(Vec::from));
+        }
     }
-    let nearer = if from.length() < to.length() { from } else { to };
-    let normal = along.left();
-    let distance = nearer.dot(normal);
-    // Twice the half diagonal: line ends and widths beyond the border do not show.
-    let reach = 2.0 * view.half().length();
-    let [start, end] = [from, to].map(|p| p.dot(along).clamp(-reach, reach));
-    if distance.abs() > reach || start >= end {
-        return None;
-    }
-    let at = |s: f64| view.pixel_of_offset(normal * distance + along * s);
-    Some([at(start), at(end)])
 }
 
 #[cfg(test)]
@@ -106,13 +111,14 @@ mod tests {
     use super::*;
     use crate::canvas::Canvas;
     use ppum::crack::CrackEnd;
-    use ppum::vec2::vec2;
+    use ppum::domain::PolygonSide;
+    use ppum::vec2::{Vec2, vec2};
     use ppum_render::image::{Image, Rgba};
 
     const GREY: Rgba = [128, 128, 128, 255];
 
     fn straight(a: Vec2, b: Vec2) -> Crack {
-        Crack { points: vec![a, b], ends: [CrackEnd::Tip, CrackEnd::Mouth] }
+        Crack::polyline(vec![a, b], [CrackEnd::Tip, CrackEnd::Mouth])
     }
 
     /// The items on a page of one colour.
@@ -189,6 +195,93 @@ mod tests {
                 let is_dark = image.pixel(column, row)[0] < 72;
                 assert!(pixels < 1.1 || !is_dark, "{hole:?} {width} {column} {row}");
                 assert!(pixels > 0.3 || is_dark, "{hole:?} {width} {column} {row}");
+            }
+        }
+    }
+
+    /// Stadium and lens: rims with arcs are where their points are, at joints too.
+    #[test]
+    fn rims_with_arcs_are_in_place() {
+        let corners = [[0.2, 0.3], [0.7, 0.3], [0.7, 0.6], [0.2, 0.6]].map(Vec2::from).to_vec();
+        let hole = Hole::Polygon {
+            points: corners,
+            bulges: vec![0.0, 1.0, 0.0, -0.4],
+            side: PolygonSide::Inside,
+        };
+        let arc = hole.edges().nth(1).unwrap();
+        for (center, width) in [
+            (vec2(0.5, 0.4), 1.5),
+            (arc.at(0.3), 1e-3),
+            (arc.at(0.3), 1e-12),
+            (arc.from, 1e-12),
+            (arc.to, 1e-12),
+        ] {
+            let view = View::new(center, width, [101, 101]).unwrap();
+            let image = on(GREY, &view, rims(&view, 1.0, std::slice::from_ref(&hole), [None; 2]));
+            for (column, row) in (0..101).flat_map(|i| (0..101).map(move |j| (i, j))) {
+                let distance = hole.rim_distance(center + view.offset(column, row));
+                let pixels = distance / view.pixel_size();
+                let is_dark = image.pixel(column, row)[0] < 72;
+                assert!(pixels < 1.1 || !is_dark, "{center:?} {width} {column} {row}");
+                assert!(pixels > 0.3 || is_dark, "{center:?} {width} {column} {row}");
+            }
+        }
+    }
+
+    /// Points of an exact circle: a view 1e-12 wide draws them to hundredths of a pixel.
+    #[test]
+    fn an_arc_has_no_noise_at_a_width_of_1e_12() {
+        let (center, radius) = (vec2(0.5, 0.25), 0.625);
+        let bulge = std::f64::consts::FRAC_PI_8.tan();
+        let arc = Edge { from: vec2(1.125, 0.25), to: vec2(0.5, 0.875), bulge };
+        for edge in [arc, arc.reversed()] {
+            for at in [vec2(0.875, 0.75), arc.from, arc.to] {
+                let view = View::new(at, 1e-12, [1000, 1000]).unwrap();
+                let drawn = visible_edges(&view, edge);
+                assert!(!drawn.is_empty());
+                for p in drawn.iter().flat_map(|e| [0.0, 0.3, 0.5, 0.9, 1.0].map(|t| e.at(t))) {
+                    let pixels = p - vec2(500.0, 500.0);
+                    let offset = vec2(pixels.x, -pixels.y) * view.pixel_size();
+                    // |p − c|² − r² by the offset from a point of the circle
+                    let excess = ((at - center) * 2.0 + offset).dot(offset);
+                    let away = excess / (2.0 * radius) / view.pixel_size();
+                    assert!(away.abs() < 0.03, "{at:?} {away}");
+                }
+            }
+        }
+    }
+
+    /// A crack of arcs, reversed and divided, is the same image.
+    #[test]
+    fn a_curved_crack_does_not_depend_on_its_division() {
+        let crack = Crack {
+            points: [[-0.7, 0.1], [0.1, 0.3], [0.5, -0.2], [0.8, -0.2]].map(Vec2::from).to_vec(),
+            bulges: vec![0.5, -1.4, 0.0],
+            ends: [CrackEnd::Tip, CrackEnd::Mouth],
+        };
+        let reversed = Crack {
+            points: crack.points.iter().rev().copied().collect(),
+            bulges: crack.bulges.iter().rev().map(|bulge| -bulge).collect(),
+            ends: [crack.ends[1], crack.ends[0]],
+        };
+        let parts: Vec<Edge> = crack
+            .edges()
+            .flat_map(|e| (0..10).map(move |k| e.part([k, k + 1].map(|k| f64::from(k) / 10.0))))
+            .collect();
+        let divided = Crack {
+            points: parts.iter().map(|e| e.from).chain([parts[29].to]).collect(),
+            bulges: parts.iter().map(|e| e.bulge).collect(),
+            ends: crack.ends,
+        };
+        let joint = crack.points[1];
+        for (center, width) in [(Vec2::ZERO, 2.0), (joint, 1e-2), (joint, 1e-9)] {
+            let view = View::new(center, width, [151, 151]).unwrap();
+            let image = draw(&view, crack.clone());
+            for other in [&reversed, &divided] {
+                let other = draw(&view, other.clone());
+                let pairs = image.rgba.iter().zip(&other.rgba);
+                let most = pairs.map(|(a, b)| a.abs_diff(*b)).max();
+                assert!(most <= Some(6), "{center:?} {width} {most:?}");
             }
         }
     }

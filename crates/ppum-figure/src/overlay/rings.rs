@@ -5,7 +5,7 @@ use ppum::dataset::TipIntensity;
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
-use super::strokes::arc;
+use super::strokes::circle;
 use crate::canvas::{CanvasItem, CanvasPath, StrokeStyle};
 
 const RING: Rgba = [225, 95, 20, 255];
@@ -26,9 +26,9 @@ pub fn rings(
         let Some(crack) = cracks.get(intensity.tip.crack as usize) else { continue };
         let tip = crack.end_point(intensity.tip.end);
         for ring in &intensity.rings {
-            outer.pieces.push(arc(view, tip, ring.r2));
+            circle(view, tip, ring.r2).into_iter().for_each(|edge| outer.edge(edge));
             if ring.r1 > 0.0 {
-                inner.pieces.push(arc(view, tip, ring.r1));
+                circle(view, tip, ring.r1).into_iter().for_each(|edge| inner.edge(edge));
             }
         }
     }

@@ -1,6 +1,11 @@
-//! Lines of cracks and rims: their colours, widths and arcs.
+//! Lines of cracks and rims: their colours and widths, and the parts of them that are seen.
 
-use ppum::vec2::{Vec2, vec2};
+use std::f64::consts::PI;
+
+use ppum::domain::Hole;
+use ppum::edge::Edge;
+use ppum::vec2::Vec2;
+use ppum_render::anchored_edge::AnchoredEdge;
 use ppum_render::image::Rgba;
 use ppum_render::view::View;
 
@@ -13,24 +18,56 @@ pub(super) const TIP_RADIUS: f64 = 3.0;
 pub(super) const RIM_WIDTH: f64 = 1.0;
 pub(super) const SEAM_WIDTH: f64 = 1.0;
 
-/// Points of the part of a circle in or near the view, in continuous pixel coordinates.
-pub(super) fn arc(view: &View, center: Vec2, radius: f64) -> Vec<Vec2> {
-    let from = view.center - center;
-    let far = from.length();
-    let toward = if far > 0.0 { from / far } else { vec2(1.0, 0.0) };
-    let reach = 2.0 * view.half().length();
-    if (far - radius).abs() > reach {
-        return Vec::new();
+/// The parts of an edge in or near the view, in continuous pixel coordinates, each of half a turn
+/// at most.
+pub(super) fn visible_edges(view: &View, edge: Edge) -> Vec<Edge> {
+    if edge.is_arc() {
+        arcs(view, &AnchoredEdge::new(edge, view.center))
+    } else {
+        visible_part(view, edge.from, edge.to).map(Edge::segment).into_iter().collect()
     }
-    // Chords that leave the arc by less than a tenth of a pixel.
-    let half_angle = 2.0 * (reach / radius).min(1.0).asin();
-    let step = (0.8 * view.pixel_size() / radius).sqrt();
-    let count = (half_angle / step).ceil().max(4.0) as i32;
-    let at = |k: i32| {
-        let angle = half_angle * f64::from(k) / f64::from(count);
-        // The point minus the nearest one of the circle, without cancellation.
-        let beside = toward.left() * angle.sin() - toward * (2.0 * (0.5 * angle).sin().powi(2));
-        view.pixel_of_offset(toward * (radius - far) + beside * radius)
+}
+
+/// The parts of a circle, as [`visible_edges`] gives them.
+pub(super) fn circle(view: &View, center: Vec2, radius: f64) -> Vec<Edge> {
+    let rim = AnchoredEdge::circle(&Hole::Circle { center, radius }, view.center);
+    rim.map_or_else(Vec::new, |rim| arcs(view, &rim))
+}
+
+fn arcs(view: &View, edge: &AnchoredEdge) -> Vec<Edge> {
+    let halved = |[low, high]: [f64; 2]| {
+        let count = (edge.curvature.abs() * (high - low) / PI).ceil().max(1.0);
+        let place = move |k: f64| low + (high - low) * (k / count);
+        (0..count as u32).map(f64::from).map(move |k| [place(k), place(k + 1.0)])
     };
-    (-count..=count).map(at).collect()
+    let drawn = |part: [f64; 2]| {
+        let Edge { from, to, bulge } = edge.part(part);
+        let [from, to] = [from, to].map(|offset| view.pixel_of_offset(offset));
+        // rows run down
+        Edge { from, to, bulge: -bulge }
+    };
+    edge.near(reach(view)).into_iter().flat_map(halved).map(drawn).collect()
+}
+
+/// Twice the half diagonal: line ends and widths beyond the border do not show.
+fn reach(view: &View) -> f64 {
+    2.0 * view.half().length()
+}
+
+/// The part of a segment in or near the view, in continuous pixel coordinates.
+pub(super) fn visible_part(view: &View, a: Vec2, b: Vec2) -> Option<[Vec2; 2]> {
+    let (from, to) = (a - view.center, b - view.center);
+    let along = (b - a).unit();
+    if !along.is_finite() {
+        return None;
+    }
+    let nearer = if from.length() < to.length() { from } else { to };
+    let normal = along.left();
+    let (distance, reach) = (nearer.dot(normal), reach(view));
+    let [start, end] = [from, to].map(|p| p.dot(along).clamp(-reach, reach));
+    if distance.abs() > reach || start >= end {
+        return None;
+    }
+    let at = |s: f64| view.pixel_of_offset(normal * distance + along * s);
+    Some([at(start), at(end)])
 }

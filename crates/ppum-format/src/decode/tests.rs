@@ -351,7 +351,7 @@ fn plain_files_differ_from_version_1_0_in_version_and_roles_alone() {
     checksum::remove(&mut old);
     let mut new = encode::content(&dataset(&old).expect("a dataset")).expect("valid");
     assert_eq!(old.remove("@format_version"), Some(Array::vector([1u32, 0])));
-    assert_eq!(new.remove("@format_version"), Some(Array::vector([1u32, 7])));
+    assert_eq!(new.remove("@format_version"), Some(Array::vector([1u32, 8])));
     let roles = new.remove("steps/0000/functions/role").map(|roles| roles.values);
     let Some(ArrayValues::Text(roles)) = roles else { panic!("{roles:?}") };
     assert_eq!(roles, ["", "", "tip", "user"]);
@@ -470,13 +470,14 @@ fn a_domain_with_holes_is_of_another_kind() {
 #[test]
 fn holes_that_make_no_sense_are_named() {
     let circles_all = |c: &mut ObjectTree| {
-        put(c, "domain/holes/kind", Array::vector(["circle"; 4].map(str::to_owned)));
+        c.remove("domain/holes/bulges");
+        put(c, "domain/holes/kind", Array::vector(["circle"; 5].map(str::to_owned)));
     };
     let complaint = complaint_after(circles_all);
     assert!(
         complaint.contains("domain/holes/offsets") && complaint.contains("not 4"),
         "{complaint}"
     );
-    let flat = |c: &mut ObjectTree| put(c, "domain/holes/radius", Array::vector([0.0; 4]));
+    let flat = |c: &mut ObjectTree| put(c, "domain/holes/radius", Array::vector([0.0; 5]));
     assert!(complaint_after(flat).contains("domain/holes/radius[0]"));
 }

@@ -13,7 +13,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
 fn crack(points: &[[f64; 2]]) -> Crack {
-    Crack { points: points.iter().map(|&p| p.into()).collect(), ends: [CrackEnd::Tip; 2] }
+    Crack::polyline(points.iter().map(|&p| p.into()).collect(), [CrackEnd::Tip; 2])
 }
 
 /// A potential on the box (−2, −2) to (2, 2) that is the sum of some functions with factors.

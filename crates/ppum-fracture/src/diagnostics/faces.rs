@@ -3,6 +3,7 @@
 use super::short;
 use ppum::crack::{Crack, SegmentId, Side, TipId};
 use ppum::dataset::{Warning, WarningKind};
+use ppum::edge::Edge;
 use ppum::field::Field;
 use ppum::jet::Jet;
 use ppum::text::LocationText;
@@ -88,14 +89,14 @@ impl CrackFaces<'_> {
     /// Samples along the crack, equally apart and none at a vertex.
     fn samples(&self) -> Vec<FaceSample> {
         let length = self.crack.length();
-        let of_segment = |(segment, s): (u32, &[Vec2])| {
-            let (a, way) = (s[0], s[1] - s[0]);
-            let count = (SAMPLES as f64 * way.length() / length).ceil();
+        let of_edge = |(segment, edge): (u32, Edge)| {
+            let count = (SAMPLES as f64 * edge.length() / length).ceil();
             let on = SegmentId { crack: self.index, segment };
-            let at = move |k: usize| a + way * ((k as f64 + 0.5) / count);
-            (0..count as usize).filter_map(move |k| self.sample(on, at(k), way.unit().left()))
+            let part = move |k: usize| (k as f64 + 0.5) / count;
+            let sample = move |part| self.sample(on, edge.at(part), edge.tangent(part).left());
+            (0..count as usize).filter_map(move |k| sample(part(k)))
         };
-        (0..).zip(self.crack.points.windows(2)).flat_map(of_segment).collect()
+        (0..).zip(self.crack.edges()).flat_map(of_edge).collect()
     }
 
     fn sample(&self, on: SegmentId, at: Vec2, normal: Vec2) -> Option<FaceSample> {

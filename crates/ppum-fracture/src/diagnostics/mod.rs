@@ -6,7 +6,6 @@
 //! finds them again from a dataset, with the stress intensity factors.
 
 mod corners;
-mod curves;
 mod digits;
 mod faces;
 mod interfaces;
@@ -17,7 +16,6 @@ mod rims;
 mod tips;
 mod warning;
 
-pub(crate) use curves::error_of_segments;
 pub use digits::{FEW_DIGITS, GradientRounding, rounding};
 
 use crate::error::SolveError;

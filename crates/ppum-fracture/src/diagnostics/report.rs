@@ -43,10 +43,6 @@ fn of_tolerance(report: &SolverReport, adaptivity: Option<&Adaptivity>) -> Optio
         StopReason::Limits => {
             ("orders and cells are at their limits", "take another `kind` or smaller cells")
         }
-        StopReason::Segments => (
-            "most of it is that of the straight segments that stand for a curved crack",
-            "give the crack more `segments`",
-        ),
     };
     let message = format!(
         "the estimated error is {found:.1e}, not {wanted:e} as wanted, and {reason}; {remedy}, or a larger `{key}`"

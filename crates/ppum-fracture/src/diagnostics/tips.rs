@@ -1,6 +1,5 @@
 //! Warnings about tips and their stress intensity factors.
 
-use super::curves::of_curve;
 use super::faces::remedy;
 use super::{LARGE_ERROR, above, percent, short, unresolved_function};
 use crate::intensity::{QuadratureErrorEstimate, TipObstacle, TipResult};
@@ -60,13 +59,10 @@ impl JudgedTip<'_> {
     /// The warnings about the tip, whose integrands are not resolved at a place in words.
     fn warnings(&self, unresolved: &str) -> impl Iterator<Item = Warning> + use<> {
         let about_factors = match &self.result.factors {
-            Some(factors) => [
-                self.negative(factors),
-                self.spread(factors),
-                self.unresolved(unresolved),
-                of_curve(self.result, factors, self.crack, &self.at),
-            ],
-            None => [Some(self.no_room()), None, None, None],
+            Some(factors) => {
+                [self.negative(factors), self.spread(factors), self.unresolved(unresolved)]
+            }
+            None => [Some(self.no_room()), None, None],
         };
         let about_place =
             [self.little_room(), self.near_interface(), self.near_border(), self.coarse()];

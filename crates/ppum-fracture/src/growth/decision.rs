@@ -5,8 +5,10 @@ use super::path::go;
 use crate::solve::SolveError;
 use ppum::crack::{Crack, End, TipId, tips};
 use ppum::dataset::{Growth, GrowthStop, TipIncrement, TipIntensity, TipStatus};
+use ppum::edge::Edge;
 use ppum::text::{short, trimmed};
 use ppum::vec2::Vec2;
+use ppum_problem::geometry::from_tip;
 use ppum_problem::{GrowthRule, LoadControl, Problem};
 use ppum_solve::terms::face_law;
 
@@ -31,6 +33,10 @@ const LEAST_CHOSEN: f64 = 0.125;
 
 /// Halvings of a chosen first increment, down to the least.
 const HALVINGS: usize = 3;
+
+/// Distance of the polyline to its arc, in lengths of the arc, in which T is known to act on faces:
+/// its pieces turn by half a degree.
+const FLAT: f64 = 1e-4;
 
 /// Part of a length that is rounding.
 const ROUNDING: f64 = 1e-9;
@@ -126,18 +132,17 @@ pub(super) fn decide(
 pub(super) fn grow_cracks(problem: &Problem, growth: &Growth) -> Result<Problem, SolveError> {
     let mut cracks = problem.cracks().to_vec();
     growth.tips.iter().for_each(|row| extend(&mut cracks[row.tip.crack as usize], row));
-    let lines = cracks.into_iter().map(|crack| crack.points).collect();
-    problem.grown(lines).map_err(SolveError::Problem)
+    problem.grown(cracks).map_err(SolveError::Problem)
 }
 
 /// Adds the way of a tip to its crack.
 fn extend(crack: &mut Crack, row: &TipIncrement) {
-    match row.tip.end {
-        End::Last => crack.points.extend(&row.path),
-        End::Start => {
-            crack.points.splice(0..0, row.path.iter().rev().copied());
-        }
-    }
+    let (own, new) = (crack.edges(), row.edges(crack.end_point(row.tip.end)));
+    let edges: Vec<Edge> = match row.tip.end {
+        End::Last => own.chain(new).collect(),
+        End::Start => new.iter().rev().map(Edge::reversed).chain(own).collect(),
+    };
+    *crack = Crack { ends: crack.ends, ..Crack::along(&edges) };
 }
 
 /// The factors of a crack whose faces may touch, which has no negative K_I; none if nothing but
@@ -176,8 +181,7 @@ impl<'a> DrivenTip<'a> {
         let path = match tip.end {
             // what is closed has no free faces, which T would act on
             _ if face_law(problem, tip.crack).is_some() => Vec::new(),
-            End::Start => crack.points.clone(),
-            End::Last => crack.points.iter().rev().copied().collect(),
+            end => polyline_from(crack, end),
         };
         Self { tip, at, axis, path, drive, fate, toughness, before, share: 0.0 }
     }
@@ -267,6 +271,12 @@ impl<'a> DrivenTip<'a> {
         go(problem, cracks, length, &mut row);
         row
     }
+}
+
+/// The vertices of a polyline along a crack from an end on.
+fn polyline_from(crack: &Crack, end: End) -> Vec<Vec2> {
+    let pieces = |edge: Edge| edge.flattened(FLAT * edge.length()).into_iter().skip(1);
+    std::iter::once(crack.end_point(end)).chain(from_tip(crack, end).flat_map(pieces)).collect()
 }
 
 /// A path without its first piece of a given length.

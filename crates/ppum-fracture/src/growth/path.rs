@@ -4,10 +4,9 @@ use ppum::border::touch;
 use ppum::crack::{Crack, End, TipId, tips};
 use ppum::dataset::{TipIncrement, TipStatus};
 use ppum::domain::Hole;
-use ppum::line::Line;
-use ppum::segment::{Segment, distance};
-use ppum::vec2::{Rect, Vec2};
-use ppum_problem::{DomainEdge, Problem, arc_from};
+use ppum::edge::Edge;
+use ppum::vec2::{Rect, Vec2, vec2};
+use ppum_problem::{DomainEdge, Problem};
 
 /// Part of an increment that may not be left between the new tip and what is ahead of it: the way
 /// there is divided in two equal ones instead, each more than half of what was asked for.
@@ -17,28 +16,32 @@ const LEFT: f64 = 0.5;
 /// ones would leave a sliver between them that no cell resolves.
 const JOINS: f64 = 0.25;
 
-/// Sends a tip along an arc of a length, among the cracks as they are: its row gets the vertices
-/// after the tip, the length, and what it comes to.
+/// Sends a tip along an arc of a length, among the cracks as they are: its row gets the end of the
+/// arc, the length, and what it comes to.
 pub(super) fn go(problem: &Problem, cracks: &[Crack], length: f64, row: &mut TipIncrement) {
     let tip = row.tip;
     let from = problem.cracks()[tip.crack as usize].end_point(tip.end);
     // along an edge rounding must not lead out of the body
-    let edge = problem.body.line_of(tip.crack as usize).and_then(|line| DomainEdge::of_line(&line));
+    let line = problem.body.line_of(tip.crack as usize).and_then(|line| DomainEdge::of_line(&line));
     let bounds = &problem.domain().bounds;
-    let on_edge = |p: Vec2| edge.map_or(p, |edge| edge.point(bounds, edge.coordinate(p)));
-    let arc = |from, direction, curvature, length| -> Vec<Vec2> {
-        arc_from(from, direction, curvature, length).into_iter().map(on_edge).collect()
+    let on_line = |p: Vec2| line.map_or(p, |line| line.point(bounds, line.coordinate(p)));
+    let arc = |from, direction: f64, curvature, length| {
+        let edge = Edge::leaving(from, vec2(direction.cos(), direction.sin()), curvature, length);
+        Edge { to: on_line(edge.to), ..edge }
     };
-    let ahead = Ahead { problem, cracks, tip, reach: JOINS * length };
-    row.path = arc(from, row.direction, row.curvature, length);
-    (row.length, row.fate) = (length, TipStatus::Grows);
-    if let Some(hit) = ahead.first(from, &row.path) {
-        return hit.end(row);
+    if line.is_some() {
+        row.curvature = 0.0;
     }
-    let (end, at_end) = (*row.path.last().unwrap_or(&from), row.direction + row.curvature * length);
-    if let Some(hit) = ahead.first(end, &arc(end, at_end, 0.0, LEFT * length)) {
-        row.length = 0.5 * (length + hit.distance);
-        row.path = arc(from, row.direction, row.curvature, row.length);
+    let ahead = Ahead { problem, cracks, tip, reach: JOINS * length };
+    let own = arc(from, row.direction, row.curvature, length);
+    if let Some(hit) = ahead.first(&own) {
+        return hit.end(row, from, length);
+    }
+    (row.path, row.length, row.fate) = (vec![own.to], length, TipStatus::Grows);
+    let at_end = row.direction + row.curvature * length;
+    if let Some(hit) = ahead.first(&arc(own.to, at_end, 0.0, LEFT * length)) {
+        row.length = 0.5 * (length + hit.part * LEFT * length);
+        row.path = vec![arc(from, row.direction, row.curvature, row.length).to];
     }
 }
 
@@ -54,134 +57,121 @@ struct Ahead<'a> {
 /// A place at which a way ends.
 #[derive(Clone, Copy, Debug)]
 struct Hit {
-    /// Number of the segment of the way.
-    segment: usize,
-    /// Distance along the way.
-    distance: f64,
+    /// The part of the way before it.
+    part: f64,
     at: Vec2,
     fate: TipStatus,
+    /// True of a tip beside the way, to which a straight one leads.
+    is_beside: bool,
 }
 
 impl Hit {
-    /// Ends the way of a tip here.
-    fn end(self, row: &mut TipIncrement) {
+    fn on_way((part, at): (f64, Vec2), fate: TipStatus) -> Self {
+        Self { part, at, fate, is_beside: false }
+    }
+
+    /// Ends the way of a tip here, which would have a length.
+    fn end(self, row: &mut TipIncrement, from: Vec2, length: f64) {
         row.fate = self.fate;
         if self.fate == TipStatus::MeetsItself {
             (row.path, row.length) = (Vec::new(), 0.0);
             return;
         }
-        row.path.truncate(self.segment);
-        row.path.push(self.at);
-        row.length = self.distance;
+        (row.path, row.length) = (vec![self.at], self.part * length);
+        if self.is_beside {
+            let way = self.at - from;
+            (row.direction, row.curvature, row.length) = (way.y.atan2(way.x), 0.0, way.length());
+        }
     }
 }
 
 impl Ahead<'_> {
-    /// The first thing that a way from a point meets.
-    fn first(&self, from: Vec2, path: &[Vec2]) -> Option<Hit> {
-        let (mut before, mut distance) = (from, 0.0);
-        for (segment, &to) in path.iter().enumerate() {
-            let nearest = self.meets([before, to]).min_by(|a, b| a.0.total_cmp(&b.0));
-            if let Some((_, at, fate)) = nearest {
-                // a tip beside the way is not on it
-                let distance = distance + (at - before).length();
-                return Some(Hit { segment, distance, at, fate });
-            }
-            (before, distance) = (to, distance + (to - before).length());
-        }
-        None
+    /// The first thing that a way meets.
+    fn first(&self, way: &Edge) -> Option<Hit> {
+        self.meets(way).min_by(|a, b| a.part.total_cmp(&b.part))
     }
 
-    /// Returns the obstacles that a segment meets: for each the part of the segment before it, the
-    /// place, and the status that the tip gets there.
-    fn meets(&self, s: Segment) -> impl Iterator<Item = (f64, Vec2, TipStatus)> + '_ {
+    /// The obstacles that a way meets.
+    fn meets<'m>(&'m self, way: &'m Edge) -> impl Iterator<Item = Hit> + 'm {
         let domain = self.problem.domain();
         let near = touch(&domain.bounds);
-        let border = leaves(s, &domain.bounds).map(|(t, at)| (t, at, TipStatus::LeavesBody));
+        let border = leaves(way, &domain.bounds).map(|at| Hit::on_way(at, TipStatus::LeavesBody));
         let holes = (0u32..).zip(&domain.holes).filter_map(move |(k, hole)| {
             let fate =
                 if hole.is_outside() { TipStatus::LeavesBody } else { TipStatus::MeetsHole(k) };
-            enters(s, hole).map(|t| (t, on(s, t), fate))
+            enters(way, hole).map(|at| Hit::on_way(at, fate))
         });
         let others = (0u32..).zip(self.cracks).flat_map(move |(k, crack)| {
             let own = k == self.tip.crack;
             let fate = if own { TipStatus::MeetsItself } else { TipStatus::MeetsCrack(k) };
-            let segments = crack.points.windows(2).enumerate();
-            let others = segments.filter(move |(j, _)| !(own && self.is_last(crack, *j)));
+            let edges = crack.edges().enumerate();
+            let others = edges.filter(move |(j, _)| !(own && self.is_last(crack, *j)));
             others
-                .filter_map(move |(_, p)| crosses(s, [p[0], p[1]], near))
-                .map(move |(t, at)| (t, at, fate))
+                .filter_map(move |(_, edge)| crosses(way, &edge, near))
+                .map(move |at| Hit::on_way(at, fate))
         });
-        border.into_iter().chain(holes).chain(others).chain(self.tips(s))
+        border.into_iter().chain(holes).chain(others).chain(self.tips(way))
     }
 
-    /// The tips of other cracks beside a segment.
-    fn tips(&self, s: Segment) -> impl Iterator<Item = (f64, Vec2, TipStatus)> + '_ {
+    /// The tips of other cracks beside a way.
+    fn tips<'m>(&'m self, way: &'m Edge) -> impl Iterator<Item = Hit> + 'm {
         let others = tips(self.cracks).filter(|other| other.crack != self.tip.crack);
-        let (along, square) = (s[1] - s[0], (s[1] - s[0]).dot(s[1] - s[0]));
+        let start = way.end_tangents()[0];
         others.filter_map(move |other| {
             let at = self.cracks[other.crack as usize].end_point(other.end);
-            let t = ((at - s[0]).dot(along) / square).clamp(0.0, 1.0);
-            let is_near = distance(s, at) <= self.reach && (at - s[0]).dot(along) > 0.0;
-            is_near.then_some((t, at, TipStatus::MeetsCrack(other.crack)))
+            let is_near = way.distance(at) <= self.reach && (at - way.from).dot(start) > 0.0;
+            let (part, fate) = (way.closest_part(at), TipStatus::MeetsCrack(other.crack));
+            is_near.then_some(Hit { part, at, fate, is_beside: true })
         })
     }
 
-    /// True of the segment that ends at the tip.
-    fn is_last(&self, crack: &Crack, segment: usize) -> bool {
+    /// True of the edge that ends at the tip.
+    fn is_last(&self, crack: &Crack, edge: usize) -> bool {
         match self.tip.end {
-            End::Start => segment == 0,
-            End::Last => segment + 2 == crack.points.len(),
+            End::Start => edge == 0,
+            End::Last => edge + 2 == crack.points.len(),
         }
     }
 }
 
-fn on(s: Segment, t: f64) -> Vec2 {
-    s[0] + (s[1] - s[0]) * t
+/// The part of a way that begins in a box up to where it comes to its boundary, and the place
+/// exactly on it.
+fn leaves(way: &Edge, bounds: &Rect) -> Option<(f64, Vec2)> {
+    let walls = bounds.sides().map(Edge::segment);
+    let parts = walls.iter().flat_map(|wall| {
+        let parts = way.meets_curve(wall).into_iter().filter(|part| *part > 0.0 && *part <= 1.0);
+        parts.map(|part| (part, wall.closest_point(way.at(part))))
+    });
+    parts.min_by(|a, b| a.0.total_cmp(&b.0))
 }
 
-/// Where a segment that begins in a box comes to its boundary, and the place exactly on it.
-fn leaves(s: Segment, bounds: &Rect) -> Option<(f64, Vec2)> {
-    let step = s[1] - s[0];
-    let part = |from: f64, step: f64, min: f64, max: f64| {
-        let wall = if step > 0.0 { max } else { min };
-        (step != 0.0).then(|| ((wall - from) / step, wall)).filter(|(t, _)| *t <= 1.0)
-    };
-    let x = part(s[0].x, step.x, bounds.min.x, bounds.max.x);
-    let y = part(s[0].y, step.y, bounds.min.y, bounds.max.y);
-    let first_is_x = match (x, y) {
-        (Some((t, _)), Some((u, _))) => t <= u,
-        (x, _) => x.is_some(),
-    };
-    let (t, wall) = if first_is_x { x? } else { y? };
-    let mut at = on(s, t);
-    *(if first_is_x { &mut at.x } else { &mut at.y }) = wall;
-    Some((t, at.max(bounds.min).min(bounds.max)))
-}
-
-/// Where a segment that begins outside of a hole enters it.
-fn enters(s: Segment, hole: &Hole) -> Option<f64> {
-    match hole {
+/// The part of a way that begins outside of a hole up to where it enters it, and the place on the
+/// rim.
+fn enters(way: &Edge, hole: &Hole) -> Option<(f64, Vec2)> {
+    match *hole {
         Hole::Circle { center, radius } => {
-            // the nearer of both
-            let [t, _] = Line::through(s).meets_circle(*center, *radius)?;
-            let comes_nearer = (*center - s[0]).dot(s[1] - s[0]) > 0.0;
-            (comes_nearer && t <= 1.0).then_some(t.max(0.0))
+            let parts = way.meets_curve(&Edge::around(center, radius, [0.0, 1.0])).into_iter();
+            let mut parts = parts.filter(|part| (0.0..=1.0).contains(part));
+            let out = |part: f64| way.at(part) - center;
+            let first = parts.find(|part| out(*part).dot(way.tangent(*part)) < 0.0)?;
+            Some((first, center + out(first).unit() * radius))
         }
         Hole::Polygon { .. } => {
-            let hits = hole.sides().filter_map(|side| Some(crosses(s, side, 0.0)?.0));
-            hits.min_by(f64::total_cmp)
+            let hits = hole.edges().flat_map(|side| {
+                let at = move |[part, on_side]: [f64; 2]| (part, side.at(on_side));
+                way.meets(&side).into_iter().map(at)
+            });
+            hits.min_by(|a, b| a.0.total_cmp(&b.0))
         }
     }
 }
 
-/// Where a segment meets another one, or comes as near to it as what touches.
-fn crosses(s: Segment, other: Segment, near: f64) -> Option<(f64, Vec2)> {
-    let way = other[1] - other[0];
-    let [t, u] = Line::through(s).meets(&Line::through(other))?;
-    let slack = near / way.length();
-    let is_on = |x: f64, slack: f64| (-slack..=1.0 + slack).contains(&x);
-    (is_on(t, 0.0) && is_on(u, slack)).then(|| (t, other[0] + way * u.clamp(0.0, 1.0)))
+/// The part of a way up to where it meets an edge, or comes as near to it as what touches, and the
+/// place on that edge.
+fn crosses(way: &Edge, other: &Edge, near: f64) -> Option<(f64, Vec2)> {
+    let is_on = |part: &f64| (0.0..=1.0).contains(part) && other.distance(way.at(*part)) <= near;
+    let part = way.meets_curve(other).into_iter().find(is_on)?;
+    Some((part, other.closest_point(way.at(part))))
 }
 
 #[cfg(test)]
@@ -240,15 +230,45 @@ mod tests {
         let mut random = Random(2);
         for _ in 0..100 {
             let (direction, turn) = (random.between(-PI, PI), random.between(-0.3, 0.3));
-            let found = from_origin(&problem, direction, turn / 0.2, 0.2).path;
-            let last = found[found.len() - 1] - found[found.len() - 2];
+            let row = from_origin(&problem, direction, turn / 0.2, 0.2);
+            let [edge] = row.edges(Vec2::ZERO)[..] else { panic!("one arc") };
             let wanted = direction + turn;
-            assert!(last.unit().dot(vec2(wanted.cos(), wanted.sin())) > 1.0 - 1e-12);
-            let chord = 0.2 * (0.5 * turn).sin() / (0.5 * turn);
-            let middle = direction + 0.5 * turn;
-            let end = vec2(middle.cos(), middle.sin()) * chord;
-            assert!((found[found.len() - 1] - end).length() < 1e-12);
+            assert!(edge.end_tangents()[1].dot(vec2(wanted.cos(), wanted.sin())) > 1.0 - 1e-14);
+            assert!((edge.length() - 0.2).abs() < 1e-15);
         }
+    }
+
+    /// Arcs that leave the body, enter a hole or meet a crack end there with their own curvature.
+    #[test]
+    fn arcs_end_at_obstacles() {
+        let circle = Hole::Circle { center: vec2(0.5, 0.0), radius: 0.25 };
+        let walls: [&[[f64; 2]]; 2] = [&[[-0.5, 0.0], [0.0, 0.0]], &[[-0.9, 0.7], [0.9, 0.7]]];
+        let problem = plate(vec![circle], &walls);
+        let mut fates = [0; 3];
+        let mut random = Random(4);
+        for _ in 0..200 {
+            let (direction, curvature) = (random.between(-1.6, 1.6), random.between(-0.6, 0.6));
+            let row = from_origin(&problem, direction, curvature, 1.6);
+            let Some(&at) = row.path.first() else { continue };
+            let off = match row.fate {
+                TipStatus::LeavesBody => at.x.abs().max(at.y.abs()) - 1.0,
+                TipStatus::MeetsHole(0) => (at - vec2(0.5, 0.0)).length() - 0.25,
+                TipStatus::MeetsCrack(1) if at.x.abs() < 0.9 => at.y - 0.7,
+                _ => continue,
+            };
+            let [edge] = row.edges(Vec2::ZERO)[..] else { panic!("one arc") };
+            let way = vec2(direction.cos(), direction.sin());
+            assert!(off.abs() < 1e-15, "{row:?}");
+            assert!((edge.curvature() - curvature).abs() < 1e-13);
+            assert!((edge.end_tangents()[0] - way).length() < 1e-13, "{row:?}");
+            assert!((edge.length() - row.length).abs() < 1e-14);
+            fates[match row.fate {
+                TipStatus::LeavesBody => 0,
+                TipStatus::MeetsHole(_) => 1,
+                _ => 2,
+            }] += 1;
+        }
+        assert!(fates.iter().all(|n| *n > 10), "{fates:?}");
     }
 
     /// Ways end on rims of holes of either kind, whose places are known.
@@ -259,10 +279,8 @@ mod tests {
         for hole in [circle, Hole::polygon(points)] {
             let problem = plate(vec![hole], &[&[[-0.5, 0.0], [0.0, 0.0]]]);
             let found = from_origin(&problem, 0.0, 0.0, 0.3);
-            assert_eq!(
-                (found.fate, found.path.as_slice()),
-                (TipStatus::MeetsHole(0), &[vec2(0.25, 0.0)][..])
-            );
+            assert_eq!((found.fate, found.path.len()), (TipStatus::MeetsHole(0), 1));
+            assert!((found.path[0] - vec2(0.25, 0.0)).length() < 1e-15);
             let past = from_origin(&problem, 1.2, 0.0, 0.3);
             assert_eq!(past.fate, TipStatus::Grows);
         }

@@ -12,19 +12,31 @@ use std::f64::consts::{PI, TAU};
 /// The field of one mode as the interaction integral takes it, at a point in the tip's frame.
 #[derive(Clone, Copy)]
 pub(super) struct Auxiliary<R = f64> {
+    /// 𝓛uᵃ: uᵃ_,1 of a straight crack.
+    pub(super) derivative: [R; 2],
     /// ∇uᵃ_i
     pub(super) gradient: Gradients<R>,
-    /// ∇uᵃ_i,1, like r^(−3/2) at the tip, or r^(−2) of the force. Zero unless it was asked for.
+    /// ∇𝓛uᵃ, like r^(−3/2) at the tip, or r^(−2) of the force. Zero unless it was asked for.
     pub(super) along: Gradients<R>,
 }
 
-/// The body of the tip's material that the fields are in.
+impl<R: Real> Auxiliary<R> {
+    /// The field of a straight crack.
+    #[inline(always)]
+    fn new(gradient: Gradients<R>, along: Gradients<R>) -> Self {
+        Self { derivative: [gradient[0][0], gradient[1][0]], gradient, along }
+    }
+}
+
+/// The body of the tip's material that the fields are in, and the crack's curvature there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TipMaterialBody {
     /// λ and μ of the plane law.
     pub(super) moduli: Coefficients,
     /// Kolosov's κ.
-    kappa: f64,
+    pub(super) kolosov: f64,
+    /// The curvature of the crack at the tip, positive to the left.
+    pub(super) curvature: f64,
     /// E′
     pub(super) modulus: f64,
     /// 1 / (2μ √(2π)) and 1 / (8πμ).
@@ -32,15 +44,24 @@ pub(super) struct TipMaterialBody {
 }
 
 impl TipMaterialBody {
-    pub(super) fn new(material: &Material) -> Self {
+    pub(super) fn new(material: &Material, curvature: f64) -> Self {
         let (lambda, mu) = (material.lambda(), material.mu());
         let scale = [0.5 / (mu * TAU.sqrt()), 0.125 / (PI * mu)];
-        let (kappa, modulus) = (material.kolosov(), material.effective_young());
-        Self { moduli: [lambda, mu], kappa, modulus, scale }
+        let (kolosov, modulus) = (material.kolosov(), material.effective_young());
+        Self { moduli: [lambda, mu], kolosov, curvature, modulus, scale }
     }
 
-    /// The fields with K_I = 1 and with K_II = 1 and that of the force, with derivatives up to `D`:
-    /// 1 for the gradient alone, 2 for its derivative along the crack.
+    /// The fields at a point.
+    pub(super) fn fields_at(&self, point: &TipPoint<f64>) -> [Auxiliary; MODES] {
+        if self.curvature == 0.0 {
+            self.fields::<f64, 1>(point)
+        } else {
+            self.arc_fields::<f64, 1>(point)
+        }
+    }
+
+    /// The fields of a straight crack with K_I = 1 and with K_II = 1 and that of the force, with
+    /// derivatives up to `D`: 1 for the gradient alone, 2 for its derivative along the crack.
     #[inline(always)]
     pub(super) fn fields<R: Real, const D: usize>(
         &self,
@@ -53,8 +74,8 @@ impl TipMaterialBody {
             along = self.modes([f1.xx, f1.xy], [f2.xx, f2.xy], [f3.xx, f3.xy], [f4.xx, f4.xy]);
         }
         [
-            Auxiliary { gradient: one, along: along[0] },
-            Auxiliary { gradient: two, along: along[1] },
+            Auxiliary::new(one, along[0]),
+            Auxiliary::new(two, along[1]),
             self.point_force::<R, D>(point),
         ]
     }
@@ -64,7 +85,7 @@ impl TipMaterialBody {
     #[inline(always)]
     fn modes<R: Real>(&self, f1: [R; 2], f2: [R; 2], f3: [R; 2], f4: [R; 2]) -> [Gradients<R>; 2] {
         let scale = self.scale[0];
-        let (a, b) = (scale * (self.kappa - 1.0), scale * (self.kappa + 1.0));
+        let (a, b) = (scale * (self.kolosov - 1.0), scale * (self.kolosov + 1.0));
         let (f1, f2) = (times(f1, a), times(f2, b));
         let (f3, f4) = (times(f3, scale), times(f4, scale));
         [[plus(f1, f3), minus(f2, f4)], [plus(f2, f4), minus(f3, f1)]]
@@ -82,7 +103,7 @@ impl TipMaterialBody {
     /// that of one angle everywhere.
     #[inline(always)]
     fn point_force<R: Real, const D: usize>(&self, point: &TipPoint<R>) -> Auxiliary<R> {
-        let (kappa, scale, one) = (self.kappa, self.scale[1], point.x.broadcast(1.0));
+        let (kappa, scale, one) = (self.kolosov, self.scale[1], point.x.broadcast(1.0));
         let inverse = one / (point.x * point.x + point.y * point.y);
         let (x, y) = (point.x * inverse, point.y * inverse);
         // cos² θ, sin² θ, sin θ cos θ
@@ -111,7 +132,7 @@ impl TipMaterialBody {
                 [second[0] * inverse, second[1] * inverse],
             ];
         }
-        Auxiliary { gradient, along }
+        Auxiliary::new(gradient, along)
     }
 }
 
@@ -176,7 +197,7 @@ mod tests {
             for (x, y) in [(0.3, 0.4), (-0.7, 0.2), (-0.5, -0.6), (0.2, -0.9), (0.6, 0.0)] {
                 let h = 1e-5;
                 let at = |dx: f64, dy: f64| {
-                    TipMaterialBody::new(&material).fields::<f64, 2>(&point(x + dx, y + dy))
+                    TipMaterialBody::new(&material, 0.0).fields::<f64, 2>(&point(x + dx, y + dy))
                 };
                 let own = at(0.0, 0.0);
                 let [e, w, n, s] = [[h, 0.0], [-h, 0.0], [0.0, h], [0.0, -h]];

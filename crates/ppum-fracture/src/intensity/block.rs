@@ -73,6 +73,13 @@ impl<'b> PointBlock<'b> {
             [tip.gradient(u, tip.axis), tip.elastic(u, place, tip.axis)]
         };
         let gradients: Vec<_> = self.offsets.iter().zip(jets.chunks_exact(2)).map(at).collect();
+        let derivatives = self.is_curved().then(|| {
+            let points = self.offsets.iter().zip(jets.chunks_exact(2));
+            let at = |(&offset, u)| {
+                self.tip.turned_field(u, self.anchor + offset, self.tip.axis).derivative
+            };
+            points.map(at).collect()
+        });
         let energies = self.locals.as_ref().map(|locals| {
             let points = self.offsets.iter().zip(locals).zip(jets.chunks_exact(2));
             let source = |((&offset, local), u): ((&Vec2, &PointTerms), _)| {
@@ -81,13 +88,17 @@ impl<'b> PointBlock<'b> {
             points.map(source).collect()
         });
         let sums =
-            f64::dispatch(BlockSums { block: self, weights, gradients: &gradients, energies });
+            f64::dispatch(BlockSums { block: self, weights, gradients, derivatives, energies });
         let mut integrals =
             Integrals { j: -sums[SUMS - 2], energy: sums[SUMS - 1], ..Integrals::default() };
         for (modes, sums) in integrals.modes.iter_mut().zip(sums.chunks_exact(MODES)) {
             modes.copy_from_slice(sums);
         }
         integrals
+    }
+
+    fn is_curved(&self) -> bool {
+        self.tip.body.curvature != 0.0
     }
 
     /// G of both modes, times the weights.
@@ -102,6 +113,19 @@ impl<'b> PointBlock<'b> {
         let at = |k: usize| self.offsets[(first + k).min(self.offsets.len() - 1)];
         let offset = [zero.with_lanes(|k| at(k).x), zero.with_lanes(|k| at(k).y)];
         self.local_tip.point(offset, Side::Above)
+    }
+
+    /// The auxiliary fields at these points.
+    #[inline(always)]
+    fn auxiliary<R: Real<Scalar = f64>, const D: usize, const CURVED: bool>(
+        &self,
+        point: &TipPoint<R>,
+    ) -> [Auxiliary<R>; MODES] {
+        if CURVED {
+            self.tip.body.arc_fields::<R, D>(point)
+        } else {
+            self.tip.body.fields::<R, D>(point)
+        }
     }
 
     /// The coefficients of the law and the force at these points.
@@ -122,6 +146,8 @@ impl<'b> PointBlock<'b> {
 struct FieldSample<R> {
     point: TipPoint<R>,
     u: Gradients<R>,
+    /// 𝓛u: u_,1 at a straight crack.
+    derivative: [R; 2],
     /// The part of ∇u that has stress.
     elastic: Gradients<R>,
     moduli: Coefficients<R>,
@@ -136,9 +162,10 @@ struct Integrands<R> {
 }
 
 impl<R: Real> FieldSample<R> {
-    /// The integrands in a body that has the constants `moduli` at the tip.
+    /// The integrands in a body that has the constants `moduli` at the tip; `CURVED` where that is
+    /// on an arc.
     #[inline(always)]
-    fn integrands<const D: usize>(
+    fn integrands<const D: usize, const CURVED: bool>(
         &self,
         moduli: Coefficients,
         auxiliary: &[Auxiliary<R>; MODES],
@@ -150,6 +177,12 @@ impl<R: Real> FieldSample<R> {
         for (mode, auxiliary) in auxiliary.iter().enumerate() {
             let ([a, b], [c, d]) = (auxiliary.gradient, through);
             flows[mode] = c[0] * a[0] + c[1] * a[1] + (d[0] * b[0] + d[1] * b[1]);
+            if CURVED {
+                let (along, [x, y]) = (auxiliary.derivative, [self.point.x, self.point.y]);
+                let flow = |i: usize| own[i][0] * x + own[i][1] * y;
+                flows[mode] =
+                    flows[mode] + (flow(0) * (along[0] - a[0]) + flow(1) * (along[1] - b[0]));
+            }
             if D >= 2 {
                 sources[mode] = self.divergence(&own, &at_tip, auxiliary);
             }
@@ -157,9 +190,9 @@ impl<R: Real> FieldSample<R> {
         Integrands { flows, sources, stress: own }
     }
 
-    /// Returns P_j x_j in terms of ∇uᵃ: with σᵃ_ij u_i,1 x_j = C:(u_,1 x) on ∇uᵃ, and P_j = σ_ij
-    /// uᵃ_i,1 + σᵃ_ij u_i,1 − σᵃ_ik ε_ik δ_1j, where σᵃ_ik ε_ik is the stress that the tip's
-    /// material would have, on εᵃ.
+    /// Returns P_j x_j in terms of ∇uᵃ: with σᵃ_ij 𝓛u_i x_j = C:(𝓛u x) on ∇uᵃ, and P_j = σ_ij
+    /// uᵃ_i,1 + σᵃ_ij 𝓛u_i − σᵃ_ik ε_ik w_j, where σᵃ_ik ε_ik is the stress that the tip's material
+    /// would have, on εᵃ, and w_j x_j = x.
     #[inline(always)]
     fn through(
         &self,
@@ -167,8 +200,8 @@ impl<R: Real> FieldSample<R> {
         at_tip: &Gradients<R>,
         moduli: Coefficients<R>,
     ) -> Gradients<R> {
-        let (x, y, u) = (self.point.x, self.point.y, &self.u);
-        let dual = stress(moduli, &[[x * u[0][0], y * u[0][0]], [x * u[1][0], y * u[1][0]]]);
+        let (x, y, [u, v]) = (self.point.x, self.point.y, self.derivative);
+        let dual = stress(moduli, &[[x * u, y * u], [x * v, y * v]]);
         let ([a, b], [c, d], [s, t]) = (own, dual, at_tip);
         [
             [a[0] * x + a[1] * y + c[0] - x * s[0], c[1] - x * s[1]],
@@ -176,23 +209,23 @@ impl<R: Real> FieldSample<R> {
         ]
     }
 
-    /// P_j,j = σ_ij (S_tip − S)_ijkl σᵃ_kl,1 − b_i uᵃ_i,1 with the compliance S, written without
-    /// it: what σ exceeds the stress of the tip's material by, on εᵃ,_1.
+    /// P_j,j = σ_ij (S_tip − S)_ijkl 𝓛σᵃ_kl − b_i 𝓛uᵃ_i with the compliance S, written without it:
+    /// what σ exceeds the stress of the tip's material by, on 𝓛εᵃ.
     #[inline(always)]
     fn divergence(&self, own: &Gradients<R>, at_tip: &Gradients<R>, auxiliary: &Auxiliary<R>) -> R {
         let ([a, b], [s, t]) = (own, at_tip);
         let excess = [[a[0] - s[0], a[1] - s[1]], [b[0] - t[0], b[1] - t[1]]];
-        let [a, b] = auxiliary.gradient;
-        work(&excess, &auxiliary.along) - (self.force[0] * a[0] + self.force[1] * b[0])
+        let [a, b] = auxiliary.derivative;
+        work(&excess, &auxiliary.along) - (self.force[0] * a + self.force[1] * b)
     }
 }
 
-/// E_j x_j with E_j = W δ_1j − σ_ij u_i,1 and W = ½ σ_ij (u_i,j − ε⁰_ij): the flow of energy whose
+/// E_j x_j with E_j = W w_j − σ_ij 𝓛u_i and W = ½ σ_ij (u_i,j − ε⁰_ij): the flow of energy whose
 /// integral round a tip is J.
 #[inline(always)]
 fn energy_flow<R: Real>(stress: &Gradients<R>, sample: &FieldSample<R>) -> R {
-    let FieldSample { point, u, elastic, .. } = sample;
-    let flow = |j: usize| stress[0][j] * u[0][0] + stress[1][j] * u[1][0];
+    let FieldSample { point, derivative: [u, v], elastic, .. } = sample;
+    let flow = |j: usize| stress[0][j] * *u + stress[1][j] * *v;
     (work(stress, elastic) * point.x.broadcast(0.5) - flow(0)) * point.x - flow(1) * point.y
 }
 
@@ -201,7 +234,9 @@ struct BlockSums<'b> {
     block: &'b PointBlock<'b>,
     weights: &'b [f64],
     /// ∇u and its part that has stress.
-    gradients: &'b [[Gradients; 2]],
+    gradients: Vec<[Gradients; 2]>,
+    /// 𝓛u at a tip on an arc.
+    derivatives: Option<Vec<[f64; 2]>>,
     /// E_j,j, if it is not zero.
     energies: Option<Vec<f64>>,
 }
@@ -211,16 +246,24 @@ impl LaneJob<f64> for BlockSums<'_> {
 
     #[inline(always)]
     fn run<R: Real<Scalar = f64>>(self, zero: R) -> [f64; SUMS] {
-        if self.block.locals.is_some() { self.over::<R, 2>(zero) } else { self.over::<R, 1>(zero) }
+        match (self.block.locals.is_some(), self.block.is_curved()) {
+            (false, false) => self.over::<R, 1, false>(zero),
+            (true, false) => self.over::<R, 2, false>(zero),
+            // derivatives of the fields on arcs cost little beside the rest
+            (_, true) => self.over::<R, 2, true>(zero),
+        }
     }
 }
 
 impl BlockSums<'_> {
     #[inline(always)]
-    fn over<R: Real<Scalar = f64>, const D: usize>(&self, zero: R) -> [f64; SUMS] {
+    fn over<R: Real<Scalar = f64>, const D: usize, const CURVED: bool>(
+        &self,
+        zero: R,
+    ) -> [f64; SUMS] {
         let mut sums = [0.0; SUMS];
         for first in (0..self.weights.len()).step_by(R::LANES) {
-            let densities = self.densities::<R, D>(first, zero);
+            let densities = self.densities::<R, D, CURVED>(first, zero);
             for (sum, density) in sums.iter_mut().zip(densities) {
                 let lanes = density.lanes();
                 for (weight, density) in self.weights[first..].iter().zip(&lanes[..R::LANES]) {
@@ -233,7 +276,11 @@ impl BlockSums<'_> {
 
     /// The integrands at the points from one on.
     #[inline(always)]
-    fn densities<R: Real<Scalar = f64>, const D: usize>(&self, first: usize, zero: R) -> [R; SUMS] {
+    fn densities<R: Real<Scalar = f64>, const D: usize, const CURVED: bool>(
+        &self,
+        first: usize,
+        zero: R,
+    ) -> [R; SUMS] {
         let PointBlock { tip, .. } = self.block;
         let at = |k: usize| (first + k).min(self.weights.len() - 1);
         let (moduli, force) = self.block.locals(first, zero);
@@ -241,10 +288,14 @@ impl BlockSums<'_> {
             zero.with_lanes(|k| self.gradients[at(k)][part][i][j])
         };
         let [u, elastic] = [0, 1].map(|p| [0, 1].map(|i| [0, 1].map(|j| part(p, i, j))));
-        let sample =
-            FieldSample { point: self.block.points(first, zero), u, elastic, moduli, force };
-        let auxiliary = tip.body.fields::<R, D>(&sample.point);
-        let of = sample.integrands::<D>(tip.body.moduli, &auxiliary);
+        let derivative = match &self.derivatives {
+            Some(all) if CURVED => [0, 1].map(|i| zero.with_lanes(|k| all[at(k)][i])),
+            _ => [u[0][0], u[1][0]],
+        };
+        let point = self.block.points(first, zero);
+        let sample = FieldSample { point, u, derivative, elastic, moduli, force };
+        let auxiliary = self.block.auxiliary::<R, D, CURVED>(&sample.point);
+        let of = sample.integrands::<D, CURVED>(tip.body.moduli, &auxiliary);
         let source = match &self.energies {
             Some(energies) => zero.with_lanes(|k| energies[at(k)]),
             None => zero,
@@ -276,16 +327,25 @@ impl LaneJob<f64> for Kernels<'_> {
 
     #[inline(always)]
     fn run<R: Real<Scalar = f64>>(self, zero: R) -> Self::Output {
-        if self.block.locals.is_some() { self.over::<R, 2>(zero) } else { self.over::<R, 1>(zero) }
+        match (self.block.locals.is_some(), self.block.is_curved()) {
+            (false, false) => self.over::<R, 1, false>(zero),
+            (true, false) => self.over::<R, 2, false>(zero),
+            (_, true) => self.over::<R, 2, true>(zero),
+        }
     }
 }
 
 impl Kernels<'_> {
     #[inline(always)]
-    fn over<R: Real<Scalar = f64>, const D: usize>(&self, zero: R) -> Vec<[Stress; FACTORS]> {
+    fn over<R: Real<Scalar = f64>, const D: usize, const CURVED: bool>(
+        &self,
+        zero: R,
+    ) -> Vec<[Stress; FACTORS]> {
         let mut all = vec![[Stress::default(); FACTORS]; self.weights.len()];
         for (first, kernels) in (0..).step_by(R::LANES).zip(all.chunks_mut(R::LANES)) {
-            for (component, [x, y]) in self.densities::<R, D>(first, zero).into_iter().enumerate() {
+            for (component, [x, y]) in
+                self.densities::<R, D, CURVED>(first, zero).into_iter().enumerate()
+            {
                 for (mode, (x, y)) in x.into_iter().zip(y).enumerate() {
                     let (x, y) = (x.lanes(), y.lanes());
                     for (k, kernel) in kernels.iter_mut().enumerate() {
@@ -300,7 +360,7 @@ impl Kernels<'_> {
 
     /// Returns the integrands of both modes for a gradient of one, for each component and axis.
     #[inline(always)]
-    fn densities<R: Real<Scalar = f64>, const D: usize>(
+    fn densities<R: Real<Scalar = f64>, const D: usize, const CURVED: bool>(
         &self,
         first: usize,
         zero: R,
@@ -308,9 +368,11 @@ impl Kernels<'_> {
         let PointBlock { tip, .. } = self.block;
         let (moduli, force) = self.block.locals(first, zero);
         let point = self.block.points(first, zero);
-        let auxiliary = tip.body.fields::<R, D>(&point);
+        let auxiliary = self.block.auxiliary::<R, D, CURVED>(&point);
         let (q, slope) = flat_cut_off(square(&point), tip.radii[RINGS - 1]);
         let halves = tip.halves().map(|halves| zero.broadcast(0.5 * tip.modulus() * halves));
+        let bend = zero.broadcast(tip.body.curvature);
+        let at_tip = tip.body.moduli.map(|constant| zero.broadcast(constant));
         let mut densities = [[[zero; FACTORS]; 2]; 2];
         for (component, of_component) in densities.iter_mut().enumerate() {
             for (axis, of_modes) in of_component.iter_mut().enumerate() {
@@ -319,17 +381,36 @@ impl Kernels<'_> {
                     [zero.broadcast(a), zero.broadcast(b)],
                     [zero.broadcast(c), zero.broadcast(d)],
                 ];
-                let of = FieldSample { point, u, elastic: u, moduli, force }
-                    .integrands::<D>(tip.body.moduli, &auxiliary);
-                for ((density, half), (flow, source)) in
-                    of_modes.iter_mut().zip(halves).zip(of.flows.iter().zip(of.sources))
-                {
-                    *density = half * (slope * *flow + q * source);
+                let derivative = if CURVED { moved(&point, &u, bend) } else { [u[0][0], u[1][0]] };
+                let of = FieldSample { point, u, derivative, elastic: u, moduli, force }
+                    .integrands::<D, CURVED>(tip.body.moduli, &auxiliary);
+                for (mode, density) in of_modes.iter_mut().enumerate() {
+                    let mut source = of.sources[mode];
+                    if CURVED {
+                        let of_mode = stress(at_tip, &auxiliary[mode].gradient);
+                        source = source + bend * turning(&of_mode, &u);
+                    }
+                    *density = halves[mode] * (slope * of.flows[mode] + q * source);
                 }
             }
         }
         densities
     }
+}
+
+/// (w·∇) u: 𝓛u without the part that has no derivative of u.
+#[inline(always)]
+fn moved<R: Real>(point: &TipPoint<R>, u: &Gradients<R>, curvature: R) -> [R; 2] {
+    let (along, across) = (curvature.broadcast(1.0) - curvature * point.y, curvature * point.x);
+    u.map(|row| row[0] * along + row[1] * across)
+}
+
+/// σ : ∇(e₃ × u), which times q c stands for what [`moved`] leaves out: −σ_ij c (e₃ × u)_i q_,j
+/// integrated by parts, since σ is in equilibrium and leaves the faces free.
+#[inline(always)]
+fn turning<R: Real>(stress: &Gradients<R>, u: &Gradients<R>) -> R {
+    let part = |j: usize| stress[1][j] * u[0][j] - stress[0][j] * u[1][j];
+    part(0) + part(1)
 }
 
 /// The gradient of a component along an axis, in the tip's frame.

@@ -13,9 +13,11 @@
 
 use super::block::PointBlock;
 use super::integral::Interaction;
+use super::path::PathSegment;
 use super::resolve::Integration;
 use super::sums::Integrals;
-use ppum::crack::{SegmentId, Side};
+use ppum::crack::{End, SegmentId, Side};
+use ppum::edge::Edge;
 use ppum::jet::Jet;
 use ppum::mesh::ElementField;
 use ppum::progress::Cancelled;
@@ -151,10 +153,13 @@ impl Interaction<'_> {
             |[x, y]: [Vec2; 2]| (x - first[0]).length() + (y - first[1]).length() <= SAME * size;
         let is_linear = corners.iter().map(columns).all(is_first);
         let mut polygons = vec![corners];
-        for part in self.path.parts().filter(|_| is_linear) {
+        // an arc follows sides of elements: nothing else has a slit that bends
+        for PathSegment { edge, .. } in
+            self.path.parts().filter(|part| is_linear && !part.edge.is_arc())
+        {
             polygons = polygons
                 .into_iter()
-                .flat_map(|polygon| self.cut(element, polygon, part.ends))
+                .flat_map(|polygon| self.cut(element, polygon, [edge.from, edge.to]))
                 .collect();
         }
         let is_tip = |p: &Vec2| element.point(*p).offset.length() <= SAME * self.largest();
@@ -184,39 +189,39 @@ impl Interaction<'_> {
     /// The integrals over both faces of the crack behind its kinks, and of loaded ones.
     fn faces_on_mesh(&self, scale: &Integrals) -> Integrals {
         let mut sums = Integrals::default();
-        for (part, ends) in self.pieces_of_faces() {
-            let integral = |ends: &[Vec2; 2]| {
+        for (part, edge) in self.pieces_of_faces() {
+            let integral = |edge: &Edge| {
                 let of_side = |side| {
-                    let rule = self.face_rule(*ends, part.segment, side);
+                    let rule = self.face_rule(edge, part.segment, side);
                     self.on_face(&part, &rule, &self.beside(&rule, side), &[])
                 };
                 of_side(Side::Above).plus(of_side(Side::Below))
             };
-            let whole = integral(&ends);
+            let whole = integral(&edge);
             let (at, most) = (self.center, LEAST);
             let integration = Integration { integral: &integral, scale, at, most };
-            sums = sums.plus(integration.resolve((ends, whole), |[a, b]| {
-                let middle = (*a + *b) * 0.5;
-                [[*a, middle], [middle, *b]]
-            }));
+            let halves = |edge: &Edge| [[0.0, 0.5], [0.5, 1.0]].map(|parts| edge.part(parts));
+            sums = sums.plus(integration.resolve((edge, whole), halves));
         }
         sums
     }
 
-    /// The rule on a part of a face.
-    fn face_rule(&self, ends: [Vec2; 2], segment: u32, side: Side) -> EdgeRule {
+    /// The rule on a part of a face, given by the edge that leads away from the tip.
+    pub(super) fn face_rule(&self, edge: &Edge, segment: u32, side: Side) -> EdgeRule {
         let segment = SegmentId { crack: self.path.tip().crack, segment };
-        let points = &self.field.step.cracks[segment.crack as usize].points;
-        let [first, last] = [0, 1].map(|k| points[segment.segment as usize + k]);
-        let left = (last - first).unit().left();
-        let normal = if side == Side::Above { -left } else { left };
-        let [from, way] = [ends[0] - self.center, ends[1] - ends[0]];
+        // the left of the crack's direction is that of its last tip
+        let left = if self.path.tip().end == End::Start { 1.0 } else { -1.0 };
+        let out = if side == Side::Above { -left } else { left };
         let nodes = gauss(ORDER).on(0.0, 1.0);
-        let (offsets, weights): (Vec<_>, Vec<_>) =
-            nodes.map(|(t, dt)| (from + way * t, dt * way.length())).unzip();
+        let node = |(t, dt): (f64, f64)| {
+            let offset = (edge.from - self.center) + edge.way(t);
+            (offset, (dt * edge.length(), edge.tangent(t).left() * out))
+        };
+        let (offsets, others): (Vec<_>, Vec<_>) = nodes.map(node).unzip();
+        let (weights, normals) = others.into_iter().unzip();
         EdgeRule {
             anchor: self.center,
-            normals: vec![normal; offsets.len()],
+            normals,
             offsets,
             weights,
             patches: Vec::new(),

@@ -1,13 +1,13 @@
 //! The integrals over the faces of the crack with the field there: of the interaction integral the
 //! part behind kinks and that of faces that touch; of J the whole, with the tractions of loads.
 
-use super::auxiliary::{Auxiliary, stress, work};
-use super::integral::Interaction;
+use super::auxiliary::{stress, work};
+use super::integral::{Interaction, TurnedField};
 use super::path::{CrackPiece, PathSegment};
 use super::sums::{Gradients, Integrals, cut_off, square, turned};
 use ppum::crack::{SegmentId, Side};
 use ppum::jet::Jet;
-use ppum::vec2::{Vec2, vec2};
+use ppum::vec2::Vec2;
 use ppum_solve::quadrature::{CrackFace, EdgeRule, Quadrature};
 
 impl Interaction<'_> {
@@ -17,7 +17,8 @@ impl Interaction<'_> {
         let mut sums = Integrals::default();
         for side in [Side::Above, Side::Below] {
             let face = CrackFace { segment, side };
-            for rule in quadrature.part_of_face(self.space.cell(bend.cell), bend.ends, face) {
+            let ends = [bend.edge.from, bend.edge.to];
+            for rule in quadrature.part_of_face(self.space.cell(bend.cell), ends, face) {
                 sums = sums.plus(self.along(bend, face, &rule));
                 sums.doubt.add(&rule.doubt);
             }
@@ -57,27 +58,34 @@ impl Interaction<'_> {
             let point = tip.point([offset.x, offset.y], side);
             let world = rule.anchor + *offset;
             let elastic = self.elastic(u, (world, Some((segment, side))), tip.axis);
-            let (u, normal) = (self.gradient(u, tip.axis), turned(tip.axis, (*normal).into()));
-            let parts = self.auxiliary(&point).map(|Auxiliary { gradient: [a, b], .. }| {
-                -self.crossing(&u, &[a, b], normal) - (t.x * a[0] + t.y * b[0])
+            let normal = turned(tip.axis, (*normal).into());
+            let (of, way) = (self.turned_field(u, world, tip.axis), self.way(world));
+            let parts = self.body.fields_at(&point).map(|auxiliary| {
+                let [a, b] = auxiliary.derivative;
+                -self.crossing(&of, &auxiliary.gradient, way, normal) - (t.x * a + t.y * b)
             });
             let part = |radius: f64| parts.map(|m| cut_off(square(&point), radius).0 * m);
             let modes = self.radii.map(part);
             let q = cut_off(square(&point), self.largest()).0;
             let traction = self.traction(side, world, tip.axis) + t;
             let energy = 0.5 * work(&stress(self.moduli(world), &elastic), &elastic);
-            // E_j n_j = W n_1 − t_i u_i,1
-            let j = q * (energy * normal.x - traction.dot(vec2(u[0][0], u[1][0])));
+            // E_j n_j = W w·n − t_i 𝓛u_i
+            let j = q * (energy * way.dot(normal) - traction.dot(of.derivative.into()));
             sums = sums.plus(Integrals { modes, j, ..Integrals::default() }.times(weight));
         }
         sums
     }
 
-    /// σᵃ_i2 ∂u_i/∂s, with s along the face so that the normal points to its left: what P_j n_j is
-    /// except for the traction's part.
-    fn crossing(&self, u: &Gradients, aux: &Gradients, normal: Vec2) -> f64 {
+    /// σᵃ_ij ((e₃ × w)_j ∂u_i/∂s − c n_j (e₃ × u)_i), with s along the face so that the normal
+    /// points to its left, and the curvature c: what P_j n_j is except for the traction's part.
+    fn crossing(&self, of: &TurnedField, aux: &Gradients, way: Vec2, normal: Vec2) -> f64 {
         let (stress, along) = (stress(self.body.moduli, aux), -normal.left());
-        (0..2).map(|i| stress[i][1] * Vec2::from(u[i]).dot(along)).sum()
+        let traction = stress.map(|row| Vec2::from(row).dot(normal));
+        let turned = Vec2::from(traction).dot(of.displacement.left()) * self.body.curvature;
+        let across = |i: usize| Vec2::from(stress[i]).dot(way.left());
+        let stretched =
+            (0..2).map(|i| across(i) * Vec2::from(of.gradient[i]).dot(along)).sum::<f64>();
+        stretched - turned
     }
 
     /// The traction of a load on a face in the tip's frame.

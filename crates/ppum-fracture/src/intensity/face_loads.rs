@@ -6,6 +6,7 @@ use super::loads::TipLoads;
 use super::path::{PathSegment, TipPath};
 use super::sums::{Modes, cut_off, square, turned};
 use ppum::crack::{LocalTip, Side};
+use ppum::edge::Edge;
 use ppum::vec2::vec2;
 use ppum_problem::Symmetry;
 use ppum_solve::quadrature::{GaussRule, closed, gauss};
@@ -63,7 +64,7 @@ pub(super) struct TipFaces<'a> {
 }
 
 impl TipFaces<'_> {
-    /// −∫ t_i uᵃ_i,1 q ds over both faces, or over the one in the body. Panels are divided until
+    /// −∫ t_i 𝓛uᵃ_i q ds over both faces, or over the one in the body. Panels are divided until
     /// they resolve the load, which may bend or jump anywhere.
     pub(super) fn integrals(&self) -> Modes {
         self.path.parts().map(|part| self.part(&part)).fold(zero(), plus)
@@ -75,12 +76,19 @@ impl TipFaces<'_> {
 
     /// The distances to the tip at which a part has to be divided for its loads.
     pub(super) fn breaks(&self, part: &PathSegment) -> Vec<f64> {
-        let [from, to] = part.ends.map(|p| p - self.path.center());
+        let edge = self.relative(part);
         let along = |s: f64| if part.is_first { s * s } else { s };
         let panels = self.resolved(part);
         let thinned = panels.len() / MOST_BREAKS + 1;
         let panels = panels.into_iter().step_by(thinned);
-        panels.map(|([start, _], _)| (from + (to - from) * along(start)).length()).collect()
+        panels.map(|([start, _], _)| (edge.from + edge.way(along(start))).length()).collect()
+    }
+
+    /// The edge of a part as seen from the tip.
+    fn relative(&self, part: &PathSegment) -> Edge {
+        let Edge { from, to, bulge } = part.edge;
+        let center = self.path.center();
+        Edge { from: from - center, to: to - center, bulge }
     }
 
     /// Panels that resolve the loads on a part.
@@ -131,7 +139,7 @@ impl TipFaces<'_> {
         [from, to]: [f64; 2],
         rule: &GaussRule,
     ) -> Modes {
-        let length = (part.ends[1] - part.ends[0]).length();
+        let length = part.edge.length();
         let node = |(s, ds): (f64, f64)| {
             let (along, slope) = if part.is_first { (s * s, 2.0 * s) } else { (s, 1.0) };
             self.at((part, tip), along).map(|modes| modes.map(|m| length * slope * ds * m))
@@ -139,17 +147,16 @@ impl TipFaces<'_> {
         rule.on(from, to).map(node).fold(zero(), plus)
     }
 
-    /// −t_i uᵃ_i,1 q of both faces, `along` going from 0 to 1 along the part.
+    /// −t_i 𝓛uᵃ_i q of both faces, `along` going from 0 to 1 along the part.
     fn at(&self, (part, tip): SegmentAtTip<'_>, along: f64) -> Modes {
-        let [from, to] = part.ends;
-        let offset = (from - self.path.center()) + (to - from) * along;
+        let offset = (part.edge.from - self.path.center()) + part.edge.way(along);
         let of_side = |side: Side| {
             let point = tip.point([offset.x, offset.y], side);
             let (crack, at) = (self.path.tip().crack, self.path.center() + offset);
             let traction = self.load.traction(crack, side, at).unwrap_or_default();
             let t = turned(tip.axis, traction);
-            let auxiliary = self.body.fields::<f64, 1>(&point);
-            let work = auxiliary.map(|a| t.x * a.gradient[0][0] + t.y * a.gradient[1][0]);
+            let auxiliary = self.body.fields_at(&point);
+            let work = auxiliary.map(|a| t.x * a.derivative[0] + t.y * a.derivative[1]);
             let q = |k: usize| cut_off(square(&point), self.radii[k]).0;
             std::array::from_fn(|k| work.map(|w| -q(k) * w))
         };
@@ -170,7 +177,7 @@ impl TipFaces<'_> {
 pub(super) fn pressed(path: &TipPath, load: &dyn TipLoads, half: Option<Symmetry>) -> Option<f64> {
     let first = path.parts().next()?;
     let loads = LOOKS.map(|part| {
-        let at = first.ends[0] + (first.ends[1] - first.ends[0]) * part;
+        let at = first.edge.from + first.edge.way(part);
         let tip = path.on(&first, at);
         [Side::Above, Side::Below].map(|side| {
             let traction = load.traction(path.tip().crack, side, at).unwrap_or_default();
@@ -224,13 +231,13 @@ mod tests {
     /// The integrals for a tip at (0.3, 0) at the right end of a crack.
     fn integrals(load: &dyn TipLoads) -> Modes {
         let points = vec![vec2(-0.5, 0.0), vec2(0.3, 0.0)];
-        let crack = Crack { points, ends: [CrackEnd::Tip; 2] };
+        let crack = Crack::polyline(points, [CrackEnd::Tip; 2]);
         let material = Material { young: 2.0, poisson: 0.2, state: StressState::PlaneStress };
         let tip = TipId { crack: 0, end: End::Last };
         let path = TipPath::new(&crack, tip, RADII[2]);
         TipFaces {
             path: &path,
-            body: &TipMaterialBody::new(&material),
+            body: &TipMaterialBody::new(&material, 0.0),
             radii: &RADII,
             load,
             is_balanced: true,

@@ -1,18 +1,19 @@
 //! The interaction integral over the cells of a space.
 
-use super::auxiliary::{Auxiliary, TipMaterialBody, difference};
+use super::auxiliary::{TipMaterialBody, difference, stress};
 use super::face_loads::{TipFaces, pressed};
 use super::loads::TipLoads;
 use super::path::{CrackPiece, PathSegment, TipPath};
-use super::sums::{Gradients, Integrals, MODES, Modes, RINGS, in_frame, tensor_in_frame, turned};
-use ppum::crack::{Side, TipId, TipPoint};
+use super::sums::{Gradients, Integrals, Modes, RINGS, in_frame, tensor_in_frame, turned};
+use ppum::crack::{Side, TipId};
 use ppum::dataset::{Ring, TipIntensity};
+use ppum::edge::Edge;
 use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
 use ppum::progress::{Cancelled, Phase, Watcher};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::Symmetry;
-use ppum_problem::geometry::{BoxList, around};
+use ppum_problem::geometry::BoxList;
 use ppum_solve::assembly::FACTORS;
 use ppum_solve::law::{Coefficients, EnergySlope, FaceLocation, Law, Strain};
 use ppum_solve::quadrature::{CellRule, Disc, EdgeRule, Quadrature, QuadratureErrorEstimate};
@@ -68,6 +69,8 @@ pub(super) struct Interaction<'a> {
     has_force: bool,
     /// The gradient without stress at the tip, in its frame. The field is taken without it.
     pub(super) shift: Gradients,
+    /// The displacement of the tip of a crack that is an arc there, in its frame.
+    origin: Vec2,
     /// How the material varies, as the J-integral needs it; none if it jumps in the discs.
     slope: Option<EnergySlope<'a>>,
     /// σ_22 at the tip by the loads on its faces; none if these have a resultant there.
@@ -92,12 +95,17 @@ impl<'a> Interaction<'a> {
         let crack = &field.step.cracks[tip.crack as usize];
         let path = TipPath::new(crack, tip, radii[RINGS - 1]);
         let center = path.center();
-        let body = TipMaterialBody::new(&field.equation.elastic()?.at(center));
+        let body = TipMaterialBody::new(&field.equation.elastic()?.at(center), path.curvature());
         let slope = EnergySlope::new(law.clone(), center, radii[RINGS - 1]);
         let axis = crack.growth_direction(tip.end);
         let free = law.at(center).elastic(&Strain::default()).in_plane().map(|row| -row);
         let is_finite = |g: &Gradients| g.as_flattened().iter().all(|e| e.is_finite());
         let shift = Some(tensor_in_frame(&free, axis)).filter(is_finite).unwrap_or_default();
+        let origin = if body.curvature == 0.0 {
+            Vec2::ZERO
+        } else {
+            turned(axis, displacement(field, center))
+        };
         let half = loads.symmetry(tip);
         let is_loaded = loads.traction(tip.crack, Side::Above, center).is_some();
         let pressed = if is_loaded { pressed(&path, loads, half) } else { Some(0.0) };
@@ -114,6 +122,7 @@ impl<'a> Interaction<'a> {
             center,
             axis,
             shift,
+            origin,
             radii,
             loads,
             has_force: loads.body_force(center).is_some(),
@@ -121,6 +130,12 @@ impl<'a> Interaction<'a> {
             pressed: pressed.map(|pressed| pressed + between),
             half,
         })
+    }
+
+    /// Takes the field relative to another displacement of the tip.
+    #[cfg(test)]
+    pub(super) fn set_origin(&mut self, displacement: [f64; 2]) {
+        self.origin = turned(self.axis, displacement);
     }
 
     pub(super) fn largest(&self) -> f64 {
@@ -145,25 +160,25 @@ impl<'a> Interaction<'a> {
         near.filter(move |&c| all[c].distance(self.center) < radius)
     }
 
-    /// The pieces of the crack that are not along the axis, or loaded, in all cells that they
-    /// may meet.
+    /// The pieces of the crack that are not part of the edge at the tip, or loaded, in all cells
+    /// that they may meet.
     fn crack_pieces(&self, cells: &BoxList<usize>) -> Vec<CrackPiece> {
-        let in_cells = |(part, ends): (PathSegment, [Vec2; 2])| {
-            let near = cells.near(&around(&ends));
-            near.map(move |&cell| CrackPiece { part, ends, cell }).collect::<Vec<_>>()
+        let in_cells = |(part, edge): (PathSegment, Edge)| {
+            let near = cells.near(&edge.bounds());
+            near.map(move |&cell| CrackPiece { part, edge, cell }).collect::<Vec<_>>()
         };
         self.pieces_of_faces().into_iter().flat_map(in_cells).collect()
     }
 
-    /// The pieces of the crack that are not along the axis, or loaded.
-    pub(super) fn pieces_of_faces(&self) -> Vec<(PathSegment, [Vec2; 2])> {
+    /// The pieces of the crack that are not part of the edge at the tip, or loaded.
+    pub(super) fn pieces_of_faces(&self) -> Vec<(PathSegment, Edge)> {
         let faces = self.faces();
         let mut all = Vec::new();
         let is_loaded = faces.is_some() || self.face_law.is_some();
         for part in self.path.parts().filter(|part| !part.is_first || is_loaded) {
             let loads = faces.as_ref().map_or_else(Vec::new, |faces| faces.breaks(&part));
             let at: Vec<f64> = loads.into_iter().chain(self.radii).collect();
-            all.extend(self.path.pieces(&part, &at).into_iter().map(|ends| (part, ends)));
+            all.extend(self.path.pieces(&part, &at).into_iter().map(|edge| (part, edge)));
         }
         all
     }
@@ -249,12 +264,45 @@ impl<'a> Interaction<'a> {
         tensor_in_frame(&law.elastic(&law.strain(u)).in_plane(), axis)
     }
 
-    /// E_j,j of the flow of energy: W_,1 at a fixed ∇u, and what the body force adds to it, b_i
-    /// u_i,1.
+    /// The direction w in which the crack goes on if it is turned about its centre of curvature, in
+    /// the tip's frame: along the axis at the tip, and along the arc.
+    pub(super) fn way(&self, world: Vec2) -> Vec2 {
+        vec2(1.0, 0.0)
+            + turned(self.axis, (world - self.center).into()).left() * self.body.curvature
+    }
+
+    /// The field at a point without what has no stress at the tip.
+    pub(super) fn turned_field(&self, u: &[Jet<f64>], world: Vec2, axis: Vec2) -> TurnedField {
+        let (gradient, way) = (self.gradient(u, axis), self.way(world));
+        let at = turned(axis, (world - self.center).into());
+        let along = |g: &Gradients, way: Vec2| Vec2::from(g.map(|row| Vec2::from(row).dot(way)));
+        let value = turned(axis, [u[0].v, u[1].v]) - self.origin;
+        let displacement = value - along(&self.shift, at);
+        let turned = displacement.left() * self.body.curvature;
+        TurnedField { displacement, derivative: (along(&gradient, way) - turned).into(), gradient }
+    }
+
+    /// E_j,j of the flow of energy: W_,w at a fixed ∇u, and what the body force adds to it,
+    /// b_i 𝓛u_i. Given strains that are not turned with the body do work, too.
     pub(super) fn energy_source(&self, world: Vec2, force: [f64; 2], u: &[Jet<f64>]) -> f64 {
-        let slope = self.slope.as_ref().map_or(0.0, |s| s.at(world, self.axis, u));
-        let shifted = self.gradient(u, self.axis);
-        slope + force[0] * shifted[0][0] + force[1] * shifted[1][0]
+        let of = self.turned_field(u, world, self.axis);
+        let way = self.way(world);
+        let way = self.axis * way.x + self.axis.left() * way.y;
+        let slope = self.slope.as_ref().map_or(0.0, |s| s.at(world, way, u));
+        let turned =
+            if self.body.curvature == 0.0 { 0.0 } else { self.turned_strain(&of, u, world) };
+        slope + force[0] * of.derivative[0] + force[1] * of.derivative[1] + turned
+    }
+
+    /// q σ : (e₃ × η − η × e₃) of the strain η that is given beyond that at the tip.
+    fn turned_strain(&self, of: &TurnedField, u: &[Jet<f64>], world: Vec2) -> f64 {
+        let elastic = self.elastic(u, (world, None), self.axis);
+        let stress = stress(self.moduli(world), &elastic);
+        let given = difference(&of.gradient, &elastic);
+        let shear = given[0][1] + given[1][0];
+        self.body.curvature
+            * (2.0 * stress[0][1] * (given[0][0] - given[1][1])
+                - shear * (stress[0][0] - stress[1][1]))
     }
 
     /// The coefficients of the law at a point.
@@ -262,12 +310,8 @@ impl<'a> Interaction<'a> {
         if self.law.is_uniform() { self.body.moduli } else { self.law.coefficients(world) }
     }
 
-    pub(super) fn auxiliary(&self, point: &TipPoint<f64>) -> [Auxiliary; MODES] {
-        self.body.fields::<f64, 1>(point)
-    }
-
     /// The part that does not come from the cells: the loads on the faces.
-    fn start(&self) -> Integrals {
+    pub(super) fn start(&self) -> Integrals {
         let modes = self.faces().map_or_else(Modes::default, |faces| faces.integrals());
         Integrals { modes, ..Integrals::default() }
     }
@@ -275,7 +319,7 @@ impl<'a> Interaction<'a> {
     /// K = E′/2 M, and T = E′M + σ_22. The part of the field that is constant at the tip adds ε_11
     /// by the work of the force, and σ_22 by the opening of its own field, u_2(−π) − u_2(π) = (κ −
     /// 1)/(4μ): together E′M = σ_11 − σ_22.
-    fn integrals(&self, integrals: &Integrals) -> TipIntegrals {
+    pub(super) fn integrals(&self, integrals: &Integrals) -> TipIntegrals {
         let (modulus, [one, two]) = (self.modulus(), self.halves());
         let integrals = &integrals.times(one.max(two));
         let [one, two] = [one, two].map(|halves| halves.min(1.0));
@@ -294,6 +338,21 @@ impl<'a> Interaction<'a> {
             doubt: integrals.doubt,
         }
     }
+}
+
+/// A field at a point in the frame of a tip, without the motion and the strain at the tip.
+pub(super) struct TurnedField {
+    pub(super) displacement: Vec2,
+    pub(super) gradient: Gradients,
+    /// 𝓛u, its change if it is turned with the crack: u_,1 where that is straight.
+    pub(super) derivative: [f64; 2],
+}
+
+/// The displacement at a point.
+fn displacement(field: &Field<'_>, at: Vec2) -> [f64; 2] {
+    let mut jets = vec![Jet::constant(0.0); field.components()];
+    field.at(at).evaluate::<0>(Vec2::ZERO, Side::Above, &mut jets);
+    [jets[0].v, jets[1].v]
 }
 
 /// Divisions of cells with formulas that vary fast, for all discs together. A cell in a layer takes

@@ -35,6 +35,25 @@
 //! on that side. Nothing else may lie in the disc: the radii are chosen in the [`TipClearance`] of
 //! the tip.
 //!
+//! At a tip on an arc of the curvature c the auxiliary fields are those that leave the arc's faces
+//! free (`arc_fields`), and instead of shifting the field along the axis, the arc is turned about
+//! its centre: with
+//!
+//! ```text
+//! w = e₁ + c e₃ × x     𝓛u = (w·∇) u − c e₃ × u
+//! ```
+//!
+//! in place of e₁ and of u_,1, and w_j in place of δ_1j, all that stands here holds for isotropic
+//! materials, whose law does not change if the body is turned. On the arc w·n = 0 and σᵃ n = 0: its
+//! faces add nothing, not even to J, unless they are loaded. Other edges behind it do,
+//!
+//! ```text
+//! −∫ P_j n_j q ds = −∫ (t_i 𝓛uᵃ_i + σᵃ_ij (e₃ × w)_j ∂u_i/∂s − c σᵃ_ij n_j (e₃ × u)_i) q ds
+//! ```
+//!
+//! with u relative to the tip, as in 𝓛u, so that T does not depend on how the body is shifted. The
+//! fields are singular at the centre, which no disc may come near.
+//!
 //! Faces that touch have the tractions that the field itself has there, evaluated at the points of
 //! the same rules as what kinks add; σ_22 at the tip is then the stress between them.
 //!
@@ -62,6 +81,7 @@
 //! J does not use auxiliary fields: J = G = (K_I² + K_II²)/E′ is a check. C is differentiated, so
 //! that there is no J where the material jumps in the disc.
 
+mod arc_fields;
 mod auxiliary;
 mod block;
 mod boundary;
@@ -75,6 +95,8 @@ mod path;
 mod resolve;
 mod sensitivity;
 mod sums;
+#[cfg(test)]
+mod tests;
 
 use boundary::boundary_distance;
 pub(crate) use cells::with_cells;
@@ -324,7 +346,7 @@ fn on_plain(
 /// False at a tip of a crack on the boundary of which no symmetry is known: nothing is known of its
 /// other half.
 fn is_half_known(dataset: &Dataset, crack: &Crack, symmetry: Option<Symmetry>) -> bool {
-    symmetry.is_some() || dataset.domain.line_along(&crack.points).is_none()
+    symmetry.is_some() || dataset.domain.line_along(crack).is_none()
 }
 
 /// The longest side of the cells that a point lies in.

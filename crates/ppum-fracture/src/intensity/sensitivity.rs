@@ -8,7 +8,8 @@
 //! cut-off q is flatter at the tip than that of the factors: their dual solutions go there like (1
 //! − q) r^(−1/2), which the space does not have, and 1 − q ~ r⁴ leaves less of it than r². The body
 //! force and the loads on faces add numbers that no error of the field changes. The contribution of
-//! faces behind kinks is left out: it is small beside the rest.
+//! faces behind kinks is left out: it is small beside the rest. On an arc the part of 𝓛u without a
+//! derivative is integrated by parts.
 
 use super::block::PointBlock;
 use super::integral::Interaction;

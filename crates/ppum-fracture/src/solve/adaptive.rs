@@ -54,21 +54,13 @@ impl<'p> Diagnosed<'p> {
         watcher: &dyn Watcher,
     ) -> Result<Result<Plan<'p>, StopReason>, SolveError> {
         let error = self.solved.report.estimated_error.unwrap_or(0.0);
-        let GoalError { of_cells, of_segments, cells: parts } = self.goal();
-        // cells take nothing of what segments err by
-        let is_out_of_reach = set.accuracy.is_some_and(|most| of_segments >= most);
-        let of_goal = match is_out_of_reach {
-            true => (Some(of_segments), of_cells),
-            false => (set.accuracy, of_cells + of_segments),
-        };
-        let wanted = [(set.tolerance, error), of_goal];
+        let GoalError { largest, cells: parts } = self.goal();
+        let wanted = [(set.tolerance, error), (set.accuracy, largest)];
         let mut wanted =
             wanted.into_iter().filter_map(|(most, error)| Some(error <= most?)).peekable();
         let is_enough = wanted.peek().is_some() && wanted.all(|reached| reached);
         if error == 0.0 || is_enough {
-            let is_reached = error == 0.0 || !is_out_of_reach;
-            let stop = if is_reached { StopReason::Tolerance } else { StopReason::Segments };
-            return Ok(Err(stop));
+            return Ok(Err(StopReason::Tolerance));
         }
         if number > set.steps {
             return Ok(Err(StopReason::Steps));

@@ -4,7 +4,7 @@ use super::SolveError;
 use super::goal::FactorErrors;
 use super::plan::Plan;
 use super::solved::Solved;
-use crate::diagnostics::{DiagnosedField, error_of_segments};
+use crate::diagnostics::DiagnosedField;
 use ppum::dataset::{Attribute, Dataset, TipIntensity};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
@@ -35,10 +35,7 @@ pub(super) struct Diagnosed<'p> {
 /// The largest estimated error of the factors of a tip, as a part of their size; without tips that
 /// of the energy.
 pub(super) struct GoalError {
-    /// The part that finer cells or higher orders would remove.
-    pub(super) of_cells: f64,
-    /// The part due to the straight segments of curved cracks.
-    pub(super) of_segments: f64,
+    pub(super) largest: f64,
     /// The part of each cell in the sum of all.
     pub(super) cells: Vec<f64>,
 }
@@ -62,8 +59,7 @@ impl<'p> Diagnosed<'p> {
         let goal = FactorErrors::new(discs, cells, &found.products, contact, tips);
         let factors = tips.iter_mut().filter_map(|outcome| outcome.factors.as_mut());
         for (factors, error) in factors.zip(&goal.errors) {
-            let of_segments = of_segments(dataset, factors);
-            factors.error = Some(error + of_segments * size(factors));
+            factors.error = Some(*error);
         }
         let ErrorEstimate { mut energy, squares, .. } = found;
         if known_fields(problem).is_empty() {
@@ -84,32 +80,26 @@ impl<'p> Diagnosed<'p> {
         }
         let mut diagnosed = Self { solved, squares, goal };
         if !diagnosed.goal.errors.is_empty() {
-            let GoalError { of_cells, of_segments, .. } = diagnosed.goal();
-            diagnosed.solved.report.factor_error = Some(of_cells + of_segments);
+            diagnosed.solved.report.factor_error = Some(diagnosed.goal().largest);
         }
         Ok(diagnosed)
     }
 
     /// The estimated error that an accuracy bounds.
     pub(super) fn goal(&self) -> GoalError {
-        let Solved { plan, report, tips, .. } = &self.solved;
-        let factors = || tips.iter().filter_map(|outcome| outcome.factors.as_ref());
+        let Solved { report, tips, .. } = &self.solved;
+        let factors = tips.iter().filter_map(|outcome| outcome.factors.as_ref());
         let scales = tips.iter().filter(|outcome| outcome.factors.is_some());
         let largest = scales.fold(0.0_f64, |most, outcome| most.max(outcome.energy_scale));
         if largest == 0.0 {
-            let of_cells = report.estimated_error.unwrap_or(0.0).powi(2);
-            return GoalError { of_cells, of_segments: 0.0, cells: self.squares.clone() };
+            let largest = report.estimated_error.unwrap_or(0.0).powi(2);
+            return GoalError { largest, cells: self.squares.clone() };
         }
-        let sizes: Vec<f64> = factors().map(size).collect();
+        let sizes: Vec<f64> = factors.map(size).collect();
         let relative = |tip: usize, error: f64| error / sizes[tip].max(NOTHING * largest);
         let errors = self.goal.errors.iter().enumerate().map(|(tip, error)| relative(tip, *error));
         let cells = self.goal.cells.iter().map(|(tip, part)| relative(*tip, *part));
-        let of_segments = factors().map(|found| of_segments(&plan.dataset, found));
-        GoalError {
-            of_cells: errors.fold(0.0, f64::max),
-            of_segments: of_segments.fold(0.0, f64::max),
-            cells: cells.collect(),
-        }
+        GoalError { largest: errors.fold(0.0, f64::max), cells: cells.collect() }
     }
 
     /// The dataset of a solution with its stress intensity factors, its diagnosis and its report;
@@ -143,12 +133,6 @@ impl<'p> Diagnosed<'p> {
             None => Ok(dataset),
         }
     }
-}
-
-/// The part of the factors of a tip that the segments of its crack may err by.
-fn of_segments(dataset: &Dataset, factors: &TipIntensity) -> f64 {
-    let tip = factors.tip;
-    error_of_segments(&dataset.steps[0].cracks[tip.crack as usize], tip.end)
 }
 
 /// |(K_I, K_II)|

@@ -365,7 +365,7 @@ fn contact_that_cannot_be() {
     let loaded = problem().with_pressure(BoundaryPart::Crack { crack: 0, face: None }, 1.0);
     let mut multilevel = problem();
     multilevel.solver.kind = SolverKind::Multilevel;
-    let half = problem().with_lines([vec![vec2(-1.0, -1.0), vec2(0.1, -1.0)]]);
+    let half = problem().with_lines([vec![vec2(-1.0, -1.0), vec2(0.1, -1.0)].into()]);
     for (problem, words) in [
         (loaded, "boundary[4].on: the faces of this crack may touch"),
         (multilevel, "solver.kind: faces that touch need the direct solver"),

@@ -1,10 +1,9 @@
-//! Cracks and holes given as curves, which the program divides into segments.
+//! Cracks and holes given as curves: arcs, and chains of arcs that stand for ellipses and splines.
 
 use crate::studies::support::{parsed, solved};
 use crate::support::{apart, factors};
 use ppum::crack::Side;
-use ppum::dataset::{Dataset, WarningKind};
-use ppum::domain::Hole;
+use ppum::dataset::Dataset;
 use ppum::field::Field;
 use ppum::quantity::{Axis, Quantity};
 use ppum::vec2::{Vec2, vec2};
@@ -49,50 +48,7 @@ fn an_arc_in_a_large_plate() {
         println!("{found:?} {exact:?}: {:.1e}", apart(found, exact));
         assert!(apart(found, exact) < 6e-4, "{found:?} {exact:?}");
     }
-    // T is that of the segments, which is told at each tip
-    let kinds: Vec<_> = dataset.steps[0].warnings.iter().map(|w| w.kind.clone()).collect();
-    assert_eq!(kinds, [WarningKind::Curve, WarningKind::Curve]);
-}
-
-/// Asserts that K converges with the number of segments like its power −3/2 at least, and that the
-/// default, which has about 58 of them in a long arc, is right to 4e-5.
-fn assert_division_does_not_show(range: [f64; 2]) {
-    let of = |more: &str| {
-        let crack = arc([0.0, 0.0], 1.0, range, more);
-        factors(&solved(&unrefined(2.0, [0.4, 1.0], &crack)))
-    };
-    let [coarse, fine, finest] = [8, 32, 256].map(|n| of(&format!("segments = {n}")));
-    let default = of("");
-    for tip in 0..2 {
-        let [a, b, own] = [&coarse, &fine, &default].map(|k| apart(k[tip], finest[tip]));
-        println!("{range:?}, tip {tip}: 8 segments {a:.1e}, 32 {b:.1e}, default {own:.1e}");
-        assert!(own < 4e-5, "{own}");
-        // 4^1.5 = 8; short arcs are right in few segments
-        assert!(b < 0.18 * a || a < 1e-4, "{a} {b}");
-    }
-}
-
-/// An accuracy that the segments of an arc do not allow is not reached, which is told.
-#[test]
-fn segments_bound_accuracies() {
-    let crack = arc([0.0, 0.0], 1.0, [30.0, 130.0], "segments = 16");
-    let problem = plate(2.0, 3, [0.4, 1.0], &format!("accuracy = 1e-5\norder = 3\n{crack}"));
-    let dataset = solved(&problem);
-    let warnings = dataset.steps[0].warnings.iter();
-    let found: Vec<_> = warnings.filter(|warning| warning.kind == WarningKind::Tolerance).collect();
-    assert!(found.len() == 1 && found[0].message.contains("`segments`"), "{found:?}");
-    assert!(found[0].value > 1e-5);
-}
-
-#[test]
-fn the_division_does_not_show() {
-    assert_division_does_not_show([30.0, 130.0]);
-}
-
-#[test]
-#[ignore = "slow: 256 segments in a few cells"]
-fn the_division_of_short_arcs_does_not_show() {
-    assert_division_does_not_show([200.0, 220.0]);
+    assert_eq!(dataset.steps[0].warnings, []);
 }
 
 /// Asserts that an arc turned by a right angle, listed the other way round, and scaled has the same
@@ -114,8 +70,8 @@ fn assert_turned_reversed_and_scaled(random: &mut Random, sweeps: [f64; 2]) {
     for (tip, k) in plain.iter().enumerate() {
         let all = [&turned, &reversed, &scaled].map(|other| apart(other[tip], *k));
         println!("{all:?}");
-        // rounding of systems with a condition of 1e4 or so, and of the places of vertices
-        assert!(all.iter().all(|apart| *apart < 1e-9), "{all:?}");
+        // rules for the integrals of K cut cells along other axes after a turn
+        assert!(all[0] < 1e-8 && all[1] < 1e-11 && all[2] < 1e-11, "{all:?}");
     }
 }
 
@@ -125,7 +81,6 @@ fn turned_reversed_and_scaled() {
 }
 
 #[test]
-#[ignore = "slow: dozens of segments in a few cells"]
 fn long_arcs_turned_reversed_and_scaled() {
     assert_turned_reversed_and_scaled(&mut Random(9), [60.0, 150.0]);
 }
@@ -145,7 +100,7 @@ fn one_curve_in_many_ways() {
     let points: Vec<_> = (0..=9).map(|k| [0.8 * at(k).cos(), 0.8 * at(k).sin() - 0.2]).collect();
     let spline = format!("[[crack]]\nspline = {points:?}\n");
     // the spline's tangents at the ends are of third order in the distance of its points
-    for (crack, bound) in [(ellipse, 1e-9), (&*path, 1e-4), (&*spline, 2e-4)] {
+    for (crack, bound) in [(ellipse, 1e-9), (&*path, 1e-11), (&*spline, 2e-4)] {
         let found = solution(crack);
         let all: Vec<_> = found.iter().zip(&plain).map(|(a, b)| apart(*a, *b)).collect();
         println!("{all:?}");
@@ -170,20 +125,17 @@ fn circles_as_ellipses() {
         let record = dataset.steps[0].history.iter().find(|record| record.name == "energy");
         record.expect("its energy").value
     };
-    assert!((energy(&round) / energy(&divided) - 1.0).abs() < 1e-6);
+    assert!((energy(&round) / energy(&divided) - 1.0).abs() < 1e-9);
     let out = vec2(0.03 + 0.10002, 0.0503);
     let [a, b] = [&round, &divided].map(|dataset| stress(dataset, out));
     println!("{a} {b}");
-    assert!((a / b - 1.0).abs() < 0.01, "{a} {b}");
+    assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
 }
 
 /// Asserts Inglis' stress σ = 1 + 2 a/b at the end (−0.1, 0) of the axis a across the pull; the
 /// plate of 20 a adds 0.2 %.
 fn assert_inglis(problem: &ProblemData, exact: f64, bound: f64) {
     let dataset = solved(problem);
-    let Hole::Polygon { points, .. } = &dataset.domain.holes[0] else { panic!("a polygon") };
-    assert!(points.len() > 90 && points.len() < 210, "{}", points.len());
-    // between two corners of the rim
     let found = stress(&dataset, vec2(-0.100002, 0.0));
     println!("{found} instead of {exact}");
     assert!((found / exact - 1.0).abs() < bound, "{found} instead of {exact}");

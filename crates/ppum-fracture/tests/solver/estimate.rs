@@ -160,7 +160,7 @@ fn one_problem_in_a_process() {
     let line = [[-0.8, -0.5], [-0.8, 0.6]].map(|[x, y]: [f64; 2]| {
         [0, 1].map(|k| vec2(x + 0.7 * random.unit() + 0.5 * f64::from(k), y + 0.3 * random.unit()))
     });
-    let mut problem = problem.with_lines(line.map(Vec::from));
+    let mut problem = problem.with_lines(line.map(|ends| Vec::from(ends).into()));
     problem.solver.kind =
         if kind == "direct" { SolverKind::Direct } else { SolverKind::Multilevel };
     let problem = checked(&problem);
@@ -184,7 +184,7 @@ fn many_cracks_are_refused_soon() {
         };
         vec![at(0.2, 0.5), at(0.8, 0.6)]
     };
-    problem = problem.with_lines((0..10_000).map(line));
+    problem = problem.with_lines((0..10_000).map(|k| line(k).into()));
     assert_eq!(problem.check(), Ok(()));
     let ready = checked(&problem);
     let plan = Plan::new(&ready, Some(1 << 28), unwatched());

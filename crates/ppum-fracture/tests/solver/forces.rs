@@ -226,10 +226,9 @@ fn estimates_do_not_see_the_rounding_of_places() {
     }
 }
 
-/// On curves, whose segments lie beside them, forces are refused; on straight sides that go on
-/// into curves they are not.
+/// On curves forces are refused; on straight sides that go on into curves they are not.
 #[test]
-fn curves_are_known_by_their_segments() {
+fn forces_on_curves_are_refused() {
     let stadium = "min = [-1, -1]\nmax = [1, 1]";
     let outline = "outline = { path = [\n{ points = [[-1, -1], [1, -1]] },\n\
                    { arc = { center = [1, 0], radius = 1, from = -90, to = 90 } },\n\

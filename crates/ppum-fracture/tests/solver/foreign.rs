@@ -37,7 +37,7 @@ const TEXTS: [&str; 4] = [
 
 /// A straight crack from a mouth to its tip.
 fn crack(from: Vec2, tip: Vec2) -> Crack {
-    Crack { points: vec![from, tip], ends: [CrackEnd::Mouth, CrackEnd::Tip] }
+    Crack::polyline(vec![from, tip], [CrackEnd::Mouth, CrackEnd::Tip])
 }
 
 /// A vector of a frame with this x axis in the world.

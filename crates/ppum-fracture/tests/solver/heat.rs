@@ -405,7 +405,8 @@ fn cracks_grow_in_their_own_temperature() {
     for step in &all.steps[1..] {
         let points: Vec<_> =
             step.cracks[0].points.iter().map(|p| format!("[{}, {}]", p.x, p.y)).collect();
-        let crack = format!("points = [{}]", points.join(", "));
+        let bulges = &step.cracks[0].bulges;
+        let crack = format!("points = [{}]\nbulges = {bulges:?}", points.join(", "));
         let [a, b] = body.crack;
         let old = format!("points = [[{}, {}], [{}, {}]]", a.x, a.y, b.x, b.y);
         let text = body.problem(&rest).text.expect("a text").replace(&old, &crack);

@@ -1,10 +1,12 @@
 //! The solver against exact solutions and independent reference values.
 
 mod adaptive;
+mod arcs;
 mod awkward;
 mod contact;
 mod corners;
 mod curved;
+mod curved_contact;
 mod eigenstrain;
 mod estimate;
 mod estimator;

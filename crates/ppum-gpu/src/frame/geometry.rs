@@ -4,7 +4,7 @@
 //! view 10⁻¹² of the domain wide has no noise in single precision either. The shaders read it
 //! in `shader/wgsl/{geometry,crack,indicator,domain}.wgsl`.
 
-use ppum::crack::{LocalCrack, LocalTip, SegmentId, TipId};
+use ppum::crack::{End, LocalCrack, LocalTip, LocalVertex, SegmentId, TipId};
 use ppum::dataset::Step;
 use ppum::domain::{Domain, Hole, LocalRim, LocalSide, PolygonSide};
 use ppum::function::{Cut, CutBranch, FunctionKind};
@@ -15,15 +15,19 @@ use crate::scene::groups::GroupFrame;
 
 /// Pairs of the frame of a group.
 const FRAME: usize = 4;
-/// Pairs of a segment: tangent; distance; ends.
+/// Pairs of an edge: tangent; distance and curvature; ends, of an arc 1 if it is more than half a
+/// turn.
 const SEGMENT: usize = 3;
+/// Pairs of a vertex of a crack with arcs: its place, the tangents before and behind it.
+const VERTEX: usize = 3;
 /// Pairs of a cut of an indicator: first pair of its segment; what follows on the left, on
 /// the right.
 const CUT: usize = 2;
 /// Pairs of a circle: 0, excess / 2r; d / r; 1 / 2r.
 const CIRCLE: usize = 3;
-/// Pairs of a polygon's side: its ends, unit direction, distance.
-const SIDE: usize = 4;
+/// Pairs of a polygon's side: its ends, unit direction, distance and half of the curvature; of an
+/// arc gradient and value of its circle.
+const SIDE: usize = 6;
 
 /// Most pairs of a view: whole numbers are exact in single precision up to here, and shaders see no
 /// more at once than 128 MiB.
@@ -83,13 +87,14 @@ pub(crate) fn constants() -> String {
     let lengths = [
         ("GEOMETRY_PAIRS", FRAME),
         ("SEGMENT_PAIRS", SEGMENT),
+        ("VERTEX_PAIRS", VERTEX),
         ("CUT_PAIRS", CUT),
         ("HOLE_CIRCLE_PAIRS", CIRCLE),
         ("HOLE_SIDE_PAIRS", SIDE),
     ];
     let lengths = lengths.iter().map(|(name, length)| format!("const {name} = {length}u;\n"));
     let inside = format!("const INDICATOR_INSIDE = {}.0;\n", CutBranch::Inside.number());
-    lengths.chain([inside]).collect()
+    lengths.chain([inside, format!("const CRACK_FAR = {FAR:e};\n")]).collect()
 }
 
 /// The cracks, and where their segments are; the cuts that frames refer to.
@@ -97,7 +102,7 @@ struct Directory<'a> {
     center: Vec2,
     step: &'a Step,
     cracks: Vec<LocalCrack>,
-    /// First segment and number of segments.
+    /// First edge and number of edges, negative if some are arcs.
     entries: Vec<Vec2>,
     /// Pair at which the cuts begin.
     first_cut: usize,
@@ -111,9 +116,10 @@ impl<'a> Directory<'a> {
             step.cracks.iter().map(|crack| LocalCrack::new(crack, center)).collect();
         let mut next = at + cracks.len();
         let entry = |crack: &LocalCrack| {
-            let (first, count) = (next, crack.segments().len());
-            next += SEGMENT * count;
-            vec2(first as f64, count as f64)
+            let (first, count, vertices) = (next, crack.segments().len(), crack.vertices().len());
+            next += SEGMENT * count + VERTEX * vertices;
+            let sign = if vertices > 0 { -1.0 } else { 1.0 };
+            vec2(first as f64, sign * count as f64)
         };
         let entries = cracks.iter().map(entry).collect();
         Self { center, step, cracks, entries, first_cut: next, cuts: Vec::new() }
@@ -132,9 +138,11 @@ impl<'a> Directory<'a> {
             GroupFrame::Tip(TipId { crack, end }) => {
                 let crack = crack as usize;
                 let tip = LocalTip::new(&self.step.cracks[crack], end, self.center);
-                let distance = self.cracks[crack].segments()[tip.segment].distance;
-                let at_end = vec2(crack as f64, tip.segment as f64);
-                [tip.from_tip, tip.axis, vec2(distance, tip.orientation), at_end]
+                // of a crack with arcs the lines beyond its ends have the numbers 0 and 1
+                let is_curved = !self.cracks[crack].vertices().is_empty();
+                let number = if is_curved { usize::from(end == End::Last) } else { tip.segment };
+                let at_end = vec2(crack as f64, number as f64);
+                [tip.from_tip, tip.axis, vec2(tip.distance(), tip.orientation), at_end]
             }
         }
     }
@@ -155,10 +163,14 @@ impl<'a> Directory<'a> {
 }
 
 fn segments(crack: &LocalCrack) -> impl Iterator<Item = Vec2> + '_ {
-    let pairs = |s: &ppum::crack::LocalSegment| {
-        [s.tangent, vec2(s.distance, 0.0), vec2(s.lo.max(-FAR), s.hi.min(FAR))]
+    let edge = |s: &ppum::crack::LocalSegment| {
+        let ends = vec2(s.lo.max(-FAR), s.hi.min(FAR));
+        let major = vec2(if s.is_major { 1.0 } else { 0.0 }, 0.0);
+        let last = if crack.vertices().is_empty() { ends } else { major };
+        [s.tangent, vec2(s.distance, s.curvature), last]
     };
-    crack.segments().iter().flat_map(pairs)
+    let vertex = |v: &LocalVertex| [v.at, v.tangents[0], v.tangents[1]];
+    crack.segments().iter().flat_map(edge).chain(crack.vertices().iter().flat_map(vertex))
 }
 
 /// A circle divided by 2r and the lines of a polygon by their lengths: numbers of the size
@@ -180,7 +192,13 @@ fn rim(hole: &Hole, center: Vec2) -> Vec<Vec2> {
 
 fn side(side: &LocalSide) -> [Vec2; SIDE] {
     let inverse = 1.0 / side.direction.length();
-    [side.a, side.b, side.direction * inverse, vec2(side.cross * inverse, 0.0)]
+    let (bulge, gradient, value) = match side.arc {
+        Some(arc) => (arc.edge.bulge, arc.gradient, arc.value),
+        None => (0.0, Vec2::ZERO, 0.0),
+    };
+    let scale = inverse / (1.0 + bulge * bulge);
+    let distance = vec2(side.cross * inverse, 2.0 * bulge * scale);
+    [side.a, side.b, side.direction * inverse, distance, gradient * scale, vec2(value * scale, 0.0)]
 }
 
 fn rounded(pair: Vec2) -> [f32; 2] {

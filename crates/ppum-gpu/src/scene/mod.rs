@@ -16,6 +16,8 @@ pub(crate) mod region;
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use ppum::crack::Crack;
+use ppum::domain::Hole;
 use ppum::field::Field;
 use ppum::vec2::{Rect, Vec2};
 use ppum_render::view::View;
@@ -70,8 +72,10 @@ pub(crate) struct SceneLayout {
     /// Polynomials have other coordinates than weights.
     pub(crate) own_frames: bool,
     pub(crate) has_holes: bool,
-    /// Some crack has several segments.
+    /// Some crack has several edges, or an arc.
     pub(crate) has_kinks: bool,
+    /// Some crack or rim has an arc.
+    pub(crate) has_arcs: bool,
     /// The sizes of patches are halves of the largest ones.
     pub(crate) has_levels: bool,
 }
@@ -170,13 +174,16 @@ impl SceneLayout {
         let lattice = if own_frames { None } else { CoverLattice::from_partition(partition) };
         let searched = !own_frames && lattice.is_none();
         let levels = if searched { HalfExtents::from_partition(partition) } else { None };
+        let mut sides = field.domain.holes.iter().flat_map(Hole::edges);
+        let has_round_side = sides.any(|side| side.is_arc());
         let layout = Self {
             components: ComponentLanes::new(field.components()),
             shape,
             is_lattice: lattice.is_some(),
             own_frames,
             has_holes: !field.domain.holes.is_empty(),
-            has_kinks: field.step.cracks.iter().any(|crack| crack.points.len() > 2),
+            has_kinks: field.step.cracks.iter().any(|c| c.points.len() > 2 || c.is_curved()),
+            has_arcs: field.step.cracks.iter().any(Crack::is_curved) || has_round_side,
             has_levels: levels.is_some(),
         };
         (layout, lattice, levels)

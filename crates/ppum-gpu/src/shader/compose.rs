@@ -190,7 +190,9 @@ impl ShaderText {
     }
 
     fn constants(&self, layout: SceneLayout, kind: ShaderVariant) -> String {
-        let SceneLayout { components, own_frames, has_levels, has_holes, has_kinks, .. } = layout;
+        let SceneLayout {
+            components, own_frames, has_levels, has_holes, has_kinks, has_arcs, ..
+        } = layout;
         let mut text = String::new();
         for (name, value) in [
             ("ORDER", self.order),
@@ -220,6 +222,7 @@ impl ShaderText {
             ("HAS_PART", self.has_part),
             ("HAS_HOLES", has_holes),
             ("HAS_KINKS", has_kinks),
+            ("HAS_ARCS", has_arcs),
             ("HAS_CONSTANTS", kind.constants),
             ("HAS_POLYNOMIALS", kind.polynomials),
             ("IN_ONE_GROUP", kind.kernel.is_some()),

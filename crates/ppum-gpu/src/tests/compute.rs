@@ -13,7 +13,7 @@ const GROUP: u32 = 64;
 pub(crate) fn point_functions(order: u32, cracks: u32) -> String {
     let texts: String = texts::POINT_FUNCTIONS.iter().map(|(_, text)| *text).collect();
     format!(
-        "const ORDER = {order}u;\nconst HAS_KINKS = true;\nalias Lanes = vec2<f32>;\nconst LANE_PAIRS = 1u;\n\
+        "const ORDER = {order}u;\nconst HAS_KINKS = true;\nconst HAS_ARCS = true;\nalias Lanes = vec2<f32>;\nconst LANE_PAIRS = 1u;\n\
          struct View {{ cracks: u32 }}\nconst view = View({cracks}u);\n\
          fn load_view(at: u32) -> vec2<f32> {{ return pairs[at]; }}\n\
          fn load_lanes(at: u32) -> Lanes {{ return pairs[at]; }}\n{}{}{texts}",

@@ -5,9 +5,12 @@
 //! u for a division and 9 u for a root; sums and products have 1 u.
 
 use ppum::cover::Cover;
-use ppum::crack::{Crack, CrackEnd, End, LocalCrack, LocalTip, SegmentId, Side, TipId, TipPoint};
+use ppum::crack::{
+    Crack, CrackEnd, End, LocalCrack, LocalSegment, LocalTip, SegmentId, Side, TipId, TipPoint,
+};
 use ppum::dataset::{Step, monomials};
-use ppum::domain::{Domain, Hole};
+use ppum::domain::{Domain, Hole, PolygonSide};
+use ppum::edge::Edge;
 use ppum::function::{Cut, CutBranch, Function, FunctionKind, FunctionTable, westergaard};
 use ppum::jet::Jet;
 use ppum::polynomial::polynomial;
@@ -360,17 +363,29 @@ fn polar_coordinates() {
 }
 
 fn crack(points: &[[f64; 2]]) -> Crack {
-    Crack { points: points.iter().map(|&p| Vec2::from(p)).collect(), ends: [CrackEnd::Tip; 2] }
+    Crack::polyline(points.iter().map(|&p| Vec2::from(p)).collect(), [CrackEnd::Tip; 2])
 }
 
-/// Straight, kinked at a sharp and a blunt angle, a zigzag, and one in an odd place.
+/// A chain of edges with these bulges.
+fn curved(points: &[[f64; 2]], bulges: &[f64]) -> Crack {
+    Crack { bulges: bulges.to_vec(), ..crack(points) }
+}
+
+/// Straight, kinked at a sharp and a blunt angle, a zigzag, and one in an odd place; an arc of a
+/// quarter and one of three quarters of a turn, arcs and a segment with common tangents, and arcs
+/// with kinks between them and a segment at the start.
 fn cracks() -> Vec<Crack> {
+    let quarter = std::f64::consts::FRAC_PI_8.tan();
     vec![
         crack(&[[-1.0, 0.0], [0.5, 0.0]]),
         crack(&[[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]]),
         crack(&[[-1.0, 0.6], [-0.4, 0.3], [0.0, 0.0]]),
         crack(&[[-1.0, 0.0], [-0.3, 0.4], [0.1, -0.2], [0.4, 0.1], [0.9, -0.1]]),
         crack(&[[3.1, 7.3], [5.7, 8.9]]),
+        curved(&[[-0.5, 0.25], [0.25, -0.5]], &[quarter]),
+        curved(&[[0.1, 0.2], [0.45, 0.3]], &[-2.414]),
+        curved(&[[-0.5, 0.0], [0.0, 0.5], [0.5, 0.0], [0.5, -0.5]], &[-quarter, -quarter, 0.0]),
+        curved(&[[-0.9, 0.1], [-0.5, 0.3], [-0.1, -0.2], [0.4, 0.3]], &[0.0, 0.7, -1.2]),
     ]
 }
 
@@ -395,6 +410,16 @@ fn offsets(seed: u64) -> Vec<[f32; 2]> {
     rows
 }
 
+/// The size of what distances from edges are made of, at a point: of arcs the square of the
+/// distance from the tangent's point over the radius, too.
+fn reach(crack: &LocalCrack, at: Vec2) -> f64 {
+    let of = |s: &LocalSegment| {
+        let d = s.distance.abs();
+        d + s.curvature.abs() * (d + at.length()) * (d + at.length())
+    };
+    crack.segments().iter().map(of).fold(0.0, f64::max)
+}
+
 /// True if a point is farther than the roundings of its coordinates and of the view's data from
 /// where `decide` changes: 16 u of the sizes of both.
 fn decided(at: Vec2, distance: f64, decide: impl Fn(Vec2) -> bool) -> bool {
@@ -405,11 +430,12 @@ fn decided(at: Vec2, distance: f64, decide: impl Fn(Vec2) -> bool) -> bool {
     near.all(|there| there == here)
 }
 
-/// Centres of views: vertices, tips, middles of segments, and beside.
+/// Centres of views: vertices, tips, points of edges, 10⁻¹² beside all of these, and far from them.
 fn centers(crack: &Crack) -> Vec<Vec2> {
-    let middle = crack.points.windows(2).map(|s| (s[0] + s[1]) * 0.5);
-    let beside = [vec2(0.31, -0.17), vec2(4.0, 8.0)];
-    crack.points.iter().copied().chain(middle).chain(beside).collect()
+    let on_edges = crack.edges().flat_map(|edge| [0.3, 0.5].map(|part| edge.at(part)));
+    let on = crack.points.iter().copied().chain(on_edges);
+    let both = on.flat_map(|p| [p, p + vec2(0.6e-12, -0.8e-12)]);
+    both.chain([vec2(0.31, -0.17), vec2(4.0, 8.0)]).collect()
 }
 
 #[test]
@@ -428,14 +454,14 @@ fn sides_of_cracks() {
             let step = step(cracks());
             let geometry = PairGeometry::new(&step, &domain, &[GroupFrame::Side(index)], center);
             let local = LocalCrack::new(&crack, center);
-            let distance = local.segments().iter().map(|s| s.distance.abs()).fold(0.0, f64::max);
             let side = |p: Vec2| local.side([p.x, p.y], Side::Above);
             let mut rows = offsets(6);
             all += rows.len();
             // on an axis-parallel crack through the centre nothing is rounded
             rows.retain(|&[x, y]| {
                 let p = vec2(x.into(), y.into());
-                index == 0 && center.y == 0.0 && y == 0.0 || decided(p, distance, |p| side(p) > 0.0)
+                index == 0 && center.y == 0.0 && y == 0.0
+                    || decided(p, reach(&local, p), |p| side(p) > 0.0)
             });
             compared += rows.len();
             assert_eq!(geometry.cracks, CRACKS);
@@ -447,8 +473,8 @@ fn sides_of_cracks() {
     assert!(compared > all / 2, "{compared} of {all}");
 }
 
-/// Arms of a star, a crack that ends on one of them and one that crosses it; and random trees of
-/// cuts by their segments.
+/// Arms of a star, one of them an arc, a crack that ends on another and one that crosses it, with
+/// an arc; and random trees of cuts by their edges.
 fn trees(random: &mut Random) -> (Vec<Crack>, Vec<Function>) {
     let mut cracks: Vec<Crack> = (0..5)
         .map(|_| crack(&[[0.25, 0.5], (vec2(0.25, 0.5) + random.direction()).into()]))
@@ -456,7 +482,8 @@ fn trees(random: &mut Random) -> (Vec<Crack>, Vec<Function>) {
     let [a, b] = [0, 1].map(|k| cracks[0].points[k]);
     let foot = a + (b - a) * 0.37;
     cracks.push(crack(&[foot.into(), (foot + random.direction()).into()]));
-    cracks.push(crack(&[[-0.3, 0.1], [0.4, 0.45], [1.0, 0.3]]));
+    cracks.push(curved(&[[-0.3, 0.1], [0.4, 0.45], [1.0, 0.3]], &[0.0, -0.4]));
+    cracks[1].bulges = vec![0.6];
     let mut tree = || {
         let count = 1 + random.below(12);
         let mut part = |k: usize| match k + 1 + random.below(3) {
@@ -499,18 +526,23 @@ fn indicators_of_components() {
                 local.evaluate::<f64, 0>(0, p.into(), Side::Above, &mut jets);
                 jets[0].v
             };
-            let lines = cracks.iter().map(|crack| LocalCrack::new(crack, center));
-            let far =
-                lines.flat_map(|c| c.segments().iter().map(|s| s.distance).collect::<Vec<_>>());
+            let lines: Vec<_> = cracks.iter().map(|crack| LocalCrack::new(crack, center)).collect();
             // distances of lines through the centre are nothing but rounding: those of the others
             // count where they decide
-            let far: Vec<f64> = far.map(f64::abs).filter(|&d| d > 1e-15).collect();
+            let far: Vec<f64> = lines
+                .iter()
+                .flat_map(|c| c.segments().iter().map(|s| s.distance.abs()))
+                .filter(|&d| d > 1e-15)
+                .collect();
+            let round = lines.iter().filter(|line| !line.vertices().is_empty());
+            let round: Vec<_> = round.collect();
             let mut rows = offsets(11);
             all += rows.len();
             rows.retain(|&[x, y]| {
                 let p = vec2(x.into(), y.into());
                 let near =
                     far.iter().filter(|&&d| d < 2.0 * p.length()).fold(0.0, |a, &d| d.max(a));
+                let near = round.iter().map(|crack| reach(crack, p)).fold(near, f64::max);
                 decided(p, near, |p| value(p) > 0.0)
             });
             compared += rows.len();
@@ -543,12 +575,14 @@ fn points_of_tips() {
             let frames = [GroupFrame::Tip(TipId { crack: index, end })];
             let geometry = PairGeometry::new(&step(cracks()), &domain, &frames, center);
             let tip = LocalTip::new(&crack, end, center);
-            let far = tip.from_tip.length();
+            let (far, local) = (tip.from_tip.length(), LocalCrack::new(&crack, center));
             let point = |p: Vec2| tip.point([p.x, p.y], Side::Above);
             let mut rows = offsets(7);
             rows.retain(|&[x, y]| {
-                decided(vec2(x.into(), y.into()), 8.0 * far, |p| point(p).sign > 0.0)
-                    && decided(vec2(x.into(), y.into()), 8.0 * far, |p| point(p).branch > 0.0)
+                let p = vec2(x.into(), y.into());
+                let far = (8.0 * far).max(reach(&local, p));
+                decided(p, far, |p| point(p).sign > 0.0)
+                    && decided(p, far, |p| point(p).branch > 0.0)
             });
             agrees(text, &geometry.pairs, &rows, 8.0, |&[x, y]| {
                 let (p, size) = (point(vec2(x.into(), y.into())), f64::from(x.hypot(y)) + far);
@@ -610,17 +644,43 @@ fn insides_of_holes() {
     }";
     let polygon =
         |points: &[[f64; 2]]| Hole::polygon(points.iter().copied().map(Vec2::from).collect());
+    let with_arcs = |points: &[[f64; 2]], bulges: &[f64], side| Hole::Polygon {
+        points: points.iter().copied().map(Vec2::from).collect(),
+        bulges: bulges.to_vec(),
+        side,
+    };
+    let (keyhole, outline) = (
+        [[1.0, -1.0], [1.25, -1.0], [1.25, -0.5], [1.0, -0.5]],
+        [[-1.75, 0.0], [0.25, -1.75], [1.875, 0.5]],
+    );
     let holes = vec![
         Hole::Circle { center: vec2(0.5, 0.25), radius: 0.625 },
+        // a disc of two arcs, a slot with a round end, a keyhole and an outline
+        with_arcs(&[[-0.75, -1.25], [-0.25, -1.25]], &[1.0, 1.0], PolygonSide::Inside),
+        with_arcs(&keyhole, &[0.0, 1.0, 0.0, -0.3], PolygonSide::Inside),
+        with_arcs(
+            &[[-1.5, 1.25], [-1.25, 1.25], [-1.25, 1.0]],
+            &[0.0, 0.0, -3.0],
+            PolygonSide::Inside,
+        ),
+        with_arcs(&outline, &[0.5, 0.25, 0.5], PolygonSide::Outside),
         polygon(&[[-1.0, -0.5], [-0.5, -0.5], [-0.5, 0.0], [-1.0, 0.0]]),
         polygon(&[[0.0, 0.0], [-1.0, 1.0], [0.75, 1.0], [0.1, 0.6]]),
     ];
     let domain = Domain { bounds: Rect::new(vec2(-2.0, -2.0), vec2(2.0, 2.0)), holes };
+    let on_arc = |edge: Edge| {
+        let at = edge.at(0.37);
+        [at, edge.to, at + edge.tangent(0.37).left() * 1e-12]
+    };
+    let arcs = domain.holes.iter().flat_map(Hole::edges).filter(Edge::is_arc).flat_map(on_arc);
+    let arcs: Vec<Vec2> = arcs.collect();
     let (mut compared, mut all, mut inside) = (0, 0, 0);
     for center in
         [[0.875, 0.75], [-0.75, 0.0], [-0.5, -0.25], [0.375, 0.5], [0.1, 0.6], [-1.5, 0.3]]
+            .map(Vec2::from)
+            .into_iter()
+            .chain(arcs)
     {
-        let center = Vec2::from(center);
         let geometry = PairGeometry::new(&step(cracks()), &domain, &[GroupFrame::One], center);
         let local: Vec<_> = domain.holes.iter().map(|hole| hole.at(center)).collect();
         let contains = |p: Vec2| local.iter().any(|hole| hole.contains(p));
@@ -633,7 +693,11 @@ fn insides_of_holes() {
         // a rim's distance from the centre is rounded: nothing where the centre lies on it
         let rim = |hole: &Hole| hole.rim_distance(center);
         let near = domain.holes.iter().map(rim).fold(f64::INFINITY, f64::min);
-        rows.retain(|row| decided(place(row), near, contains));
+        // the square of a distance over the radius is rounded, too
+        let curvature = |edge: Edge| edge.curvature().abs();
+        let most = domain.holes.iter().flat_map(Hole::edges).map(curvature).fold(0.0, f64::max);
+        let size = |p: Vec2| near + most * p.length() * (p.length() + 4.0);
+        rows.retain(|row| decided(place(row), size(place(row)), contains));
         compared += rows.len();
         inside += rows.iter().filter(|row| contains(place(row))).count();
         agrees(text, &geometry.pairs, &rows, 0.0, |row| {

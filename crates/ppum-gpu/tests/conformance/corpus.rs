@@ -168,6 +168,11 @@ fn zooms() {
 }
 
 #[test]
+fn zooms_to_arcs() {
+    deep("zooms to arcs", fields::arc_zooms());
+}
+
+#[test]
 fn zooms_to_junctions() {
     deep("zooms to junctions", fields::junction_zooms());
 }

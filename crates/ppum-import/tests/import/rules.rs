@@ -264,7 +264,8 @@ fn uses_views_and_percentages_draw_what_they_stand_for() {
             [&short, &long].map(|elements| svg(&(rectangle.to_owned() + elements)).unwrap());
         assert_eq!(short_body.notices, long_body.notices, "{short}");
         let points = |body: &BodyDrawing| -> Vec<_> {
-            body.holes.iter().flat_map(|hole| hole.flattened()).collect()
+            let edges = body.holes.iter().flat_map(|hole| hole.edges());
+            edges.map(|edge| edge.from).collect()
         };
         let [a, b] = [points(&short_body), points(&long_body)];
         assert_eq!(a.len(), b.len(), "{short}");
@@ -305,7 +306,7 @@ fn meshes_with_parameters_or_lines_alone() {
     let plain = mesh("Nodes", "", &quadrilateral).unwrap();
     assert_eq!(mesh("ParametricNodes", "2 7 0.5 0.5", &quadrilateral).unwrap(), plain);
     let lines = ["1 1 2 1 1 1 2", "2 1 2 2 2 2 3", "3 1 2 3 3 3 4", "4 1 2 4 4 4 1"];
-    assert_eq!(mesh("Nodes", "", &lines).unwrap().outline.flattened().len(), 5);
+    assert_eq!(mesh("Nodes", "", &lines).unwrap().outline.edges().len(), 4);
     let error = mesh("Nodes", "", &lines[..3]).unwrap_err().to_string();
     assert!(
         error.contains("no triangles or quadrilaterals") && error.contains("SaveAll"),
@@ -319,7 +320,7 @@ fn variables_of_geometries() {
     let text = "p = newp; Point(p) = {0, 0}; q = newp;\nPoint(q) = {2, 0}; Point(newp) = {2, 1}; Point(q + 2) = {0, 1};\n\
                 l = newl; Line(l) = {p, q}; Line(newc) = {q, 3}; Line(newreg) = {3, 4, 1}; s = news; Curve Loop(newll) = {1:3};";
     let drawing = geo(text).unwrap();
-    assert_eq!((drawing.outline.flattened().len(), drawing.notices.len()), (5, 0));
+    assert_eq!((drawing.outline.edges().len(), drawing.notices.len()), (4, 0));
     let error = geo("a = 1;\nb = Point{1};\nPoint(a + b) = {0, 0};").unwrap_err().to_string();
     assert!(error.contains("line 3: the value of `b` in line 2 is not read"), "{error}");
 }
@@ -376,8 +377,8 @@ fn gaps_are_closed() {
             &ImportOptions { tolerance: 1e-4, layers: Vec::new() },
         )
     };
-    let points = take(5e-5).unwrap().outline.flattened();
-    assert_eq!(points[0], points[points.len() - 1]);
+    let edges = take(5e-5).unwrap().outline.edges();
+    assert_eq!(edges[0].from, edges[edges.len() - 1].to);
     assert!(take(2e-4).unwrap_err().to_string().contains("a gap of 0.0002"));
 }
 
@@ -389,7 +390,7 @@ fn copies_are_left_out() {
     };
     let sides = side([0, 0], [1, 0]) + &side([1, 0], [0, 1]) + &side([0, 1], [0, 0]);
     let drawing = dxf(&(sides + &side([1, 0], [0, 0]))).unwrap();
-    assert_eq!(drawing.outline.flattened().len(), 4);
+    assert_eq!(drawing.outline.edges().len(), 3);
     assert!(drawing.notices[0].contains("copy of another curve"), "{:?}", drawing.notices);
 }
 
@@ -400,8 +401,9 @@ fn mouths_are_on_the_border() {
                 Point(5) = {1.5, MOUTH}; Point(6) = {1.6, 0.2}; Line(2) = {5, 6};";
     for (mouth, is_on) in [("0.4999996", true), ("0.5000004", true), ("0.4999", false)] {
         let crack = &geo(&text.replace("MOUTH", mouth)).unwrap().cracks[0];
-        let end = crack.flattened()[0];
+        let edge = crack.edges()[0];
+        let end = edge.from;
         assert_eq!((3.0 * end.y - end.x).abs() < 1e-15, is_on, "{end:?}");
-        assert_eq!(crack.flattened()[1], vec2(1.6, 0.2));
+        assert_eq!(edge.to, vec2(1.6, 0.2));
     }
 }

@@ -5,14 +5,14 @@ use std::collections::BTreeMap;
 use ppum::border::touch;
 use ppum::crack::Side;
 use ppum::domain::Domain;
-use ppum::segment::Segment;
+use ppum::edge::Edge;
 use ppum::vec2::Rect;
 
 use crate::data::{
     BoundaryCondition, BoundaryPart, BoundaryPiece, BoundaryRange, DomainEdge, ProblemData,
 };
 use crate::file::{Key, KeyError, no_such};
-use crate::geometry::{clipped, solid_part, wider};
+use crate::geometry::{solid_length, wider};
 
 /// All rules broken by the conditions on the boundary.
 pub(super) fn check_boundary(problem: &ProblemData) -> Vec<KeyError> {
@@ -133,9 +133,9 @@ const NOTHING_THERE: &str = "nothing of the body is there: it lies in holes, or 
 fn reaches_body(part: BoundaryPart, problem: &ProblemData) -> bool {
     let Domain { bounds, holes } = problem.domain();
     let near = wider(bounds, touch(bounds));
-    let is_solid = |([a, b], own): (Segment, Option<usize>)| {
+    let is_solid = |(edge, own): (Edge, Option<usize>)| {
         let others = (0..).zip(holes).filter(|(k, _)| own != Some(*k)).map(|(_, hole)| hole);
-        clipped(a, b, &near).is_some_and(|range| solid_part(a, b, range, others) > 0.0)
+        solid_length(edge, &near, others) > 0.0
     };
     match part {
         BoundaryPart::Hole(hole) if holes[hole].sides().next().is_none() => true,

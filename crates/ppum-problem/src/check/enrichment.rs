@@ -1,6 +1,7 @@
 //! Rules for user-defined enrichments, and for zones around tips.
 
 use ppum::crack::{Crack, CrackEnd, tips};
+use ppum::edge::Edge;
 use ppum::formula::{Formula, FormulaJets};
 use ppum::function::{NonsmoothPoints, function_scope};
 use ppum::vec2::{Rect, Vec2};
@@ -69,7 +70,7 @@ fn bad_segment([a, b]: [Vec2; 2], domain: &Rect) -> Option<&'static str> {
         Some("the points must be finite")
     } else if (b - a).length() <= f64::EPSILON * (a.length() + b.length()) {
         Some("the two points are equal; give two different ones")
-    } else if !meets([a, b], domain) {
+    } else if !meets(Edge::segment([a, b]), domain) {
         Some("the segment does not meet the domain; move it in")
     } else {
         None

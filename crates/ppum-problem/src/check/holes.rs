@@ -2,9 +2,10 @@
 
 use ppum::border::touch;
 use ppum::domain::{Domain, Hole};
+use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2};
 
-use super::cracks::{place, self_touch};
+use super::cracks::{bad_bulges, place, self_touch};
 use crate::data::DomainEdge;
 use crate::file::{Key, KeyError};
 use crate::geometry::{TooDense, meets, shown, solid_part};
@@ -25,13 +26,14 @@ pub(crate) fn check_holes(domain: &Domain) -> Vec<KeyError> {
     let check = |(index, hole): (usize, &Hole)| {
         let (key, message) = match hole {
             Hole::Circle { center, radius } => bad_circle(*center, *radius, &domain.bounds, touch)?,
-            Hole::Polygon { points, .. } => {
-                ("points", bad_polygon(points, hole, &domain.bounds, touch)?)
-            }
+            Hole::Polygon { points, bulges, .. } => match bad_bulges(bulges, points.len()) {
+                Some(bad) => bad,
+                None => ("points".to_owned(), bad_polygon(points, hole, &domain.bounds, touch)?),
+            },
         };
         let key = match hole.is_outside() {
             true => Key::new("domain.outline"),
-            false => Key::new("hole").index(index).name(key),
+            false => Key::new("hole").index(index).name(&key),
         };
         Some(key.error(message))
     };
@@ -47,27 +49,21 @@ fn holes_outside(domain: &Domain) -> Vec<KeyError> {
     let Some(outline) = domain.outline().map(|index| &domain.holes[index]) else {
         return Vec::new();
     };
-    let is_side_out =
-        |[a, b]: [Vec2; 2]| solid_part(a, b, [0.0, 1.0], std::iter::once(outline)) == 0.0;
+    let is_side_out = |side: Edge| solid_part(side, [0.0, 1.0], std::iter::once(outline)) == 0.0;
     let is_out = |hole: &Hole| match hole {
         Hole::Circle { center, radius } => {
             outline.contains(*center) && outline.rim_distance(*center) >= *radius
         }
-        Hole::Polygon { .. } => !hole.is_outside() && hole.sides().all(is_side_out),
+        Hole::Polygon { .. } => !hole.is_outside() && hole.edges().all(is_side_out),
     };
     let out = domain.holes.iter().enumerate().filter(|(_, hole)| is_out(hole));
     let message = "the hole lies outside of the outline; move it in, or leave it out";
     out.map(|(index, _)| Key::new("hole").index(index).error(message)).collect()
 }
 
-fn bad_circle(
-    center: Vec2,
-    radius: f64,
-    bounds: &Rect,
-    touch: f64,
-) -> Option<(&'static str, String)> {
+fn bad_circle(center: Vec2, radius: f64, bounds: &Rect, touch: f64) -> Option<(String, String)> {
     let message = if !center.is_finite() {
-        return Some(("center", "the centre is not finite".to_owned()));
+        return Some(("center".to_owned(), "the centre is not finite".to_owned()));
     } else if !(radius > 0.0 && radius.is_finite()) {
         format!("`radius` is {radius}, but must be positive and finite")
     } else if radius <= touch {
@@ -79,21 +75,22 @@ fn bad_circle(
     } else {
         return None;
     };
-    Some(("radius", message))
+    Some(("radius".to_owned(), message))
 }
 
 const MISSES: &str = "the hole misses the domain; move it in, or leave it out";
 const SWALLOWS: &str = "the hole swallows the whole domain; make it smaller";
 
 fn bad_polygon(points: &[Vec2], hole: &Hole, bounds: &Rect, touch: f64) -> Option<String> {
-    if points.len() < 3 {
+    let is_lens = points.len() == 2 && hole.edges().any(|side| side.is_arc());
+    if points.len() < 3 && !is_lens {
         return Some("a polygon needs at least three points; add `[x, y]`".to_owned());
     }
     if !points.iter().all(|p| p.is_finite()) {
         return Some("a point is not finite".to_owned());
     }
-    let sides: Vec<_> = hole.sides().collect();
-    if let Some(k) = sides.iter().position(|[a, b]| (*b - *a).length() <= touch) {
+    let sides: Vec<_> = hole.edges().collect();
+    if let Some(k) = sides.iter().position(|side| side.chord().length() <= touch) {
         return Some(format!("the points {k} and the next one are equal; remove one of them"));
     }
     let Ok(crossing) = self_touch(&sides, true, touch) else {
@@ -119,17 +116,17 @@ fn bad_polygon(points: &[Vec2], hole: &Hole, bounds: &Rect, touch: f64) -> Optio
 }
 
 fn bad_outline(outline: &Hole, bounds: &Rect, touch: f64) -> Option<&'static str> {
-    let met = outline.sides().any(|side| crosses_box(side, bounds));
-    let along = |[a, b]: [Vec2; 2]| {
-        DomainEdge::ALL
-            .iter()
-            .any(|edge| [a, b].iter().all(|p| edge.depth(bounds, *p).abs() <= touch))
+    let met = outline.edges().any(|side| crosses_box(side, bounds));
+    let along = |side: Edge| {
+        let is_on = |edge: &DomainEdge, p: Vec2| edge.depth(bounds, p).abs() <= touch;
+        let mut edges = DomainEdge::ALL.iter();
+        !side.is_arc() && edges.any(|edge| is_on(edge, side.from) && is_on(edge, side.to))
     };
     if !met && outline.contains(bounds.center()) {
         Some("the outline lies outside of the box; leave `min` and `max` out")
     } else if !met {
         Some("the outline encloses the whole box, which is the body then; leave one of them out")
-    } else if outline.sides().any(along) {
+    } else if outline.edges().any(along) {
         Some(
             "the outline runs along an edge of the box; leave `min` and `max` out, or make the box larger",
         )
@@ -138,6 +135,6 @@ fn bad_outline(outline: &Hole, bounds: &Rect, touch: f64) -> Option<&'static str
     }
 }
 
-fn crosses_box(side: [Vec2; 2], bounds: &Rect) -> bool {
-    crate::geometry::segment_inside(side[0], side[1], bounds) > 0.0
+fn crosses_box(side: Edge, bounds: &Rect) -> bool {
+    crate::geometry::edge_inside(side, bounds) > 0.0
 }

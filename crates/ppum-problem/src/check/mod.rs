@@ -133,8 +133,7 @@ fn numbers(problem: &ProblemData) -> Vec<(Key, f64)> {
     all
 }
 
-/// Least increment in units of the length below which things touch: an arc may have
-/// several vertices.
+/// Least increment in units of the length below which things touch.
 const LEAST_INCREMENT: f64 = 100.0;
 
 fn check_increment(problem: &ProblemData) -> Option<KeyError> {

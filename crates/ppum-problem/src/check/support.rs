@@ -1,7 +1,6 @@
 //! Rules for forces at points, and for points that are held.
 
 use ppum::border::touch;
-use ppum::segment;
 use ppum::vec2::Vec2;
 
 use crate::data::{ProblemData, is_outside};
@@ -59,7 +58,6 @@ fn misplaced(problem: &ProblemData, p: Vec2) -> Option<String> {
             "{place} is the point of a [[force]], which moves without end; hold another one"
         ));
     }
-    let lies_on = |points: &[Vec2]| segment::polyline_distance(points, p) <= touch;
-    let crack = cracks.iter().position(|crack| lies_on(&crack.points))?;
+    let crack = cracks.iter().position(|crack| crack.distance(p) <= touch)?;
     Some(format!("{place} lies on crack {crack}, whose faces move apart; move it off the crack"))
 }

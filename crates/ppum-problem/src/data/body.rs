@@ -5,7 +5,6 @@ use std::sync::Arc;
 use ppum::border::BorderLine;
 use ppum::crack::Crack;
 use ppum::domain::Domain;
-use ppum::vec2::Vec2;
 
 use super::{BoundaryPiece, Discretization};
 use crate::geometry::{settled, with_ends};
@@ -35,14 +34,14 @@ impl Body {
 
     /// The body with the same cracks in another domain.
     pub(crate) fn with_domain(self, domain: Domain) -> Self {
-        let lines: Vec<_> = self.cracks.iter().map(|crack| crack.points.clone()).collect();
-        Self { domain, ..self }.with_lines(lines).settled()
+        let cracks = self.cracks.clone();
+        Self { domain, ..self }.with_lines(cracks).settled()
     }
 
-    /// The body with these cracks in place of its own, as their `points` are: vertices that a crack
-    /// does not need stay. Cracks keep what is known of their faces by their numbers.
-    pub(crate) fn with_lines(self, points: impl IntoIterator<Item = Vec<Vec2>>) -> Self {
-        let cracks = with_ends(points, &self.domain);
+    /// The body with cracks along these lines in place of its own, as they are: vertices that a
+    /// crack does not need stay. Cracks keep what is known of their faces by their numbers.
+    pub(crate) fn with_lines(self, lines: impl IntoIterator<Item = impl Into<Crack>>) -> Self {
+        let cracks = with_ends(lines, &self.domain);
         self.with_cracks(cracks)
     }
 
@@ -50,7 +49,7 @@ impl Body {
     pub(crate) fn with_cracks(mut self, cracks: Vec<Crack>) -> Self {
         let touching = self.contacts.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
         self.contacts.resize(cracks.len().max(touching), None);
-        self.lines = cracks.iter().map(|crack| self.domain.line_along(&crack.points)).collect();
+        self.lines = cracks.iter().map(|crack| self.domain.line_along(crack)).collect();
         Self { cracks, ..self }
     }
 

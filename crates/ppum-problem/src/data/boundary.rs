@@ -5,6 +5,7 @@ use std::fmt;
 use ppum::border::BorderLine;
 use ppum::crack::Side;
 use ppum::domain::Hole;
+use ppum::edge::Edge;
 use ppum::expression::Expression;
 use ppum::vec2::{Rect, Vec2, vec2};
 
@@ -150,9 +151,9 @@ pub struct BoundaryPiece {
     pub runs: Vec<BoundaryRange>,
 }
 
-/// Successive sides of the polygon around a hole, as [`Hole::sides`] counts them.
+/// Successive sides of the polygon around a hole, as [`Hole::edges`] counts them.
 ///
-/// [`Hole::sides`]: ppum::domain::Hole::sides
+/// [`Hole::edges`]: ppum::domain::Hole::edges
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BoundaryRange {
     /// Index of the hole.
@@ -165,8 +166,8 @@ pub struct BoundaryRange {
 
 impl BoundaryRange {
     /// Its sides, of its hole.
-    pub(crate) fn sides(self, hole: &Hole) -> impl Iterator<Item = [Vec2; 2]> + '_ {
-        hole.sides().take(self.to).skip(self.from)
+    pub(crate) fn edges(self, hole: &Hole) -> impl Iterator<Item = Edge> + '_ {
+        hole.edges().take(self.to).skip(self.from)
     }
 
     /// True if a side of a hole belongs to it.

@@ -34,7 +34,8 @@ pub struct Discretization {
     /// Degree of the polynomial that multiplies the tip functions on patches that contain a tip.
     pub tip_degree: usize,
     /// Number of terms of Williams' series, r^½ to r^(N − ½), with [`Enrichment::Williams`]; `None`
-    /// for as many as the order of a patch asks for: the order itself, from 3 to 6.
+    /// for as many as the order of a patch asks for: the order itself, from 3 to 6, and on arcs
+    /// one more, from 3 to 7.
     pub tip_terms: Option<usize>,
 }
 

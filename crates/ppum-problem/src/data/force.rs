@@ -1,10 +1,10 @@
 //! The surroundings of forces at points.
 
 use ppum::border::touch;
-use ppum::crack::{SegmentId, Side};
+use ppum::crack::{Crack, SegmentId, Side};
 use ppum::domain::{Domain, Hole};
+use ppum::edge::Edge;
 use ppum::line::Line;
-use ppum::segment;
 use ppum::vec2::Vec2;
 
 use super::{BoundaryPart, DomainEdge, Force, ProblemData};
@@ -29,9 +29,6 @@ impl ForcePlace {
         if let Self::Border { face, .. } = self { face } else { None }
     }
 }
-
-/// Turn between sides of a rim, in radians, below which they stand for a curve.
-const CURVE: f64 = 0.3;
 
 /// Cosine of angles that are rounding.
 const PARALLEL: f64 = 1.0 - 1e-12;
@@ -81,13 +78,13 @@ impl ProblemData {
     }
 
     fn crack_at(&self, p: Vec2, touch: f64) -> Option<usize> {
-        self.cracks().iter().position(|crack| segment::polyline_distance(&crack.points, p) <= touch)
+        self.cracks().iter().position(|crack| crack.distance(p) <= touch)
     }
 
     fn face_at(&self, crack: usize, side: Side, p: Vec2, touch: f64) -> Result<ForcePlace, String> {
         let points = &self.cracks()[crack].points;
         let others = self.cracks().iter().enumerate().filter(|(k, _)| *k != crack);
-        let mut others = others.map(|(_, other)| segment::polyline_distance(&other.points, p));
+        let mut others = others.map(|(_, other)| other.distance(p));
         if points.iter().any(|q| (*q - p).length() <= touch) || others.any(|d| d <= touch) {
             return Err(format!(
                 "lies at an end, a kink or a crossing of crack {crack}; move it along the face"
@@ -97,6 +94,11 @@ impl ProblemData {
             return Err("lies on the border of a half model; model the whole body".into());
         }
         let (number, inward) = self.face_near(crack, side, p);
+        if self.cracks()[crack].edge(number).is_arc() {
+            return Err(format!(
+                "lies on a curved part of crack {crack}; move it onto a straight one"
+            ));
+        }
         let segment = SegmentId { crack: crack as u32, segment: number as u32 };
         Ok(ForcePlace::Border { inward, face: Some((segment, side)) })
     }
@@ -112,8 +114,9 @@ impl ProblemData {
             let ends = self.cracks()[segment.crack as usize].points.iter();
             room = ends.map(|q| (*q - p).length()).fold(room, f64::min);
         } else if let ForcePlace::Border { inward, .. } = place {
-            let rims = self.domain().holes.iter().flat_map(Hole::sides);
-            room = rims.filter_map(|side| along(p, -inward, side)).fold(room, f64::min);
+            let reach = self.domain().bounds.size().length();
+            let rims = self.domain().holes.iter().flat_map(Hole::edges);
+            room = rims.filter_map(|side| along(p, -inward, side, reach)).fold(room, f64::min);
         }
         room
     }
@@ -122,13 +125,12 @@ impl ProblemData {
     /// the field varies as fast there.
     pub fn next_to(&self, force: &Force) -> f64 {
         let (p, domain) = (force.at, self.domain());
-        let to = |[a, b]: [Vec2; 2]| segment::distance([a, b], p);
         let edges = DomainEdge::ALL.into_iter().map(|edge| edge.depth(&domain.bounds, p));
-        let sides = domain.holes.iter().flat_map(Hole::sides).map(to);
+        let sides = domain.holes.iter().flat_map(Hole::edges);
         let circles = domain.holes.iter().filter(|hole| hole.sides().next().is_none());
         let circles = circles.map(|hole| hole.rim_distance(p));
-        let cracks = self.cracks().iter().flat_map(|crack| crack.points.windows(2));
-        let all = edges.chain(sides).chain(circles).chain(cracks.map(|s| to([s[0], s[1]])));
+        let lines = sides.chain(self.cracks().iter().flat_map(Crack::edges));
+        let all = edges.chain(circles).chain(lines.map(|edge| edge.distance(p)));
         all.filter(|distance| *distance > touch(&domain.bounds)).fold(f64::INFINITY, f64::min)
     }
 
@@ -137,7 +139,7 @@ impl ProblemData {
             BoundaryPart::Hole(hole) => self.domain().holes[hole].rim_distance(p),
             _ => f64::INFINITY,
         };
-        let sides = self.segments_of(on).map(|ends| segment::distance(ends, p));
+        let sides = self.edges_of(on).map(|edge| edge.distance(p));
         sides.fold(round, f64::min)
     }
 }
@@ -148,32 +150,22 @@ pub(crate) fn is_outside(domain: &Domain, p: Vec2, touch: f64) -> bool {
     !domain.bounds.contains(p) || domain.holes.iter().any(is_inside)
 }
 
-/// True if a point lies on a curve that a part of a rim stands for: between the curve and its
-/// segments there is an eighth of their length times their turn.
+/// True if a point lies on a circle or on an arc of a rim.
 fn is_on_curve(hole: &Hole, p: Vec2, touch: f64) -> bool {
-    let sides: Vec<_> = hole.sides().collect();
-    let is_round = sides.is_empty() && hole.rim_distance(p) <= touch;
-    let pairs = (0..sides.len()).map(|k| [sides[k], sides[(k + 1) % sides.len()]]);
-    is_round || pairs.into_iter().any(|pair| is_at_bend(pair, p, touch))
+    let is_round = hole.sides().next().is_none() && hole.rim_distance(p) <= touch;
+    let mut arcs = hole.edges().filter(Edge::is_arc);
+    is_round || arcs.any(|arc| arc.distance(p) <= touch)
 }
 
-/// True if a point is at the bend of two segments that turn gently, as far as the shorter one
-/// reaches: straight sides may go on into curves.
-fn is_at_bend([[a, b], [_, c]]: [[Vec2; 2]; 2], p: Vec2, touch: f64) -> bool {
-    let (first, second) = (b - a, c - b);
-    let turn = first.cross(second).atan2(first.dot(second)).abs();
-    let reach = first.length().min(second.length());
-    let sagitta = (0.25 * turn * reach).max(touch);
-    (BESIDE..CURVE).contains(&turn)
-        && (p - b).length() <= reach + touch
-        && [[a, b], [b, c]].iter().any(|side| segment::distance(*side, p) <= sagitta)
-}
-
-/// Distance from a point in a direction to a segment that does not begin there.
-fn along(p: Vec2, way: Vec2, [a, b]: [Vec2; 2]) -> Option<f64> {
-    let side = Line::through([a, b]);
+/// Distance, less than `reach`, from a point in a direction to an edge that does not begin there.
+fn along(p: Vec2, way: Vec2, edge: Edge, reach: f64) -> Option<f64> {
+    let beside = BESIDE * (edge.chord().length() + (edge.from - p).length());
+    if edge.is_arc() {
+        let met = Edge::segment([p, p + way * reach]).meets(&edge).into_iter();
+        return met.map(|[part, _]| part * reach).find(|distance| *distance > beside);
+    }
+    let side = Line::through([edge.from, edge.to]);
     let [distance, part] = Line { from: p, along: way }.meets(&side)?;
-    let beside = BESIDE * (side.along.length() + (a - p).length());
     (distance > beside && (0.0..=1.0).contains(&part)).then_some(distance)
 }
 
@@ -184,7 +176,8 @@ mod tests {
 
     #[test]
     fn rays_meet_segments_ahead() {
-        let side = [vec2(1.0, -1.0), vec2(1.0, 2.0)];
+        let side = Edge::segment([vec2(1.0, -1.0), vec2(1.0, 2.0)]);
+        let along = |p, way, side| along(p, way, side, 9.0);
         assert_eq!(along(Vec2::ZERO, vec2(1.0, 0.0), side), Some(1.0));
         assert_eq!(along(Vec2::ZERO, vec2(-1.0, 0.0), side), None);
         assert_eq!(along(vec2(0.0, 3.0), vec2(1.0, 0.0), side), None);

@@ -6,16 +6,16 @@ use std::sync::Arc;
 
 use ppum::crack::{Crack, Side, TipId, tips};
 use ppum::dataset::{Equation, Material, NamedQuantity};
-use ppum::domain::Domain;
+use ppum::domain::{Domain, Hole};
+use ppum::edge::Edge;
 use ppum::expression::Expression;
 use ppum::formula::Table;
-use ppum::segment;
 use ppum::vec2::Vec2;
 
 use super::{
-    Adaptivity, Body, BoundaryCondition, BoundaryPart, BoundaryPiece, Condition, Discretization,
-    DomainEdge, Enrichment, Force, GrowthRule, LocalEnrichment, LocalRefinement, ProblemError,
-    SolverKind, SolverSettings, Support,
+    Adaptivity, Body, BoundaryCondition, BoundaryPart, BoundaryPiece, Condition, Diagnostic,
+    Discretization, DomainEdge, Enrichment, Force, GrowthRule, LocalEnrichment, LocalRefinement,
+    ProblemError, SolverKind, SolverSettings, Support,
 };
 
 /// A problem with its discretisation that breaks no rule.
@@ -68,11 +68,11 @@ impl Problem {
         Self::of_checked(ProblemData { body: body.into(), ..self.0.clone() })
     }
 
-    /// The problem whose cracks have grown to these lines.
+    /// The problem whose cracks have grown to these lines, polylines or chains of edges.
     ///
     /// # Errors
     /// The rules that the new cracks break.
-    pub fn grown(&self, lines: Vec<Vec<Vec2>>) -> Result<Self, ProblemError> {
+    pub fn grown(&self, lines: Vec<Crack>) -> Result<Self, ProblemError> {
         Self::new(self.0.clone().with_lines(lines))
     }
 
@@ -123,6 +123,8 @@ pub struct ProblemData {
     pub text: Option<String>,
     /// The files that the text names, which were read with it: tables and points.
     pub files: Vec<PathBuf>,
+    /// Remarks on the text that are no errors, such as keys that have no effect.
+    pub notes: Vec<Diagnostic>,
 }
 
 /// A change of temperature T, the solution of Poisson's equation on the same body with the same
@@ -188,6 +190,7 @@ impl ProblemData {
             solver: SolverSettings::default(),
             text: None,
             files: Vec::new(),
+            notes: Vec::new(),
         }
     }
 
@@ -197,14 +200,23 @@ impl ProblemData {
     /// [`with_lines`](Self::with_lines) makes many at once.
     #[must_use]
     pub fn with_crack(self, points: &[[f64; 2]]) -> Self {
-        let mut lines: Vec<_> = self.cracks().iter().map(|crack| crack.points.clone()).collect();
-        lines.push(points.iter().copied().map(Vec2::from).collect());
+        let points: Vec<Vec2> = points.iter().copied().map(Vec2::from).collect();
+        self.with_crack_along(points)
+    }
+
+    /// The problem with one more crack along a polyline or a chain of edges, as
+    /// [`with_crack`](Self::with_crack) has it.
+    #[must_use]
+    pub fn with_crack_along(self, course: impl Into<Crack>) -> Self {
+        let mut lines = self.cracks().to_vec();
+        lines.push(course.into());
         self.with_lines(lines)
     }
 
-    /// The problem with cracks along lines in place of its own, see [`cracks`](crate::cracks()).
+    /// The problem with cracks along lines, polylines or chains of edges, in place of its own, see
+    /// [`cracks`](crate::cracks()).
     #[must_use]
-    pub fn with_lines(self, lines: impl IntoIterator<Item = Vec<Vec2>>) -> Self {
+    pub fn with_lines(self, lines: impl IntoIterator<Item = Crack>) -> Self {
         let body = (*self.body).clone().with_lines(lines).settled();
         Self { body: body.into(), ..self }
     }
@@ -267,6 +279,13 @@ impl ProblemData {
     /// True if faces of some crack may touch.
     pub(crate) fn touches(&self) -> bool {
         self.body.contacts().next().is_some()
+    }
+
+    /// Number of arcs of which cracks and rims consist.
+    #[must_use]
+    pub fn arcs(&self) -> usize {
+        let rims = self.domain().holes.iter().flat_map(Hole::edges);
+        rims.chain(self.cracks().iter().flat_map(Crack::edges)).filter(Edge::is_arc).count()
     }
 
     /// The box minus holes Ω.
@@ -344,14 +363,12 @@ impl ProblemData {
         source
     }
 
-    /// The number of the segment of a crack that is nearest to a point, and the normal of its face
-    /// into the body.
+    /// The number of the edge of a crack that is nearest to a point, and the normal of its face
+    /// into the body there.
     pub(crate) fn face_near(&self, crack: usize, side: Side, x: Vec2) -> (usize, Vec2) {
-        let segments = self.cracks()[crack].points.windows(2).enumerate();
-        let distance = |s: &[Vec2]| segment::distance([s[0], s[1]], x);
-        let nearest = segments.min_by(|(_, s), (_, t)| distance(s).total_cmp(&distance(t)));
-        let (number, left) =
-            nearest.map_or((0, Vec2::ZERO), |(k, s)| (k, (s[1] - s[0]).unit().left()));
+        let edges = self.cracks()[crack].edges().enumerate();
+        let nearest = edges.min_by(|(_, s), (_, t)| s.distance(x).total_cmp(&t.distance(x)));
+        let (number, left) = nearest.map_or((0, Vec2::ZERO), |(k, edge)| (k, left_of(&edge, x)));
         (number, if side == Side::Above { left } else { -left })
     }
 
@@ -368,4 +385,9 @@ impl ProblemData {
         }
         sum
     }
+}
+
+/// The normal on the left of an edge at its point next to another one.
+fn left_of(edge: &Edge, x: Vec2) -> Vec2 {
+    if edge.is_arc() { edge.tangent_towards(x).left() } else { edge.chord().unit().left() }
 }

@@ -69,7 +69,7 @@ impl LocalRefinement {
             RefinementRegion::Box(rect) => rect,
             RefinementRegion::Disc { center, radius } => Rect::around(center, vec2(radius, radius)),
             RefinementRegion::Hole(hole) => domain.holes[hole].rim_bounds(),
-            RefinementRegion::Crack(crack) => geometry::around(&cracks[crack].points),
+            RefinementRegion::Crack(crack) => cracks[crack].bounds(),
         };
         geometry::wider(&around, self.distance)
     }

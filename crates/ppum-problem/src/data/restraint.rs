@@ -2,6 +2,7 @@
 //! stored with.
 
 use ppum::domain::Domain;
+use ppum::edge::Edge;
 use ppum::vec2::Vec2;
 
 use super::{BoundaryPart, BoundaryPiece, DomainEdge, OUTLINE};
@@ -15,7 +16,7 @@ pub fn restraint_center(on: &str, domain: &Domain, pieces: &[BoundaryPiece]) -> 
     if let Some(name) = on.strip_prefix("piece ") {
         let piece = pieces.iter().find(|piece| piece.name == name)?;
         return Some(centroid(
-            piece.runs.iter().flat_map(|run| run.sides(&domain.holes[run.hole])),
+            piece.runs.iter().flat_map(|run| run.edges(&domain.holes[run.hole])),
         ));
     }
     let on_edge = |name: &str, range: Option<[f64; 2]>| {
@@ -36,12 +37,12 @@ pub fn restraint_center(on: &str, domain: &Domain, pieces: &[BoundaryPiece]) -> 
     }
 }
 
-/// The centroid of segments.
-fn centroid(sides: impl Iterator<Item = [Vec2; 2]>) -> Vec2 {
+/// The centroid of edges.
+fn centroid(sides: impl Iterator<Item = Edge>) -> Vec2 {
     let (mut length, mut moment) = (0.0, Vec2::ZERO);
-    for [a, b] in sides {
-        length += (b - a).length();
-        moment = moment + (a + b) * (0.5 * (b - a).length());
+    for side in sides {
+        length += side.length();
+        moment = moment + side.centroid() * side.length();
     }
     moment / length
 }

@@ -2,7 +2,7 @@
 
 use ppum::crack::Crack;
 use ppum::dataset::Dataset;
-use ppum::segment::polyline_distance;
+use ppum::vec2::Vec2;
 
 use super::{Diagnostic, Problem, ProblemError, ProblemLocation};
 
@@ -30,7 +30,8 @@ impl Problem {
 fn go_on(before: &[Crack], cracks: &[Crack]) -> bool {
     let along = |old: &Crack, new: &Crack| {
         let far = ROUNDING * old.length();
-        old.points.iter().all(|p| polyline_distance(&new.points, *p) <= far)
+        let is_near = |p: Vec2| new.distance(p) <= far;
+        old.edges().all(|edge| is_near(edge.from) && is_near(edge.middle()) && is_near(edge.to))
     };
     before.len() == cracks.len() && before.iter().zip(cracks).all(|(old, new)| along(old, new))
 }

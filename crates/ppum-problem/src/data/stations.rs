@@ -6,7 +6,7 @@ use std::f64::consts::TAU;
 use ppum::border::touch;
 use ppum::crack::Side;
 use ppum::domain::Hole;
-use ppum::segment;
+use ppum::edge::Edge;
 use ppum::vec2::{Vec2, vec2};
 
 use super::{BoundaryCondition, BoundaryPart, ForcePlace, ProblemData};
@@ -80,15 +80,12 @@ impl ProblemData {
     /// Points of a part of the boundary with their normals out of the material.
     fn points_of(&self, part: BoundaryPart, spacing: f64) -> Vec<(Vec2, Vec2)> {
         let bounds = &self.domain().bounds;
-        let faces: Vec<_> = self.border_cracks().map(|(k, _)| &self.cracks()[k].points).collect();
-        let is_on_face = |p: Vec2| {
-            let mut near = faces.iter().map(|face| segment::polyline_distance(face, p));
-            near.any(|distance| distance <= touch(bounds))
-        };
+        let faces: Vec<_> = self.border_cracks().map(|(k, _)| &self.cracks()[k]).collect();
+        let is_on_face = |p: Vec2| faces.iter().any(|face| face.distance(p) <= touch(bounds));
         match part {
             BoundaryPart::Edge { edge, from, to } => {
-                let ends = [from, to].map(|s| edge.point(bounds, s));
-                let points = along(ends, spacing).map(|p| (p, edge.normal()));
+                let piece = Edge::segment([from, to].map(|s| edge.point(bounds, s)));
+                let points = along(piece, spacing).map(|(p, _)| (p, edge.normal()));
                 points.filter(|&(p, _)| self.domain().contains(p) && !is_on_face(p)).collect()
             }
             BoundaryPart::Hole(_) | BoundaryPart::Sides(_) | BoundaryPart::Piece(_) => {
@@ -100,17 +97,18 @@ impl ProblemData {
             }
             BoundaryPart::Crack { crack, face } => {
                 let crack = &self.cracks()[crack];
-                let segments = crack.points.windows(2).map(|s| [s[0], s[1]]);
                 let sides = [Side::Above, Side::Below].into_iter();
                 let sides = sides.filter(|side| face.is_none_or(|face| face == *side));
                 let faces = sides.flat_map(|side| {
                     let is_in_body =
-                        move |ends: &[Vec2; 2]| self.domain().outer_side(*ends) != Some(side);
-                    segments.clone().filter(is_in_body).flat_map(move |ends| {
-                        let left = (ends[1] - ends[0]).unit().left();
-                        let outward = if side == Side::Above { -left } else { left };
-                        along(ends, spacing).map(move |p| (p, outward))
-                    })
+                        move |edge: &Edge| self.domain().outer_side(*edge) != Some(side);
+                    let edges: Vec<Edge> = crack.edges().filter(is_in_body).collect();
+                    let sign = if side == Side::Above { -1.0 } else { 1.0 };
+                    let points: Vec<_> = match crack.is_curved() {
+                        true => along_sides(&edges, spacing).collect(),
+                        false => edges.into_iter().flat_map(|edge| along(edge, spacing)).collect(),
+                    };
+                    points.into_iter().map(move |(p, way)| (p, way.left() * sign))
                 });
                 faces.collect()
             }
@@ -118,10 +116,12 @@ impl ProblemData {
     }
 }
 
-/// Points of a straight piece: the middles of equal parts about as long as the spacing.
-fn along([a, b]: [Vec2; 2], spacing: f64) -> impl Iterator<Item = Vec2> {
-    let count = parts((b - a).length(), spacing);
-    (0..count).map(move |k| a + (b - a) * ((f64::from(k) + 0.5) / f64::from(count)))
+/// Points of an edge: the middles of equal parts about as long as the spacing, with the directions
+/// there.
+fn along(edge: Edge, spacing: f64) -> impl Iterator<Item = (Vec2, Vec2)> {
+    let count = parts(edge.length(), spacing);
+    let part = move |k: u32| (f64::from(k) + 0.5) / f64::from(count);
+    (0..count).map(move |k| (edge.at(part(k)), edge.tangent(part(k))))
 }
 
 /// Points of the sides of a rim that are wanted, with the normals out of the material, into the
@@ -138,7 +138,7 @@ fn around(hole: &Hole, is_wanted: impl Fn(usize) -> bool, spacing: f64) -> Vec<(
             (0..count).map(direction).map(|d| (*center + d * *radius, -d)).collect()
         }
         Hole::Polygon { .. } => {
-            let wanted = hole.sides().enumerate().filter(|(k, _)| is_wanted(*k));
+            let wanted = hole.edges().enumerate().filter(|(k, _)| is_wanted(*k));
             along_sides(&wanted.map(|(_, side)| side).collect::<Vec<_>>(), spacing)
                 .map(|(p, way)| (p, way.left() * hole.orientation()))
                 .collect()
@@ -148,9 +148,9 @@ fn around(hole: &Hole, is_wanted: impl Fn(usize) -> bool, spacing: f64) -> Vec<(
 
 /// Points of sides one after the other, also of short ones: the middles of equal parts of their
 /// whole length, with the directions there.
-fn along_sides(sides: &[[Vec2; 2]], spacing: f64) -> impl Iterator<Item = (Vec2, Vec2)> {
-    let lengths = sides.iter().scan(0.0, |sum, [a, b]| {
-        *sum += (*b - *a).length();
+fn along_sides(sides: &[Edge], spacing: f64) -> impl Iterator<Item = (Vec2, Vec2)> {
+    let lengths = sides.iter().scan(0.0, |sum, side| {
+        *sum += side.length();
         Some(*sum)
     });
     let ends: Vec<f64> = lengths.collect();
@@ -159,8 +159,10 @@ fn along_sides(sides: &[[Vec2; 2]], spacing: f64) -> impl Iterator<Item = (Vec2,
     (0..count).map(move |k| {
         let s = whole * ((f64::from(k) + 0.5) / f64::from(count));
         let index = ends.partition_point(|end| *end < s).min(sides.len() - 1);
-        let ([_, b], way) = (sides[index], (sides[index][1] - sides[index][0]).unit());
-        (b - way * (ends[index] - s), way)
+        let (side, rest) = (sides[index], ends[index] - s);
+        let part = (1.0 - rest / side.length()).clamp(0.0, 1.0);
+        let way = side.tangent(part);
+        (if side.is_arc() { side.at(part) } else { side.to - way * rest }, way)
     })
 }
 

@@ -15,7 +15,8 @@ use std::f64::consts::{PI, TAU};
 use ppum::border::BorderLine;
 use ppum::border::touch;
 use ppum::crack::TipId;
-use ppum::segment::{self, Segment};
+use ppum::edge::Edge;
+use ppum::segment::Segment;
 use ppum::vec2::Vec2;
 
 use super::{BoundaryCondition, BoundaryPart, Condition, DomainEdge, ProblemData};
@@ -75,19 +76,21 @@ impl ProblemData {
         (0..self.cracks().len()).filter_map(|crack| Some((crack, self.body.line_of(crack)?)))
     }
 
-    /// The segments of the boundary that a part of it consists of; none of circles and cracks.
-    pub fn segments_of(&self, part: BoundaryPart) -> impl Iterator<Item = Segment> {
-        self.sides_of(part).into_iter().map(|(ends, _)| ends)
+    /// The edges, segments and arcs, of the boundary that a part of it consists of; none of circles
+    /// and cracks.
+    pub fn edges_of(&self, part: BoundaryPart) -> impl Iterator<Item = Edge> {
+        self.sides_of(part).into_iter().map(|(edge, _)| edge)
     }
 
-    /// These segments, with the holes of their rims.
-    pub(crate) fn sides_of(&self, part: BoundaryPart) -> Vec<(Segment, Option<usize>)> {
+    /// These edges, with the holes of their rims.
+    pub(crate) fn sides_of(&self, part: BoundaryPart) -> Vec<(Edge, Option<usize>)> {
         if let BoundaryPart::Edge { edge, from, to } = part {
-            return vec![([from, to].map(|s| edge.point(&self.domain().bounds, s)), None)];
+            let ends = [from, to].map(|s| edge.point(&self.domain().bounds, s));
+            return vec![(Edge::segment(ends), None)];
         }
         let holes = self.domain().holes.iter().enumerate();
         let own = holes.flat_map(|(k, hole)| {
-            let sides = hole.sides().enumerate();
+            let sides = hole.edges().enumerate();
             sides.filter(move |(side, _)| self.is_on(part, k, *side)).map(move |s| (s.1, Some(k)))
         });
         own.collect()
@@ -96,8 +99,7 @@ impl ProblemData {
     /// True if some of a part of the boundary lies on a line of it.
     pub(crate) fn meets_line(&self, part: BoundaryPart, line: &BorderLine) -> bool {
         let touch = touch(&self.domain().bounds);
-        let is_on = |ends: &Segment| ends.iter().all(|p| line.holds(*p, touch));
-        self.segments_of(part).any(|ends| is_on(&ends))
+        self.edges_of(part).any(|edge| lies_on(edge, line, touch))
     }
 
     /// The symmetry to a line of the boundary that a condition on it says.
@@ -107,9 +109,9 @@ impl ProblemData {
         line: &BorderLine,
     ) -> Option<Symmetry> {
         let touch = touch(&self.domain().bounds);
-        let mut segments = self.segments_of(condition.on).peekable();
-        segments.peek()?;
-        let is_on = segments.flatten().all(|p| line.holds(p, touch));
+        let mut edges = self.edges_of(condition.on).peekable();
+        edges.peek()?;
+        let is_on = edges.all(|edge| lies_on(edge, line, touch));
         condition.symmetry_to(line.outward()).filter(|_| is_on)
     }
 
@@ -122,8 +124,8 @@ impl ProblemData {
             self.cracks()[crack].growth_direction(tip.end),
         );
         let ahead = [2.0 * touch, 4.0 * touch].map(|step| at + axis * step);
-        let holds = |ends: Segment| ahead.iter().all(|p| segment::distance(ends, *p) < touch);
-        let is_ahead = |condition: &&BoundaryCondition| self.segments_of(condition.on).any(holds);
+        let holds = |edge: Edge| ahead.iter().all(|p| edge.distance(*p) < touch);
+        let is_ahead = |condition: &&BoundaryCondition| self.edges_of(condition.on).any(holds);
         self.symmetry_on(self.boundary.iter().find(is_ahead)?, &line)
     }
 
@@ -139,10 +141,10 @@ impl ProblemData {
         let is_held =
             |one: &&BoundaryCondition| self.symmetry_on(one, line).is_some_and(&is_of_kind);
         let held = self.boundary.iter().filter(is_held);
-        let held = held.flat_map(|condition| self.segments_of(condition.on));
+        let held = held.flat_map(|condition| self.edges_of(condition.on));
         let mut parts: Vec<[f64; 2]> = held
             .chain(self.faces_along(line))
-            .map(|ends| ends.map(|p| line.coordinate(p)))
+            .map(|edge| [edge.from, edge.to].map(|p| line.coordinate(p)))
             .map(|[a, b]| [a.min(b), a.max(b)])
             .collect();
         parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
@@ -154,22 +156,22 @@ impl ProblemData {
     }
 
     /// The faces of cracks on a line of the boundary.
-    pub(crate) fn faces_along(&self, line: &BorderLine) -> impl Iterator<Item = Segment> {
+    pub(crate) fn faces_along(&self, line: &BorderLine) -> impl Iterator<Item = Edge> {
         let own = self.border_cracks().filter(move |(_, own)| own == line);
-        own.flat_map(|(crack, _)| self.cracks()[crack].points.windows(2)).map(|s| [s[0], s[1]])
+        own.flat_map(|(crack, _)| self.cracks()[crack].edges())
     }
 
     /// The parts of a part of the boundary on a line that are no faces of cracks.
     pub fn parts_beside_faces(&self, part: BoundaryPart, line: &BorderLine) -> Vec<Segment> {
-        let ranges = |ends: Segment| ends.map(|p| line.coordinate(p));
+        let ranges = |edge: Edge| [edge.from, edge.to].map(|p| line.coordinate(p));
         let faces: Vec<[f64; 2]> = self.faces_along(line).map(ranges).collect();
         let [direction, start] = [line.direction(), line.ends[0]];
-        let beside = |ends: Segment| {
-            let [a, b] = ranges(ends);
+        let beside = |edge: Edge| {
+            let [a, b] = ranges(edge);
             let all = without([a.min(b), a.max(b)], &faces).into_iter();
             all.map(move |range| range.map(|s| start + direction * s))
         };
-        self.segments_of(part).flat_map(beside).collect()
+        self.edges_of(part).filter(|edge| !edge.is_arc()).flat_map(beside).collect()
     }
 
     /// The lines of the body's boundary on an edge of the box around it.
@@ -227,4 +229,9 @@ impl ProblemData {
         let mut lines = self.border_cracks().map(|(_, line)| line);
         lines.find(|line| self.symmetry_on(condition, line).is_some())
     }
+}
+
+/// True if an edge lies on a line of the boundary.
+fn lies_on(edge: Edge, line: &BorderLine, touch: f64) -> bool {
+    !edge.is_arc() && [edge.from, edge.to].iter().all(|p| line.holds(*p, touch))
 }

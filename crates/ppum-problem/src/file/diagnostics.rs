@@ -15,13 +15,22 @@ pub(crate) struct DiagnosticList<'a> {
     start: (usize, usize),
     /// With the offset in the text, by which they are sorted in the end.
     errors: RefCell<Vec<(usize, Diagnostic)>>,
+    /// Remarks that are no errors, in the order in which they were made.
+    notes: RefCell<Vec<Diagnostic>>,
 }
 
 impl<'a> DiagnosticList<'a> {
     pub(crate) fn new(file: &'a str, text: &'a str) -> Self {
         let starts = text.match_indices('\n').map(|(newline, _)| newline + 1);
         let lines = iter::once(0).chain(starts).collect();
-        Self { file, text, lines, start: (1, 1), errors: RefCell::default() }
+        Self {
+            file,
+            text,
+            lines,
+            start: (1, 1),
+            errors: RefCell::default(),
+            notes: RefCell::default(),
+        }
     }
 
     /// Takes the text for a part of the file, which begins at a line and column.
@@ -31,9 +40,23 @@ impl<'a> DiagnosticList<'a> {
 
     /// Reports an error at a byte of the text.
     pub(crate) fn at(&self, offset: usize, message: impl Into<String>) {
+        self.add(offset, self.diagnostic(offset, message));
+    }
+
+    /// Remarks something that is no error at a byte of the text.
+    pub(crate) fn note(&self, offset: usize, message: impl Into<String>) {
+        self.notes.borrow_mut().push(self.diagnostic(offset, message));
+    }
+
+    /// The remarks so far.
+    pub(crate) fn notes(&self) -> Vec<Diagnostic> {
+        self.notes.borrow().clone()
+    }
+
+    fn diagnostic(&self, offset: usize, message: impl Into<String>) -> Diagnostic {
         let (line, column) = self.position(offset);
         let location = ProblemLocation::Text { file: self.file.to_owned(), line, column };
-        self.add(offset, Diagnostic { location, message: message.into() });
+        Diagnostic { location, message: message.into() }
     }
 
     /// Reports an error in another file, named at a byte of this text.

@@ -323,6 +323,11 @@ impl<'a> DocumentValue<'a> {
         None
     }
 
+    /// Remarks something that is no error.
+    pub(crate) fn note(&self, message: &str) {
+        self.document.report.note(self.offset(), format!("{} {message}", self.name));
+    }
+
     /// Reports a message as it is.
     pub(crate) fn report(&self, message: &str) {
         self.document.report.at(self.offset(), message);

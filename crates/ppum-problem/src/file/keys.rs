@@ -20,12 +20,8 @@ use crate::data::{
     EquationKind, Keyword as _, LoadControl, MAX_LEVEL, MOST_TERMS, OUTLINE as WHOLE_OUTLINE,
     Paris, Site, SolverKind, SolverSettings, StepsKept, words,
 };
-use crate::geometry::MOST_SEGMENTS;
 
 const DEGREE: NumberRange = within(0.0, MAX_DEGREE as f64);
-
-/// Segments of a curve; what asks for more has a cusp.
-const SEGMENTS: NumberRange = within(4.0, MOST_SEGMENTS as f64);
 
 const POINT: Kind = Array(2, "numbers", "[x, y]", &Constant);
 const AXES: Kind = Array(2, "half axes", "[a, b]", &Constant);
@@ -147,11 +143,14 @@ tables! {
     static OUTLINE = "`outline`", "{ points = [[0, 0], [2, 0], [0, 1]] }" {
         points: POINTS =>
             "The corners of a polygon, three or more, clockwise or counter-clockwise; it may not cross itself.";
+        bulges: NUMBERS =>
+            "With `points`: a number for each edge, the last one back to the first corner, as in DXF: tan(φ/4) of an "
+            "arc that turns left by φ (1 is half a circle), 0 of a straight edge.";
         ellipse: Table(&WHOLE_ELLIPSE) => "Instead: an ellipse.";
         spline: POINTS => "Instead: a smooth closed curve through three or more points.";
         path: List("pieces such as { arc = { … } }", &Table(&RIM_PIECE)) =>
             "Instead: several pieces, each starting where the previous one ends, the first where the last one ends.";
-        segments: Whole, range(SEGMENTS), default(|| "see [curves](#curves)".into()) => "The number of segments of each curve.";
+        segments: Whole => "Has no effect any more: curves are exact.";
     }
 
     static EQUATION = "[equation]", "" {
@@ -192,21 +191,27 @@ tables! {
         points: POINTS =>
             "Instead: the corners of a polygon, three or more, clockwise or counter-clockwise; it may not cross "
             "itself.";
+        bulges: NUMBERS =>
+            "With `points`: a number for each edge, the last one back to the first corner, as in DXF: tan(φ/4) of an "
+            "arc that turns left by φ (1 is half a circle), 0 of a straight edge.";
         ellipse: Table(&WHOLE_ELLIPSE) => "Instead: an ellipse.";
         spline: POINTS => "Instead: a smooth closed curve through three or more points.";
         path: List("pieces such as { arc = { … } }", &Table(&RIM_PIECE)) =>
             "Instead: several pieces, each starting where the previous one ends, the first where the last one ends.";
-        segments: Whole, range(SEGMENTS), default(|| "see [curves](#curves)".into()) => "The number of segments of each curve.";
+        segments: Whole => "Has no effect any more: curves are exact.";
     }
 
     static CRACK = "[[crack]]", "" {
         points: POINTS, example("[[-0.5, 0.0], [0.5, 0.0]]") => "A polyline of at least two points.";
+        bulges: NUMBERS =>
+            "With `points`: a number for each edge, as in DXF: tan(φ/4) of an arc that turns left by φ (1 is half a "
+            "circle, negative turns right), 0 of a straight edge.";
         arc: Table(&ARC) => "Instead: an arc of a circle.";
         ellipse: Table(&ELLIPSE) => "Instead: a part of an ellipse.";
         spline: POINTS => "Instead: a smooth curve through three or more points.";
         path: List("pieces such as { arc = { … } }", &Table(&PIECE)) =>
             "Instead: several of `points`, `arc`, `ellipse`, `spline`, each starting where the previous one ends.";
-        segments: Whole, range(SEGMENTS), default(|| "see [curves](#curves)".into()) => "The number of segments of each curve.";
+        segments: Whole => "Has no effect any more: curves are exact.";
         contact: Flag, default(|| toml(false)), only(Elasticity, &[]) =>
             "`true`: its faces press on each other where they touch, instead of overlapping; see "
             "[contact](#contact).";
@@ -217,6 +222,9 @@ tables! {
     /// A piece of an outline or of the rim of a hole.
     static RIM_PIECE = "a piece of `path`", "{ points = [[0, 0], [1, 0]], name = \"base\" }" {
         points: POINTS => "A polyline of at least two points.";
+        bulges: NUMBERS =>
+            "With `points`: a number for each edge, as in DXF: tan(φ/4) of an arc that turns left by φ (1 is half a "
+            "circle, negative turns right), 0 of a straight edge.";
         arc: Table(&ARC) => "Instead: an arc of a circle.";
         ellipse: Table(&ELLIPSE) => "Instead: a part of an ellipse.";
         spline: POINTS => "Instead: a smooth curve through three or more points.";
@@ -312,7 +320,7 @@ tables! {
             "divided and orders raised until the estimated error is that small. No cells need be given: the first "
             "cover has level 2, below 1e-3 level 3, with automatic refinement. The keys of "
             "[`[adaptivity]`](#adaptivity) set the bounds, by default 30 steps and 100,000 unknowns; the warning "
-            "`tolerance` says if a bound is reached first, or if the segments of a [curved crack](#curves) err by more.";
+            "`tolerance` says if a bound is reached first.";
         refine: Flag, default(|| toml(discretization().refine)) =>
             "Refine the cells where the field needs it: around tips, where a tip has little clearance, where the rim "
             "of a polygon would cross a patch twice, towards [singular points](#singular-points), at round holes and "
@@ -336,7 +344,7 @@ tables! {
         tip_degree: Whole, range(DEGREE), default(|| toml(discretization().tip_degree)), remedy(IS_DEFAULT) =>
             "Degree of the polynomials that multiply the tip functions on patches that contain a tip; not with "
             "`\"williams\"`.";
-        tip_terms: Whole, range(within(1.0, MOST_TERMS as f64)), default(|| "the order of the patch, from 3 to 6".into()) =>
+        tip_terms: Whole, range(within(1.0, MOST_TERMS as f64)), default(|| "the order of the patch, from 3 to 6; on arcs one more than the order, from 3 to 7".into()) =>
             "With `\"williams\"`: number N of terms of Williams' series, r^½ to r^(N − ½).";
     }
 
@@ -483,7 +491,7 @@ const fn part(name: &'static str, example: &'static str, keys: &'static [KeyRow]
 
 /// A piece of a path: as one of a rim, without a name.
 static PIECE: KeyTable =
-    part("a piece of `path`", "{ points = [[0, 0], [1, 0]] }", RIM_PIECE.keys.split_at(4).0);
+    part("a piece of `path`", "{ points = [[0, 0], [1, 0]] }", RIM_PIECE.keys.split_at(5).0);
 
 /// A whole ellipse: a part of one, without its ends.
 static WHOLE_ELLIPSE: KeyTable =

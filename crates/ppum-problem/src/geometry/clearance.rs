@@ -4,8 +4,8 @@ use ppum::border::touch;
 use ppum::crack::{Crack, End, TipId};
 use ppum::dataset::{Dataset, Step};
 use ppum::domain::{Domain, Hole};
+use ppum::edge::Edge;
 use ppum::function::{Frame, Function, FunctionKind, Role};
-use ppum::segment::{self, Segment, gap};
 use ppum::vec2::{Rect, Vec2};
 
 use super::material::jumps;
@@ -20,10 +20,17 @@ const BESIDE: f64 = 1e-9;
 /// 3; docs/decisions/0004).
 pub const AMPLE_CLEARANCE: f64 = 2.0;
 
-/// Turn of a crack from its last segment on, in radians, up to which it counts as straight for the
-/// cells at its tip: K of a crack with a kink of 0.1 at 1/50 of its length from the tip is off by
-/// 6e-6, with one of 0.2 by 5e-5. On an arc turns up to 0.6 change nothing.
+/// Turn of a crack at its kinks from its last edge on, in radians, up to which it counts as smooth
+/// for the cells at its tip: K of a crack with a kink of 0.1 at 1/50 of its length from the tip is
+/// off by 6e-6, with one of 0.2 by 5e-5.
 const GENTLE: f64 = 0.1;
+
+/// The largest disc around a tip on an arc, in radii of the arc: at its centre the fields that
+/// leave the arc free grow like one over the square of the distance, and their series ends.
+const BEFORE_CENTER: f64 = 0.75;
+
+/// Most of its sweep that a part of an arc has which leads away from a tip or does not, as a whole.
+const PART: f64 = 0.2;
 
 /// Part of a length by which another may exceed it and still be as long, and cosine of angles that
 /// are right ones: lengths of cracks are often whole cells, and their rounding must not decide
@@ -62,6 +69,8 @@ pub enum TipObstacle {
     Interface,
     /// A force at a point.
     Force,
+    /// The centre of the arc that its own crack is there.
+    Center,
 }
 
 impl TipObstacle {
@@ -75,6 +84,7 @@ impl TipObstacle {
             Self::Crack(k) => format!("crack {k}"),
             Self::Interface => "an interface of two materials".into(),
             Self::Force => "a force at a point".into(),
+            Self::Center => "the centre of its crack's arc".into(),
         }
     }
 }
@@ -144,7 +154,7 @@ impl TipClearance {
         let holes = domain.holes.iter().enumerate();
         let distance = |hole: &Hole| match hole.rim_distance(p) {
             on if on <= touch => {
-                let sides = hole.sides().map(|side| segment::distance(side, p));
+                let sides = hole.edges().map(|side| side.distance(p));
                 sides.filter(|distance| *distance > touch).fold(f64::INFINITY, f64::min)
             }
             distance => distance,
@@ -153,11 +163,13 @@ impl TipClearance {
             radius: distance(hole),
             end: if hole.is_outside() { TipObstacle::Border } else { TipObstacle::Hole(k) },
         });
-        let others = cracks.filter(|(k, _)| *k != tip.crack as usize).map(|(k, c)| Self {
-            radius: segment::polyline_distance(&c.points, p),
-            end: TipObstacle::Crack(k),
-        });
-        border.with(rims).with(others.chain([Self { radius: of_own, end: TipObstacle::Own }]))
+        let others = cracks
+            .filter(|(k, _)| *k != tip.crack as usize)
+            .map(|(k, c)| Self { radius: c.distance(p), end: TipObstacle::Crack(k) });
+        let own_disc = Self { radius: of_own, end: TipObstacle::Own };
+        let radius = BEFORE_CENTER / own.edge_to(tip.end).curvature().abs();
+        let before_center = Self { radius, end: TipObstacle::Center };
+        border.with(rims).with(others.chain([own_disc, before_center]))
     }
 
     /// The smallest of several.
@@ -166,32 +178,43 @@ impl TipClearance {
     }
 }
 
-/// Distance of a tip to what of its crack is not nearly straight on.
+/// Distance of a tip to what of its crack goes on beyond a kink.
 fn behind(own: &Crack, end: End) -> f64 {
-    let (bent, tip) = (bent_part(own, end), own.end_point(end));
-    let vertices = bent.iter().map(|&v| (v - tip).length()).fold(f64::INFINITY, f64::min);
-    vertices.min(segment::polyline_distance(&bent, tip))
+    let (tip, other) = (own.end_point(end), own.end_point(opposite(end)));
+    least_distance(&bent_part(own, end), tip).min((other - tip).length())
 }
 
-/// The vertices of a crack from an end on, from that one beyond which it has turned by more than
-/// `GENTLE` up to its other end, which is always among them.
-pub fn bent_part(own: &Crack, end: End) -> Vec<Vec2> {
-    let points: Vec<Vec2> = from_tip(own, end).collect();
-    let first = points[1] - points[0];
-    let is_bent = |s: &[Vec2]| {
-        let on = s[1] - s[0];
-        first.cross(on).atan2(first.dot(on)).abs() > GENTLE
+/// The least distance of edges from a point; ∞ of none.
+fn least_distance(edges: &[Edge], p: Vec2) -> f64 {
+    edges.iter().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min)
+}
+
+fn opposite(end: End) -> End {
+    if end == End::Start { End::Last } else { End::Start }
+}
+
+/// The edges of a crack from an end on, from that one on before which it has turned by more than
+/// `GENTLE` at kinks; none if there is none. Joints with equal tangents are no kinks.
+pub fn bent_part(own: &Crack, end: End) -> Vec<Edge> {
+    let edges: Vec<Edge> = from_tip(own, end).collect();
+    let turn = |pair: &[Edge]| {
+        let (before, on) = (pair[0].end_tangents()[1], pair[1].end_tangents()[0]);
+        before.cross(on).atan2(before.dot(on))
     };
-    let straight = points.windows(2).position(is_bent).unwrap_or(points.len() - 1);
-    points[straight..].to_vec()
+    let turns = edges.windows(2).scan(0.0, |sum, pair| {
+        *sum += turn(pair);
+        Some(*sum)
+    });
+    let smooth = turns.take_while(|turn| turn.abs() <= GENTLE).count();
+    edges.get(smooth + 1..).unwrap_or_default().to_vec()
 }
 
-/// The vertices of a crack from an end on.
-pub fn from_tip(own: &Crack, end: End) -> impl Iterator<Item = Vec2> {
-    let n = own.points.len();
+/// The edges of a crack from an end on, in the direction that leads away from it.
+pub fn from_tip(own: &Crack, end: End) -> impl Iterator<Item = Edge> {
+    let n = own.points.len().saturating_sub(1);
     (0..n).map(move |k| match end {
-        End::Start => own.points[k],
-        End::Last => own.points[n - 1 - k],
+        End::Start => own.edge(k),
+        End::Last => own.edge(n - 1 - k).reversed(),
     })
 }
 
@@ -199,23 +222,31 @@ pub fn from_tip(own: &Crack, end: End) -> impl Iterator<Item = Vec2> {
 /// at least.
 fn comes_back(own: &Crack, end: End) -> f64 {
     let ([_, rest], tip) = (led_away(own, end), own.end_point(end));
-    let end = rest.iter().map(|&p| (p - tip).length()).fold(f64::INFINITY, f64::min);
-    end.min(segment::polyline_distance(&rest, tip))
+    least_distance(&rest, tip).min((own.end_point(opposite(end)) - tip).length())
 }
 
-/// The vertices of the part of a crack that leads away from a tip, and of the rest, which begins
-/// where the other ends.
-pub(super) fn led_away(own: &Crack, end: End) -> [Vec<Vec2>; 2] {
-    let points: Vec<Vec2> = from_tip(own, end).collect();
-    let (tip, axis) = (points[0], own.growth_direction(end));
+/// The edges of the part of a crack that leads away from a tip, and of the rest, in the direction
+/// from the tip. Arcs are divided.
+pub(super) fn led_away(own: &Crack, end: End) -> [Vec<Edge>; 2] {
+    let edges: Vec<Edge> = from_tip(own, end).flat_map(parts).collect();
+    let (tip, axis) = (own.end_point(end), own.growth_direction(end));
     // a right angle leads neither away nor back, whatever its rounding
     let is_acute = |u: Vec2, v: Vec2| u.dot(v) > AS_LONG * u.length() * v.length();
-    let leads_away = |s: &[Vec2]| is_acute(s[1] - s[0], s[0] - tip);
+    let leads_away = |edge: &Edge| {
+        let [start, last] = edge.end_tangents();
+        let goes_off = edge.from == tip || is_acute(start, edge.from - tip);
+        goes_off && (!edge.is_arc() || is_acute(last, edge.to - tip))
+    };
     let is_behind = |p: Vec2| is_acute(tip - p, axis);
-    let first = |s: &&[Vec2]| s[0] == tip;
-    let goes_on = |s: &&[Vec2]| (first(s) || leads_away(s)) && is_behind(s[1]);
-    let away = points.windows(2).take_while(goes_on).count();
-    [points[..=away].to_vec(), points[away..].to_vec()]
+    let away = edges.iter().take_while(|edge| leads_away(edge) && is_behind(edge.to)).count();
+    [edges[..away].to_vec(), edges[away..].to_vec()]
+}
+
+/// A segment, or the parts of an arc.
+fn parts(edge: Edge) -> impl Iterator<Item = Edge> {
+    let count = (edge.sweep().abs() / PART).ceil().max(1.0) as usize;
+    let at = move |k: usize| k as f64 / count as f64;
+    (0..count).map(move |k| if count == 1 { edge } else { edge.part([at(k), at(k + 1)]) })
 }
 
 /// Distance from a tip up to which θ surely jumps on its crack alone. For a hook, whose extensions
@@ -226,13 +257,13 @@ fn led_astray(own: &Crack, end: End, bounds: &Rect) -> f64 {
     if extensions(own, reach, 0.0).is_some() {
         return f64::INFINITY;
     }
-    let (tip, other) = (own.end_point(end), if end == End::Start { End::Last } else { End::Start });
-    let beyond = segment::distance(extension(own, other, reach), tip);
+    let tip = own.end_point(end);
+    let beyond = extension(own, opposite(end), reach).distance(tip);
     0.5 * beyond.min(comes_back(own, end))
 }
 
 /// Distance from a vertex of a crack up to which the crack's side changes nowhere but on the two
-/// segments there. For a hook, whose side is not that of the whole plane, it ends half way to the
+/// edges there. For a hook, whose side is not that of the whole plane, it ends half way to the
 /// next part or extension: there that is as near.
 pub fn sure_side(crack: &Crack, at: Vec2, bounds: &Rect, touch: f64) -> f64 {
     let reach = bounds.size().length();
@@ -240,28 +271,26 @@ pub fn sure_side(crack: &Crack, at: Vec2, bounds: &Rect, touch: f64) -> f64 {
         return f64::INFINITY;
     }
     let rays = [End::Start, End::Last].map(|end| extension(crack, end, reach));
-    let all = crack.points.windows(2).map(|s| [s[0], s[1]]).chain(rays);
-    let others = all.map(|s| segment::distance(s, at)).filter(|distance| *distance > touch);
+    let all = crack.edges().flat_map(parts).chain(rays);
+    let others = all.map(|edge| edge.distance(at)).filter(|distance| *distance > touch);
     0.5 * others.fold(f64::INFINITY, f64::min)
 }
 
-/// The straight extension of a crack at an end.
-pub(super) fn extension(crack: &Crack, end: End, length: f64) -> Segment {
+/// The straight extension of a crack at an end, along its tangent there.
+pub(super) fn extension(crack: &Crack, end: End, length: f64) -> Edge {
     let tip = crack.end_point(end);
-    [tip, tip + crack.growth_direction(end) * length]
+    Edge::segment([tip, tip + crack.growth_direction(end) * length])
 }
 
 /// The straight extensions of a crack, of a length; none if one of them comes near to the crack or
-/// the other one: between the two its side is not that of the nearest segment.
-pub(super) fn extensions(crack: &Crack, reach: f64, touch: f64) -> Option<[Segment; 2]> {
-    let points = &crack.points;
+/// the other one: between the two its side is not that of the nearest edge.
+pub(super) fn extensions(crack: &Crack, reach: f64, touch: f64) -> Option<[Edge; 2]> {
     let rays = [End::Start, End::Last].map(|end| extension(crack, end, reach));
-    let last = points.len() - 2;
-    let own = points.windows(2).map(|s| [s[0], s[1]]).enumerate();
-    let meets = |(k, s): (usize, Segment)| {
-        (k != 0 && gap(rays[0], s) <= touch) || (k != last && gap(rays[1], s) <= touch)
+    let last = crack.points.len() - 2;
+    let meets = |(k, edge): (usize, Edge)| {
+        (k != 0 && rays[0].gap(&edge) <= touch) || (k != last && rays[1].gap(&edge) <= touch)
     };
-    (gap(rays[0], rays[1]) > touch && !own.into_iter().any(meets)).then_some(rays)
+    (rays[0].gap(&rays[1]) > touch && !crack.edges().enumerate().any(meets)).then_some(rays)
 }
 
 /// True if a length is larger than another by more than rounding of either.
@@ -286,7 +315,7 @@ mod tests {
 
     fn crack(points: &[[f64; 2]]) -> Crack {
         let points = points.iter().copied().map(Vec2::from).collect();
-        Crack { points, ends: [CrackEnd::Tip; 2] }
+        Crack::polyline(points, [CrackEnd::Tip; 2])
     }
 
     #[test]
@@ -333,16 +362,51 @@ mod tests {
         assert_eq!(clearance(&[crack(&hook[..4])], 0, End::Start).0, 0.5);
     }
 
-    /// All of an arc that leads away from its tip, however finely it is divided.
+    /// All of an arc that leads away from its tip, by polylines and as one arc or ten.
     #[test]
     fn arcs_have_room() {
-        for n in [8, 64, 1024] {
-            let at = |k: u32| 1.5 * (f64::from(k) / f64::from(n) - 0.5);
-            let points: Vec<_> =
-                (0..=n).map(|k| [0.4 * at(k).sin(), 0.4 * at(k).cos() - 0.4]).collect();
-            let (found, end) = clearance(&[crack(&points)], 0, End::Last);
-            let chord = 0.8 * 0.75f64.sin();
-            assert!((found - chord).abs() < 1e-15 && end == TipObstacle::Own, "{n}: {found}");
+        let at = |part: f64| 1.5 * (part - 0.5);
+        let point = |part: f64| vec2(0.4 * at(part).sin(), 0.4 * at(part).cos() - 0.4);
+        let chord = 0.8 * 0.75f64.sin();
+        for n in [1, 8, 10, 64, 1024] {
+            let points: Vec<Vec2> = (0..=n).map(|k| point(f64::from(k) / f64::from(n))).collect();
+            let bulge = (-1.5 / f64::from(4 * n)).tan();
+            let arc = Crack { bulges: vec![bulge; n as usize], points, ..Crack::default() };
+            let line = Crack::from(arc.points.clone());
+            for crack in [line, arc] {
+                let found = comes_back(&crack, End::Last);
+                assert!((found - chord).abs() < 1e-15, "{n}: {found}");
+                let (room, end) = clearance(std::slice::from_ref(&crack), 0, End::Last);
+                // discs around tips on arcs end before the centre
+                let expected = if crack.is_curved() {
+                    (BEFORE_CENTER * 0.4, TipObstacle::Center)
+                } else {
+                    (found, TipObstacle::Own)
+                };
+                assert!((room - expected.0).abs() < 1e-12 && end == expected.1, "{n}: {room}");
+                // joints of arcs are no kinks
+                assert!(!crack.is_curved() || bent_part(&crack, End::Last).is_empty());
+            }
+        }
+    }
+
+    /// A crack along most of a circle leads away from its tip up to the opposite point; θ jumps on
+    /// it alone half as far as the extension of its other end is away, where the extensions meet.
+    #[test]
+    fn long_arcs_come_back() {
+        let arc = |sweep: f64| {
+            let edge = Edge::around(Vec2::ZERO, 0.2, [0.0, sweep]);
+            let points = vec![edge.from, edge.to];
+            Crack { points, bulges: vec![edge.bulge], ..Crack::default() }
+        };
+        let bounds = Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0));
+        let radius = |sweep: f64| {
+            let arc = arc(sweep);
+            comes_back(&arc, End::Last).min(led_astray(&arc, End::Last, &bounds))
+        };
+        assert!((radius(2.5) - 0.4 * 1.25f64.sin()).abs() < 1e-15);
+        for sweep in [3.5_f64, 4.5] {
+            assert!((radius(sweep) - 0.1 * (1.0 - sweep.cos())).abs() < 1e-15, "{sweep}");
         }
     }
 }

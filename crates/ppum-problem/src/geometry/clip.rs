@@ -1,10 +1,15 @@
-//! Points, segments and cracks against boxes.
+//! Points, edges and cracks against boxes and holes.
 
+use ppum::border::touch;
 use ppum::crack::Crack;
 use ppum::domain::Hole;
+use ppum::edge::Edge;
 use ppum::line::Line;
-use ppum::segment;
 use ppum::vec2::{Rect, Vec2};
+use std::f64::consts::PI;
+
+/// Distance from a rim that is rounding, in parts of the coordinates.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 /// True if `p` lies in the open box.
 pub fn inside(open: &Rect, p: Vec2) -> bool {
@@ -14,50 +19,82 @@ pub fn inside(open: &Rect, p: Vec2) -> bool {
 /// Length of a crack inside an open box and outside of holes; a segment along the box's boundary
 /// does not count.
 pub fn length_inside(crack: &Crack, open: &Rect, holes: &[Hole]) -> f64 {
-    let length = |s: &[Vec2]| match clipped(s[0], s[1], open) {
-        Some(range) => solid_part(s[0], s[1], range, holes.iter()) * (s[1] - s[0]).length(),
-        None => 0.0,
-    };
-    crack.points.windows(2).map(length).sum()
+    crack.edges().map(|edge| solid_length(edge, open, holes.iter())).sum()
 }
 
-/// Part of a range of a segment's parameter that lies outside of holes.
+/// Length of an edge inside an open box and outside of holes.
+pub(crate) fn solid_length<'h>(
+    edge: Edge,
+    open: &Rect,
+    holes: impl Iterator<Item = &'h Hole> + Clone,
+) -> f64 {
+    let ranges = clipped(edge, open).into_iter();
+    ranges.map(|range| solid_part(edge, range, holes.clone()) * edge.length()).sum()
+}
+
+/// Part of a range of an edge's length that lies outside of holes.
 pub fn solid_part<'h>(
-    a: Vec2,
-    b: Vec2,
+    edge: Edge,
     [from, to]: [f64; 2],
     holes: impl Iterator<Item = &'h Hole> + Clone,
 ) -> f64 {
-    let crossings = holes.clone().flat_map(|hole| rim_crossings(a, b, hole));
+    let crossings = holes.clone().flat_map(|hole| rim_crossings(edge, hole));
     let mut breaks: Vec<f64> = crossings.filter(|t| *t > from && *t < to).collect();
     breaks.extend([from, to]);
     breaks.sort_by(f64::total_cmp);
-    let is_solid = |t: f64| !holes.clone().any(|hole| hole.contains(a + (b - a) * t));
+    let is_solid = |t: f64| !holes.clone().any(|hole| hole.contains(edge.at(t)));
     let parts = breaks.windows(2).filter(|t| is_solid(0.5 * (t[0] + t[1])));
     parts.map(|t| t[1] - t[0]).sum()
 }
 
-/// The parameters, 0 at `a` and 1 at `b`, at which the line through two points meets a rim.
-pub fn rim_crossings(a: Vec2, b: Vec2, hole: &Hole) -> Vec<f64> {
-    let line = Line::through([a, b]);
+/// The parts of its length at which an edge meets a rim, and perhaps others, below 0 and above 1,
+/// of its line or circle.
+pub fn rim_crossings(edge: Edge, hole: &Hole) -> Vec<f64> {
+    let line = Line::through([edge.from, edge.to]);
+    let straight = |p: Vec2, q: Vec2| {
+        let (s, t) = (line.side(p), line.side(q));
+        (s * t <= 0.0 && s != t).then(|| line.foot(p + (q - p) * (s / (s - t))))
+    };
     match *hole {
-        Hole::Circle { center, radius } => {
+        Hole::Circle { center, radius } if !edge.is_arc() => {
             line.meets_circle(center, radius).map_or_else(Vec::new, Vec::from)
         }
+        Hole::Circle { center, radius } => {
+            edge.meets_curve(&Edge::around(center, radius, [0.0, PI]))
+        }
         Hole::Polygon { .. } => {
-            let crossing = |[p, q]: [Vec2; 2]| {
-                let (s, t) = (line.side(p), line.side(q));
-                (s * t <= 0.0 && s != t).then(|| line.foot(p + (q - p) * (s / (s - t))))
+            let crossings = |side: Edge| match edge.is_arc() || side.is_arc() {
+                false => straight(side.from, side.to).into_iter().collect(),
+                true => curved_crossings(edge, side),
             };
-            hole.sides().filter_map(crossing).collect()
+            hole.edges().flat_map(crossings).collect()
         }
     }
 }
 
-/// True for a crack that lies on a straight line of a rim: it is a face of the body, and cuts
-/// nothing.
+/// The parts at which the line or circle of an edge meets another edge, also where rounding has put
+/// these beyond its ends.
+fn curved_crossings(edge: Edge, other: Edge) -> Vec<f64> {
+    let near = ROUNDING * other.bounds().max_norm();
+    let is_on = |part: &f64| other.distance(edge.at(*part)) <= near;
+    edge.meets_curve(&other).into_iter().filter(is_on).collect()
+}
+
+/// True for a crack that lies on a rim: it is a face of the body, and cuts nothing.
 pub fn is_on_rim(crack: &Crack, holes: &[Hole]) -> bool {
-    holes.iter().any(|hole| hole.line_along(&crack.points).is_some())
+    holes.iter().any(|hole| hole.line_along(crack).is_some() || follows(crack, hole))
+}
+
+/// True for a crack with arcs all of which lies on the rim of a hole.
+fn follows(crack: &Crack, hole: &Hole) -> bool {
+    let touch = touch(&hole.rim_bounds());
+    crack.is_curved() && crack.edges().all(|edge| lies_along(edge, hole, touch))
+}
+
+/// True if an edge lies on a rim, up to the distance `touch`.
+pub(crate) fn lies_along(edge: Edge, hole: &Hole, touch: f64) -> bool {
+    let parts = [0.0, 0.25, 0.5, 1.0].iter();
+    parts.map(|part| edge.at(*part)).all(|p| hole.rim_distance(p) <= touch)
 }
 
 /// Returns the parts of a range that lie outside of others.
@@ -70,57 +107,63 @@ pub fn without(range: [f64; 2], others: &[[f64; 2]]) -> Vec<[f64; 2]> {
     others.iter().fold(vec![range], beside)
 }
 
-/// Number of connected parts of a polyline inside an open box.
-pub(crate) fn runs_inside(points: &[Vec2], open: &Rect) -> usize {
-    let (mut runs, mut goes_on) = (0, false);
-    for pair in points.windows(2) {
-        let Some([_, to]) = clipped(pair[0], pair[1], open) else {
-            goes_on = false;
-            continue;
-        };
-        runs += usize::from(!goes_on);
-        goes_on = to == 1.0 && inside(open, pair[1]);
+/// Number of connected parts of edges one after the other inside an open box.
+pub(crate) fn runs_inside(edges: &[Edge], open: &Rect) -> usize {
+    let ranges: Vec<_> = edges.iter().map(|edge| clipped(*edge, open)).collect();
+    let joins = (1..edges.len()).filter(|&k| goes_on(edges[k - 1], &ranges[k - 1..], open)).count();
+    ranges.iter().map(Vec::len).sum::<usize>() - joins
+}
+
+/// True if the last part of an edge in a box goes on in the first one of the next edge.
+fn goes_on(edge: Edge, ranges: &[Vec<[f64; 2]>], open: &Rect) -> bool {
+    let ends = ranges[0].last().is_some_and(|[_, to]| *to == 1.0);
+    ends && ranges[1].first().is_some_and(|[from, _]| *from == 0.0) && inside(open, edge.to)
+}
+
+/// Number of connected parts of a closed rim, given by its sides, inside an open box.
+pub fn runs_of_rim(sides: &[Edge], open: &Rect) -> usize {
+    let round: Vec<Edge> = sides.iter().chain(sides.first()).copied().collect();
+    let runs = runs_inside(&round, open) - runs_inside(&round[..sides.len().min(1)], open);
+    // a rim that lies all inside goes on at each vertex
+    let is_inside = runs == 0 && sides.iter().any(|side| !clipped(*side, open).is_empty());
+    if is_inside { 1 } else { runs }
+}
+
+/// Length of an edge inside an open box.
+pub fn edge_inside(edge: Edge, open: &Rect) -> f64 {
+    clipped(edge, open).into_iter().map(|[from, to]| (to - from) * edge.length()).sum()
+}
+
+/// The ranges of an edge's length inside an open box.
+pub fn clipped(edge: Edge, open: &Rect) -> Vec<[f64; 2]> {
+    if edge.is_arc() {
+        return edge.within(open);
     }
-    runs
-}
-
-/// Number of connected parts of a closed polygon, whose last corner is joined to the first, inside
-/// an open box.
-pub fn runs_of_rim(corners: &[Vec2], open: &Rect) -> usize {
-    let start = corners.iter().position(|p| !inside(open, *p));
-    let Some(start) = start else { return 1 };
-    let n = corners.len();
-    let round: Vec<_> = (0..=n).map(|k| corners[(start + k) % n]).collect();
-    runs_inside(&round, open)
-}
-
-/// Length of a segment inside an open box.
-pub fn segment_inside(a: Vec2, b: Vec2, open: &Rect) -> f64 {
-    clipped(a, b, open).map_or(0.0, |[from, to]| (to - from) * (b - a).length())
-}
-
-/// The range of a segment's parameter inside an open box.
-pub fn clipped(a: Vec2, b: Vec2, open: &Rect) -> Option<[f64; 2]> {
+    let Edge { from: a, to: b, .. } = edge;
     // along an edge of the box nothing is inside
     let is_off = |a: f64, b: f64, min: f64, max: f64| a == b && (a <= min || a >= max);
     if is_off(a.x, b.x, open.min.x, open.max.x) || is_off(a.y, b.y, open.min.y, open.max.y) {
-        return None;
+        return Vec::new();
     }
-    Line::through([a, b]).within(open, [0.0, 1.0]).filter(|[from, to]| to > from)
+    let range = Line::through([a, b]).within(open, [0.0, 1.0]).filter(|[from, to]| to > from);
+    range.into_iter().collect()
 }
 
-/// True if a part of a segment lies inside an open box or on its boundary.
-pub fn meets([a, b]: [Vec2; 2], rect: &Rect) -> bool {
-    distance([a, b], rect) == 0.0
+/// True if a part of an edge lies inside an open box or on its boundary.
+pub fn meets(edge: Edge, rect: &Rect) -> bool {
+    distance(edge, rect) == 0.0
 }
 
-/// Distance of a segment of positive length to a box, zero if they meet.
-pub fn distance([a, b]: [Vec2; 2], rect: &Rect) -> f64 {
-    if segment_inside(a, b, rect) > 0.0 {
+/// Distance of an edge of positive length to a box, zero if they meet.
+pub fn distance(edge: Edge, rect: &Rect) -> f64 {
+    if edge_inside(edge, rect) > 0.0 {
         return 0.0;
     }
-    let of_corners = rect.corners().into_iter().map(|p| segment::distance([a, b], p));
-    of_corners.chain([rect.distance(a), rect.distance(b)]).fold(f64::INFINITY, f64::min)
+    let of_corners = rect.corners().into_iter().map(|p| edge.distance(p));
+    let of_sides = rect.sides().into_iter().filter(|_| edge.is_arc());
+    let of_sides = of_sides.map(|side| edge.gap(&Edge::segment(side)));
+    let of_ends = [rect.distance(edge.from), rect.distance(edge.to)];
+    of_corners.chain(of_ends).chain(of_sides).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]
@@ -133,7 +176,7 @@ mod tests {
         let unit = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
         let runs = |points: &[[f64; 2]]| {
             let points: Vec<Vec2> = points.iter().map(|&p| p.into()).collect();
-            runs_inside(&points, &unit)
+            runs_inside(&Crack::from(points).edges().collect::<Vec<_>>(), &unit)
         };
         assert_eq!(runs(&[[-1.0, 0.5], [2.0, 0.6]]), 1);
         assert_eq!(runs(&[[-1.0, 0.5], [0.4, 0.5], [2.0, 0.6]]), 1, "a kink inside");
@@ -152,7 +195,7 @@ mod tests {
             let mut points: Vec<Vec2> = points.iter().map(|&p| p.into()).collect();
             let mut turned = || {
                 points.rotate_left(1);
-                runs_of_rim(&points, &unit)
+                runs_of_rim(&Hole::polygon(points.clone()).edges().collect::<Vec<_>>(), &unit)
             };
             let all: Vec<_> = (0..turns).map(|_| turned()).collect();
             assert!(all.iter().all(|n| *n == all[0]), "wherever it begins: {all:?}");

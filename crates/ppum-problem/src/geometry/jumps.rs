@@ -3,7 +3,8 @@
 //! The side of a crack serves where it says what the crack does to the patch: the crack passes
 //! through once, meets no other one there, and its straight extensions, across which the side jumps
 //! too, stay away. Wherever cracks meet, come back or end on holes the patch has the indicators of
-//! its [`Components`].
+//! its [`Components`]; where such a crack is a chain of arcs with common tangents its side has to
+//! do.
 //!
 //! A crack that leaves the middle of the patch whole cuts a sliver off it, where the weight is
 //! small and the polynomials vary little. Its side is not small outside of the sliver: the solution
@@ -12,17 +13,20 @@
 
 use ppum::crack::{Crack, End, SegmentId, TipId};
 use ppum::domain::{Domain, Hole};
+use ppum::edge::Edge;
 use ppum::function::FunctionKind;
-use ppum::segment::{Segment, gap, polyline_distance};
-use ppum::vec2::{Rect, Vec2};
+use ppum::vec2::Rect;
 
-use super::box_list::{BoxList, around, wider};
+use super::box_list::{BoxList, wider};
 use super::clearance::{extension, extensions, led_away};
-use super::clip::{clipped, inside, is_on_rim, meets, segment_inside, solid_part};
+use super::clip::{clipped, edge_inside, inside, is_on_rim, meets, solid_length};
 use super::components::{Components, middle};
 
 /// Part of a patch's size below which a cut does not count.
 const LEAST_CUT: f64 = 1e-9;
+
+/// Sine of angles, and difference of curvatures in sizes of a patch, that are rounding.
+const SMOOTH: f64 = 1e-6;
 
 /// Most segments of cracks that may cut a patch where cracks meet: time grows with the square.
 const MOST: usize = 512;
@@ -30,10 +34,10 @@ const MOST: usize = 512;
 /// The relation of cracks to patches.
 pub struct Jumps<'p> {
     cracks: &'p [Crack],
-    segments: BoxList<(SegmentId, Segment)>,
+    segments: BoxList<(SegmentId, Edge)>,
     holes: BoxList<&'p Hole>,
     /// The straight extensions of each crack; none of one that they or the crack itself meet.
-    extensions: Vec<Option<[Segment; 2]>>,
+    extensions: Vec<Option<[Edge; 2]>>,
     /// Length of extensions.
     reach: f64,
     /// Distance from which on cracks keep apart.
@@ -44,8 +48,8 @@ impl<'p> Jumps<'p> {
     /// The cracks of a domain; things not farther apart than `touch` meet.
     pub fn new(cracks: &'p [Crack], domain: &'p Domain, touch: f64) -> Self {
         let cutting = (0..).zip(cracks).filter(|(_, crack)| !is_on_rim(crack, &domain.holes));
-        let all = cutting.flat_map(|(crack, c)| segments(crack, &c.points));
-        let place = |(id, ends): (SegmentId, Segment)| (around(&ends), (id, ends));
+        let all = cutting.flat_map(|(crack, c)| segments(crack, c));
+        let place = |(id, edge): (SegmentId, Edge)| (edge.bounds(), (id, edge));
         let reach = domain.bounds.size().length();
         Self {
             cracks,
@@ -72,6 +76,9 @@ impl<'p> Jumps<'p> {
         if cut.len() > MOST || !self.is_cut(&cut, open, &holes) {
             return Vec::new();
         }
+        if is_smooth(&cut, open) {
+            return self.passing(&cut, open).map(side_of).collect();
+        }
         self.indicators(&cut, open, &holes)
     }
 
@@ -87,10 +94,11 @@ impl<'p> Jumps<'p> {
 
     /// The function that jumps on a crack which passes through a box: its side, or the indicator of
     /// the sliver that it cuts off.
-    fn across(&self, run: &[(SegmentId, Segment)], open: &Rect) -> Vec<FunctionKind> {
+    fn across(&self, run: &[(SegmentId, Edge)], open: &Rect) -> Vec<FunctionKind> {
         let middle = middle(open);
-        if run.len() > MOST || run.iter().any(|(_, s)| meets(*s, &middle)) {
-            return vec![FunctionKind::Side { crack: run[0].0.crack }];
+        let is_through = run.iter().any(|(_, s)| meets(*s, &middle));
+        if run.len() > MOST || is_through || is_smooth(run, open) {
+            return vec![side_of(run)];
         }
         self.indicators(run, open, &[])
     }
@@ -98,7 +106,7 @@ impl<'p> Jumps<'p> {
     /// The indicators of the components that some segments and holes leave of a box.
     fn indicators(
         &self,
-        cut: &[(SegmentId, Segment)],
+        cut: &[(SegmentId, Edge)],
         open: &Rect,
         holes: &[&Hole],
     ) -> Vec<FunctionKind> {
@@ -116,11 +124,11 @@ impl<'p> Jumps<'p> {
     pub(crate) fn first_meeting(&self) -> Option<u32> {
         let back = self.extensions.iter().position(Option::is_none).map(|crack| crack as u32);
         back.or_else(|| {
-            let all = (0..).zip(self.cracks).flat_map(|(k, crack)| segments(k, &crack.points));
-            let meets = |(id, s): &(SegmentId, Segment)| {
-                let near = self.segments.near(&wider(&around(s), self.touch));
+            let all = (0..).zip(self.cracks).flat_map(|(k, crack)| segments(k, crack));
+            let meets = |(id, edge): &(SegmentId, Edge)| {
+                let near = self.segments.near(&wider(&edge.bounds(), self.touch));
                 let others = near.filter(|(other, _)| other.crack != id.crack);
-                others.into_iter().any(|(_, t)| gap(*s, *t) <= self.touch)
+                others.into_iter().any(|(_, other)| edge.gap(other) <= self.touch)
             };
             all.into_iter().find(meets).map(|(id, _)| id.crack)
         })
@@ -135,12 +143,11 @@ impl<'p> Jumps<'p> {
         }
         let crack = &self.cracks[tip.crack as usize];
         let [own, rest] = led_away(crack, tip.end);
-        let others = rest.windows(2).map(|s| [s[0], s[1]]);
         let other_end = if tip.end == End::Start { End::Last } else { End::Start };
-        let mut others = others.chain([extension(crack, other_end, self.reach)]);
-        let farthest = within.corners().map(|p| polyline_distance(&own, p));
-        let farthest = farthest.into_iter().fold(0.0, f64::max);
-        others.any(|s| super::clip::distance(s, within) <= farthest)
+        let mut others = rest.into_iter().chain([extension(crack, other_end, self.reach)]);
+        let distance = |p| own.iter().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min);
+        let farthest = within.corners().map(distance).into_iter().fold(0.0, f64::max);
+        others.any(|edge| super::clip::distance(edge, within) <= farthest)
     }
 
     /// True if a box that does not hold a tip meets the straight extension of the crack's other
@@ -148,33 +155,30 @@ impl<'p> Jumps<'p> {
     pub fn is_beyond(&self, tip: TipId, within: &Rect) -> bool {
         let crack = &self.cracks[tip.crack as usize];
         let other_end = if tip.end == End::Start { End::Last } else { End::Start };
-        let [a, b] = extension(crack, other_end, self.reach);
-        !inside(within, crack.end_point(tip.end)) && segment_inside(a, b, within) > 0.0
+        let beyond = extension(crack, other_end, self.reach);
+        !inside(within, crack.end_point(tip.end)) && edge_inside(beyond, within) > 0.0
     }
 
     /// The segments that meet a box.
-    fn cut(&self, open: &Rect) -> Vec<(SegmentId, Segment)> {
+    fn cut(&self, open: &Rect) -> Vec<(SegmentId, Edge)> {
         self.segments.near(open).filter(|(_, s)| meets(*s, open)).copied().collect()
     }
 
     /// True if some length of cracks lies in the material of a box.
-    fn is_cut(&self, cut: &[(SegmentId, Segment)], open: &Rect, holes: &[&Hole]) -> bool {
-        let length = |[a, b]: Segment| {
-            let range = clipped(a, b, open)?;
-            Some(solid_part(a, b, range, holes.iter().copied()) * (b - a).length())
-        };
+    fn is_cut(&self, cut: &[(SegmentId, Edge)], open: &Rect, holes: &[&Hole]) -> bool {
         let size = open.size();
-        let all: f64 = cut.iter().filter_map(|(_, ends)| length(*ends)).sum();
+        let length = |edge: Edge| solid_length(edge, open, holes.iter().copied());
+        let all: f64 = cut.iter().map(|(_, edge)| length(*edge)).sum();
         all > LEAST_CUT * size.x.min(size.y)
     }
 
     /// The segments of each crack that cuts a box through.
     fn passing<'c>(
         &self,
-        cut: &'c [(SegmentId, Segment)],
+        cut: &'c [(SegmentId, Edge)],
         open: &Rect,
-    ) -> impl Iterator<Item = &'c [(SegmentId, Segment)]> {
-        let passes = |run: &&[(SegmentId, Segment)]| {
+    ) -> impl Iterator<Item = &'c [(SegmentId, Edge)]> {
+        let passes = |run: &&[(SegmentId, Edge)]| {
             self.is_cut(run, open, &[]) && !self.has_tip(run[0].0.crack, open)
         };
         cut.chunk_by(|a, b| a.0.crack == b.0.crack).filter(passes)
@@ -188,32 +192,37 @@ impl<'p> Jumps<'p> {
 
     /// True if the cracks in a box pass through it once each, and keep away from each other and
     /// from the extensions.
-    fn are_apart(&self, cut: &[(SegmentId, Segment)], open: &Rect) -> bool {
+    fn are_apart(&self, cut: &[(SegmentId, Edge)], open: &Rect) -> bool {
         let runs: Vec<_> = cut.chunk_by(|a, b| a.0.crack == b.0.crack).collect();
-        let once = |run: &&[(SegmentId, Segment)]| {
+        let once = |run: &&[(SegmentId, Edge)]| {
             let crack = run[0].0.crack;
-            let is_clear = |rays: [Segment; 2]| {
-                self.has_tip(crack, open)
-                    || rays.iter().all(|&[a, b]| segment_inside(a, b, open) == 0.0)
+            let is_clear = |rays: [Edge; 2]| {
+                self.has_tip(crack, open) || rays.iter().all(|ray| edge_inside(*ray, open) == 0.0)
             };
-            let goes_on = |pair: &[(SegmentId, Segment)]| {
-                pair[1].0.segment == pair[0].0.segment + 1 && inside(open, pair[0].1[1])
+            let goes_on = |pair: &[(SegmentId, Edge)]| {
+                pair[1].0.segment == pair[0].0.segment + 1 && inside(open, pair[0].1.to)
             };
-            run.windows(2).all(goes_on) && self.extensions[crack as usize].is_some_and(is_clear)
+            let stays =
+                |(_, edge): &(SegmentId, Edge)| !edge.is_arc() || clipped(*edge, open).len() < 2;
+            run.windows(2).all(goes_on)
+                && run.iter().all(stays)
+                && self.extensions[crack as usize].is_some_and(is_clear)
         };
         runs.iter().all(once) && (runs.len() < 2 || self.keep_apart(&runs, open))
     }
 
     /// True if no two of the runs meet in a box.
-    fn keep_apart(&self, runs: &[&[(SegmentId, Segment)]], open: &Rect) -> bool {
+    fn keep_apart(&self, runs: &[&[(SegmentId, Edge)]], open: &Rect) -> bool {
         let within = wider(open, self.touch);
-        let part = |s: Segment| {
-            let [from, to] = clipped(s[0], s[1], &within)?;
-            Some([s[0] + (s[1] - s[0]) * from, s[0] + (s[1] - s[0]) * to])
+        let parts = |run: &[(SegmentId, Edge)]| {
+            let part = |(_, edge): &(SegmentId, Edge)| {
+                let edge = *edge;
+                clipped(edge, &within).into_iter().map(move |range| edge.part(range))
+            };
+            run.iter().flat_map(part).collect()
         };
-        let parts: Vec<Vec<Segment>> =
-            runs.iter().map(|run| run.iter().filter_map(|(_, s)| part(*s)).collect()).collect();
-        let near = |s: &Segment, t: &Segment| gap(*s, *t) <= self.touch;
+        let parts: Vec<Vec<Edge>> = runs.iter().map(|run| parts(run)).collect();
+        let near = |s: &Edge, t: &Edge| s.gap(t) <= self.touch;
         parts.iter().enumerate().all(|(k, run)| {
             let others = parts[..k].iter().flatten();
             others.into_iter().all(|t| !run.iter().any(|s| near(s, t)))
@@ -221,7 +230,26 @@ impl<'p> Jumps<'p> {
     }
 }
 
-fn segments(crack: u32, points: &[Vec2]) -> impl Iterator<Item = (SegmentId, Segment)> + '_ {
-    let ends = points.windows(2).map(|s| [s[0], s[1]]);
-    (0..).zip(ends).map(move |(segment, ends)| (SegmentId { crack, segment }, ends))
+fn side_of(run: &[(SegmentId, Edge)]) -> FunctionKind {
+    FunctionKind::Side { crack: run[0].0.crack }
+}
+
+/// True if edges of different curvatures have a common tangent where they meet in a box. No signs
+/// of two circles that touch tell the points before their common one from those behind it: there
+/// the sides of whole cracks have to serve instead of components.
+fn is_smooth(cut: &[(SegmentId, Edge)], open: &Rect) -> bool {
+    let size = open.size().length();
+    let is_joint = |pair: &[(SegmentId, Edge)]| {
+        let [(first, a), (second, b)] = [pair[0], pair[1]];
+        let follows = first.crack == second.crack && first.segment + 1 == second.segment;
+        let differ = (a.curvature() - b.curvature()).abs() * size > SMOOTH;
+        let turn = a.end_tangents()[1].cross(b.end_tangents()[0]).abs();
+        follows && differ && turn <= SMOOTH && inside(open, a.to)
+    };
+    let curved = |pair: &&[(SegmentId, Edge)]| pair.iter().any(|(_, edge)| edge.is_arc());
+    cut.windows(2).filter(curved).any(is_joint)
+}
+
+fn segments(index: u32, crack: &Crack) -> impl Iterator<Item = (SegmentId, Edge)> + '_ {
+    (0..).zip(crack.edges()).map(move |(segment, edge)| (SegmentId { crack: index, segment }, edge))
 }

@@ -18,13 +18,13 @@ pub use clearance::{
     known_points, sure_side,
 };
 pub use clip::{
-    clipped, distance, inside, is_on_rim, length_inside, meets, rim_crossings, runs_of_rim,
-    segment_inside, solid_part, without,
+    clipped, distance, edge_inside, inside, is_on_rim, length_inside, meets, rim_crossings,
+    runs_of_rim, solid_part, without,
 };
+pub(crate) use clip::{lies_along, solid_length};
 pub(crate) use cracks::{Holes, edges_at, holes_at, holes_of, reaches, settled, with_ends};
 pub use cracks::{crack, cracks};
-pub use curve::arc_from;
-pub(crate) use curve::{MOST_SEGMENTS, SmoothCurve, TooSharp};
+pub(crate) use curve::{MOST_ARCS, SmoothCurve};
 pub use jumps::Jumps;
 pub use material::{interface_distance, jumps_within};
 pub(crate) use nearby::{Nearby, TooDense, first_pair};

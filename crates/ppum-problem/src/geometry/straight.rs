@@ -8,8 +8,9 @@
 
 use std::collections::BTreeMap;
 
+use ppum::crack::{Crack, CrackEnd};
+use ppum::edge::Edge;
 use ppum::line::Line;
-use ppum::segment::{Segment, distance};
 use ppum::vec2::Vec2;
 
 use super::{Nearby, TooDense};
@@ -25,22 +26,25 @@ const MEETS: f64 = 2.0;
 /// Sine of the angle between lines from which on their crossing is where they meet.
 const APART: f64 = 1e-3;
 
+/// Height of an arc above its chord that is rounding, in lengths that count as zero.
+const FLAT: f64 = 1e-7;
+
 /// An end of a line, by the line's number; true of the last vertex.
 type LineEnd = (usize, bool);
 
 /// Lines without vertices that they do not need, their ends that meet in one point. Ends that are
 /// `held` stay.
 pub(crate) fn straightened(
-    lines: impl IntoIterator<Item = Vec<Vec2>>,
+    lines: impl IntoIterator<Item = Crack>,
     is_held: impl Fn(Vec2) -> bool,
     touch: f64,
-) -> Vec<Vec<Vec2>> {
-    let mut lines: Vec<_> = lines.into_iter().map(|points| needed(&points, touch)).collect();
+) -> Vec<Crack> {
+    let mut lines: Vec<_> = lines.into_iter().map(|line| needed(&line, touch)).collect();
     for _ in 0..ROUNDS {
         let Ok(joints) = joints(&lines, MEETS * touch) else { break };
         for (ends, at) in joints {
             for (line, is_last) in ends {
-                let points = &mut lines[line];
+                let points = &mut lines[line].points;
                 let k = if is_last { points.len() - 1 } else { 0 };
                 points[k] = if is_held(points[k]) { points[k] } else { at };
             }
@@ -49,9 +53,39 @@ pub(crate) fn straightened(
     lines
 }
 
-/// The vertices of a line that keep it within `touch` of its course. Vertices that are no farther
-/// apart all stay: they are reported as errors.
-pub(crate) fn needed(points: &[Vec2], touch: f64) -> Vec<Vec2> {
+/// A line without the vertices between segments that it does not need to keep within `touch` of its
+/// course; arcs whose height is rounding are segments.
+pub(crate) fn needed(line: &Crack, touch: f64) -> Crack {
+    let height = |edge: Edge| 0.5 * edge.bulge.abs() * edge.chord().length();
+    let bulge = |edge: Edge| if height(edge) <= FLAT * touch { 0.0 } else { edge.bulge };
+    let bulges: Vec<f64> = line.edges().map(bulge).collect();
+    let (mut points, mut kept) = (Vec::new(), Vec::new());
+    for run in runs(&bulges) {
+        let (from, is_arc) = (run.start, bulges[run.start] != 0.0);
+        let own = &line.points[from..=run.end];
+        let own = if is_arc { own.to_vec() } else { needed_points(own, touch) };
+        kept.extend((1..own.len()).map(|_| bulges[from]));
+        points.extend(&own[usize::from(from > 0)..]);
+    }
+    let points = if bulges.is_empty() { line.points.clone() } else { points };
+    Crack { points, bulges: kept, ends: [CrackEnd::Tip; 2] }.plain()
+}
+
+/// The ranges of successive segments, and of single arcs.
+fn runs(bulges: &[f64]) -> Vec<std::ops::Range<usize>> {
+    let mut all: Vec<std::ops::Range<usize>> = Vec::new();
+    for (k, bulge) in bulges.iter().enumerate() {
+        match all.last_mut() {
+            Some(run) if *bulge == 0.0 && bulges[k - 1] == 0.0 => run.end = k + 1,
+            _ => all.push(k..k + 1),
+        }
+    }
+    all
+}
+
+/// The vertices of a polyline that keep it within `touch` of its course. Vertices that are no
+/// farther apart all stay: they are reported as errors.
+fn needed_points(points: &[Vec2], touch: f64) -> Vec<Vec2> {
     let mut kept: Vec<Vec2> = points.first().copied().into_iter().collect();
     let mut range: Option<DirectionRange> = None;
     for pair in points.windows(2) {
@@ -107,8 +141,8 @@ impl DirectionRange {
 #[derive(Default)]
 struct Joint {
     ends: Vec<LineEnd>,
-    /// The segments that pass through.
-    through: Vec<Segment>,
+    /// The edges that pass through.
+    through: Vec<Edge>,
     /// A vertex of another line.
     corner: Option<Vec2>,
 }
@@ -117,38 +151,37 @@ struct Joint {
 ///
 /// # Errors
 /// The lines lie too close together.
-fn joints(lines: &[Vec<Vec2>], touch: f64) -> Result<Vec<(Vec<LineEnd>, Vec2)>, TooDense> {
-    let of_line = |(line, points): (usize, &Vec<Vec2>)| {
-        let segments = points.windows(2).enumerate();
-        segments.map(move |(k, s)| (line, k, [s[0], s[1]])).collect::<Vec<_>>()
+fn joints(lines: &[Crack], touch: f64) -> Result<Vec<(Vec<LineEnd>, Vec2)>, TooDense> {
+    let of_line = |(line, crack): (usize, &Crack)| {
+        crack.edges().enumerate().map(move |(k, edge)| (line, k, edge)).collect::<Vec<_>>()
     };
-    let pieces: Vec<(usize, usize, Segment)> = lines.iter().enumerate().flat_map(of_line).collect();
-    let segments: Vec<_> = pieces.iter().map(|&(.., segment)| segment).collect();
-    let nearby = Nearby::new(&segments, touch);
+    let pieces: Vec<(usize, usize, Edge)> = lines.iter().enumerate().flat_map(of_line).collect();
+    let edges: Vec<_> = pieces.iter().map(|&(.., edge)| edge).collect();
+    let nearby = Nearby::new(&edges, touch);
     let end = |(line, is_last): LineEnd| {
-        let points = &lines[line];
+        let points = &lines[line].points;
         points[if is_last { points.len() - 1 } else { 0 }]
     };
     let mut meeting: BTreeMap<LineEnd, Joint> = BTreeMap::new();
-    let all = (0..lines.len()).filter(|&line| lines[line].len() > 1);
+    let all = (0..lines.len()).filter(|&line| lines[line].points.len() > 1);
     for own in all.flat_map(|line| [(line, false), (line, true)]) {
         let p = end(own);
         let is_at = |q: Vec2| (q - p).length() <= touch;
         let (mut first, mut through, mut corner) = (own, Vec::new(), None);
         let mut is_alone = true;
-        for at in nearby.of([p, p])? {
-            let (line, k, [a, b]) = pieces[at];
-            if line == own.0 || distance([a, b], p) > touch {
+        for at in nearby.at(p)? {
+            let (line, k, edge @ Edge { from: a, to: b, .. }) = pieces[at];
+            if line == own.0 || edge.distance(p) > touch {
                 continue;
             }
             is_alone = false;
-            let ends = [(is_at(a), k == 0), (is_at(b), k + 2 == lines[line].len())];
+            let ends = [(is_at(a), k == 0), (is_at(b), k + 2 == lines[line].points.len())];
             match ends {
                 [(true, true), _] => first = first.min((line, false)),
                 [_, (true, true)] => first = first.min((line, true)),
                 [(true, false), _] => corner = Some(a),
                 [_, (true, false)] => corner = Some(b),
-                _ => through.push([a, b]),
+                _ => through.push(edge),
             }
         }
         if !is_alone {
@@ -158,18 +191,21 @@ fn joints(lines: &[Vec<Vec2>], touch: f64) -> Result<Vec<(Vec<LineEnd>, Vec2)>, 
             joint.corner = joint.corner.or(corner);
         }
     }
+    // the vertex beside an end that a segment leads to
     let beside = |(line, is_last): LineEnd| {
-        let points = &lines[line];
-        points[if is_last { points.len() - 2 } else { 1 }]
+        let crack = &lines[line];
+        let edge = crack.edge(if is_last { crack.points.len() - 2 } else { 0 });
+        (!edge.is_arc()).then_some(if is_last { edge.from } else { edge.to })
     };
     let joint = |(first, Joint { ends, mut through, corner }): (LineEnd, Joint)| {
         let p = end(first);
-        let chords = ends
-            .iter()
-            .enumerate()
-            .flat_map(|(k, &one)| ends[..k].iter().map(move |&other| [beside(one), beside(other)]));
-        let is_straight =
-            |s: &Segment| distance(*s, p) <= touch && s.iter().all(|q| (*q - p).length() > touch);
+        let chords = ends.iter().enumerate().flat_map(|(k, &one)| {
+            let chord = move |&other| Some(Edge::segment([beside(one)?, beside(other)?]));
+            ends[..k].iter().filter_map(chord)
+        });
+        let is_straight = |s: &Edge| {
+            s.distance(p) <= touch && [s.from, s.to].iter().all(|q| (*q - p).length() > touch)
+        };
         through.extend(chords.filter(is_straight));
         let at = corner.unwrap_or_else(|| place(p, &through));
         (ends, at)
@@ -177,15 +213,29 @@ fn joints(lines: &[Vec<Vec2>], touch: f64) -> Result<Vec<(Vec<LineEnd>, Vec2)>, 
     Ok(meeting.into_iter().map(joint).collect())
 }
 
-/// The point near `p` on one line, or where lines cross.
-fn place(p: Vec2, lines: &[Segment]) -> Vec2 {
-    let Some((first, others)) = lines.split_first() else { return p };
-    let line = Line::through(*first);
-    let crossing = others.iter().map(|other| Line::through(*other)).find_map(|other| {
+/// The point near `p` on one of some edges, or where two of them cross.
+fn place(p: Vec2, edges: &[Edge]) -> Vec2 {
+    let Some((first, others)) = edges.split_first() else { return p };
+    if edges.iter().any(Edge::is_arc) {
+        let foot = first.closest_point(p);
+        let crossing = others.iter().find_map(|other| curved_crossing(p, first, other));
+        return crossing.unwrap_or(foot);
+    }
+    let lines = |edge: &Edge| Line::through([edge.from, edge.to]);
+    let line = lines(first);
+    let crossing = others.iter().map(lines).find_map(|other| {
         let sine = line.unit().along.cross(other.unit().along);
         line.meets(&other).filter(|_| sine.abs() > APART).map(|[t, _]| line.at(t))
     });
     crossing.unwrap_or_else(|| line.at(line.foot(p)))
+}
+
+/// The crossing of two edges that is nearest to a point, if they cross at an angle.
+fn curved_crossing(p: Vec2, first: &Edge, other: &Edge) -> Option<Vec2> {
+    let points = first.meets_curve(other).into_iter().map(|part| first.at(part));
+    let nearest = points.min_by(|a, b| (*a - p).length().total_cmp(&(*b - p).length()))?;
+    let sine = first.tangent_towards(nearest).cross(other.tangent_towards(nearest));
+    (sine.abs() > APART).then_some(nearest)
 }
 
 #[cfg(test)]
@@ -203,7 +253,7 @@ mod tests {
         let moved = |points: &&[Vec2]| points.iter().map(|p| *p + shift).collect();
         let around = Rect::new(vec2(-4.0, -4.0) + shift, vec2(5.0, 5.0) + shift);
         let domain = Domain::from(around);
-        let cracks = cracks(lines.iter().map(moved), &domain);
+        let cracks = cracks(lines.iter().map(moved).collect::<Vec<Vec<Vec2>>>(), &domain);
         let unit = Rect::new(shift, vec2(1.0, 1.0) + shift);
         Jumps::new(&cracks, &domain, touch(&around)).of(&unit).len() + 1
     }
@@ -253,20 +303,24 @@ mod tests {
             let points: Vec<Vec2> =
                 places.iter().map(|s| from + along * *s + off(&mut random)).collect();
             let ends = [points[0], points[points.len() - 1]];
-            assert_eq!(needed(&points, touch), ends[..ends.len().min(points.len())], "{round}");
+            assert_eq!(
+                needed_points(&points, touch),
+                ends[..ends.len().min(points.len())],
+                "{round}"
+            );
             let bend = random.between(0.2, 0.8);
             let at = |k: u32| {
                 vec2((bend * f64::from(k) / 200.0).sin(), (bend * f64::from(k) / 200.0).cos())
             };
             let arc: Vec<Vec2> = (0..=200).map(at).collect();
-            let kept = needed(&arc, 1e-5);
+            let kept = needed_points(&arc, 1e-5);
             assert!(kept.len() < 150, "{}", kept.len());
             let missed = |p: &&Vec2| ppum::segment::polyline_distance(&kept, **p) > 1.1e-5;
             assert_eq!(arc.iter().find(missed), None);
         }
         let square = [vec2(0.0, 0.0), vec2(1.0, 0.0), vec2(1.0, 1e-8), vec2(0.0, 1e-8)];
-        assert_eq!(needed(&square, 1e-9), square);
+        assert_eq!(needed_points(&square, 1e-9), square);
         let twice = [vec2(0.0, 0.0), vec2(0.5, 0.0), vec2(0.5, 1e-10), vec2(1.0, 0.0)];
-        assert_eq!(needed(&twice, 1e-9), twice);
+        assert_eq!(needed_points(&twice, 1e-9), twice);
     }
 }

@@ -1,14 +1,16 @@
 //! Closed curves: the outline of the body, and the tables `[[hole]]`.
 
 use ppum::border::touch;
-use ppum::domain::{Domain, Hole};
+use ppum::crack::Crack;
+use ppum::domain::{Domain, Hole, PolygonSide};
+use ppum::edge::Edge;
 use ppum::spline::Spline;
 use ppum::vec2::{Rect, Vec2};
 
 use crate::data::{Body, BoundaryPiece, BoundaryRange, Discretization};
 use crate::file::{DocumentValue, FromValue as _, Section, all};
 use crate::geometry::{SmoothCurve, needed, shown};
-use crate::read::curve::{ellipse, joined, knots, points_or_error, segments};
+use crate::read::curve::{bulges, edges, ellipse, joined, knots, no_bulges, note_segments};
 
 /// A closed curve in words of the problem file.
 pub(super) struct Rim {
@@ -83,7 +85,7 @@ impl BodyShape {
         };
         let hole = &holes[run.hole];
         let (touch, length) =
-            (touch(&hole.rim_bounds()), run.sides(hole).map(|[a, b]| (b - a).length()).sum());
+            (touch(&hole.rim_bounds()), run.edges(hole).map(|edge| edge.length()).sum());
         let ends = [from.unwrap_or(0.0), to.unwrap_or(length)];
         if ends[0] >= ends[1] {
             return Err(format!(
@@ -112,20 +114,18 @@ impl BodyShape {
     /// piece; a side that goes on there is divided.
     fn vertex_at(&mut self, piece: usize, length: f64, touch: f64) -> usize {
         let run = self.pieces[piece].runs[0];
-        let Some(Hole::Polygon { points, .. }) =
-            self.holes.as_mut().map(|holes| &mut holes[run.hole])
-        else {
+        let Some(hole) = self.holes.as_mut().map(|holes| &mut holes[run.hole]) else {
             return run.from;
         };
+        let edges: Vec<Edge> = run.edges(hole).collect();
         let mut left = length;
-        for side in run.from..run.to {
-            let [a, b] = [points[side], points[(side + 1) % points.len()]];
-            let own = (b - a).length();
+        for (side, edge) in (run.from..).zip(edges) {
+            let own = edge.length();
             if left <= touch {
                 return side;
             }
             if left < own - touch {
-                points.insert(side + 1, a + (b - a) * (left / own));
+                divide(hole, side, left / own);
                 let runs = self.pieces.iter_mut().flat_map(|piece| &mut piece.runs);
                 for other in runs.filter(|other| other.hole == run.hole) {
                     other.from += usize::from(other.from > side);
@@ -136,6 +136,19 @@ impl BodyShape {
             left -= own;
         }
         run.to
+    }
+}
+
+/// Divides a side of a polygon at a part of its length.
+fn divide(hole: &mut Hole, side: usize, part: f64) {
+    let Some(edge) = hole.edges().nth(side) else { return };
+    let Hole::Polygon { points, bulges, .. } = hole else { return };
+    points.insert(side + 1, edge.at(part));
+    if edge.is_arc() {
+        bulges[side] = edge.part([0.0, part]).bulge;
+    }
+    if !bulges.is_empty() {
+        bulges.insert(side + 1, edge.part([part, 1.0]).bulge);
     }
 }
 
@@ -170,8 +183,8 @@ fn outline(domain: &Section<'_>) -> Option<Option<Rim>> {
     }
     let section = domain.section("outline")?;
     let mut rim = closed(&section, &CURVES)?;
-    if let Hole::Polygon { points, .. } = rim.hole {
-        rim.hole = Hole::outside(points);
+    if let Hole::Polygon { side, .. } = &mut rim.hole {
+        *side = PolygonSide::Outside;
     }
     Some(Some(rim))
 }
@@ -182,9 +195,7 @@ const CURVES: [&str; 4] = ["points", "ellipse", "spline", "path"];
 /// The hole of a `[[hole]]`.
 fn hole(section: &Section<'_>) -> Option<Rim> {
     if section.given(&CURVES).is_empty() && !section.mentions_any(&CURVES) {
-        if let Some(value) = section.value("segments") {
-            return value.error("is for curves; remove it");
-        }
+        no_bulges(section)?;
         let (center, radius) = (section.require("center"), section.require("radius"));
         let hole = Hole::Circle { center: center?, radius: radius? };
         return Some(Rim { hole, names: Vec::new() });
@@ -207,33 +218,42 @@ fn closed(section: &Section<'_>, keys: &[&'static str]) -> Option<Rim> {
             None => section.require::<Vec<Vec2>>("points").and(None),
         };
     };
-    if *key == "points" && section.value("segments").is_some() {
-        return section.value("segments")?.error("is for curves; remove it");
+    note_segments(section)?;
+    let closed = |edges: Vec<Edge>| Rim { hole: polygon(&edges), names: Vec::new() };
+    if *key != "points" {
+        no_bulges(section)?;
     }
-    let segments = segments(section)?;
-    let unnamed = |points| Rim { hole: Hole::polygon(points), names: Vec::new() };
     match *key {
         "points" => {
             let points: Vec<Vec2> = Vec::read(value)?;
-            Some(unnamed(if keys == CURVES { needed_of(&points, &[0]).0 } else { points }))
+            let bulges = bulges(section, points.len())?;
+            let hole = Hole::Polygon { points, bulges, side: PolygonSide::Inside };
+            let edges: Vec<Edge> = hole.edges().collect();
+            let is_outline = keys == CURVES;
+            Some(closed(if is_outline { needed_of(&edges, &[0]).0 } else { edges }))
         }
-        "path" => path(value, segments),
-        "ellipse" => {
-            let curve = ellipse(value, false)?;
-            points_or_error(curve.closed(segments), value).map(unnamed)
-        }
+        "path" => path(value),
+        "ellipse" => edges(&ellipse(value, false)?, value).map(closed),
         _ => {
             let curve = SmoothCurve::Spline(Spline::closed(&knots(value, true)?));
-            points_or_error(curve.closed(segments), value).map(unnamed)
+            edges(&curve, value).map(closed)
         }
     }
 }
 
+/// The inside of edges that go round.
+fn polygon(edges: &[Edge]) -> Hole {
+    let Crack { mut points, bulges, .. } = Crack::along(edges);
+    points.pop();
+    Hole::Polygon { points, bulges, side: PolygonSide::Inside }
+}
+
 /// Pieces one after the other, the last of which ends where the first begins.
-fn path(value: &DocumentValue<'_>, segments: Option<usize>) -> Option<Rim> {
-    let (mut points, starts) = joined(value, segments)?;
-    let (first, last) = (points[0], points.pop()?);
-    let size = points.iter().map(|p| (*p - first).length()).fold(0.0, f64::max);
+fn path(value: &DocumentValue<'_>) -> Option<Rim> {
+    let (mut edges, starts) = joined(value)?;
+    let end = edges.len() - 1;
+    let (first, last) = (edges[0].from, edges[end].to);
+    let size = edges.iter().map(|edge| (edge.from - first).length()).fold(0.0, f64::max);
     if (last - first).length() > super::curve::JOINT * size {
         return value.error(&format!(
             "is open: it begins at {} and ends at {}; end it where it begins",
@@ -241,7 +261,8 @@ fn path(value: &DocumentValue<'_>, segments: Option<usize>) -> Option<Rim> {
             shown(last)
         ));
     }
-    let (points, runs) = needed_of(&points, &starts);
+    edges[end].to = first;
+    let (edges, runs) = needed_of(&edges, &starts);
     let name = |(value, run): (&DocumentValue<'_>, [usize; 2])| {
         let section = value.table()?;
         let Some(name) = section.value("name") else { return Some(None) };
@@ -251,21 +272,18 @@ fn path(value: &DocumentValue<'_>, segments: Option<usize>) -> Option<Rim> {
         }
     };
     let names = all(value.list()?.iter().zip(runs).map(name))?;
-    Some(Rim { hole: Hole::polygon(points), names: names.into_iter().flatten().collect() })
+    Some(Rim { hole: polygon(&edges), names: names.into_iter().flatten().collect() })
 }
 
-/// The corners of a polygon that it needs, and the sides of its pieces, which begin at some of the
-/// corners.
-fn needed_of(points: &[Vec2], starts: &[usize]) -> (Vec<Vec2>, Vec<[usize; 2]>) {
-    let Some(first) = points.first() else { return (Vec::new(), Vec::new()) };
-    let touch = touch(&Hole::polygon(points.to_vec()).rim_bounds());
-    let round: Vec<Vec2> = points.iter().copied().chain([*first]).collect();
-    let ends = starts.iter().skip(1).copied().chain([points.len()]);
-    let (mut all, mut runs) = (Vec::new(), Vec::new());
+/// The edges of a rim without vertices that it does not need, and the ranges of those of its
+/// pieces, which begin at some of the edges.
+fn needed_of(edges: &[Edge], starts: &[usize]) -> (Vec<Edge>, Vec<[usize; 2]>) {
+    let touch = touch(&polygon(edges).rim_bounds());
+    let ends = starts.iter().skip(1).copied().chain([edges.len()]);
+    let (mut all, mut runs): (Vec<Edge>, _) = (Vec::new(), Vec::new());
     for (from, to) in starts.iter().copied().zip(ends) {
         let from_side = all.len();
-        let piece = needed(&round[from..=to], touch);
-        all.extend(&piece[..piece.len() - 1]);
+        all.extend(needed(&Crack::along(&edges[from..to]), touch).edges());
         runs.push([from_side, all.len()]);
     }
     (all, runs)

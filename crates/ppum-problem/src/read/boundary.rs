@@ -73,8 +73,11 @@ fn normal(on: BoundaryPart, body: &BodyShape) -> Option<Vec2> {
         _ => return None,
     };
     let holes = body.holes.as_ref()?;
-    let sides = || piece.runs.iter().flat_map(|run| run.sides(&holes[run.hole]));
-    let along = || sides().map(|[a, b]| b - a);
+    let sides = || piece.runs.iter().flat_map(|run| run.edges(&holes[run.hole]));
+    if sides().any(|side| side.is_arc()) {
+        return None;
+    }
+    let along = || sides().map(|side| side.chord());
     let longest = along().max_by(|a, b| a.length().total_cmp(&b.length()))?;
     let touch = touch(&holes[piece.runs[0].hole].rim_bounds());
     let is_normal = |normal: &Vec2| along().all(|way| normal.dot(way).abs() <= touch);

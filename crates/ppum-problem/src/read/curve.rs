@@ -3,102 +3,120 @@
 
 use std::f64::consts::TAU;
 
+use ppum::crack::Crack;
+use ppum::edge::Edge;
 use ppum::spline::Spline;
 use ppum::vec2::{Vec2, vec2};
 
 use crate::file::{DocumentValue, FromValue as _, Section, all};
-use crate::geometry::{MOST_SEGMENTS, SmoothCurve, TooSharp, shown};
+use crate::geometry::{MOST_ARCS, SmoothCurve, shown};
 
 /// Gap between pieces of a path, in parts of their size, that is rounding of their ends.
 pub(super) const JOINT: f64 = 1e-6;
 
 /// The course of a `[[crack]]`.
-pub(super) fn course(section: &Section<'_>) -> Option<Vec<Vec2>> {
+pub(super) fn course(section: &Section<'_>) -> Option<Crack> {
     let given = section.given(&["points", "arc", "ellipse", "spline", "path"]);
     if let [_, (_, second), ..] = &given[..] {
         return second.error("gives the crack once more; leave one out");
     }
-    let segments = segments(section)?;
+    note_segments(section)?;
     match given.first() {
-        Some(("path", value)) => path(value, segments),
-        Some((key, value)) if *key != "points" => open(key, value, segments),
-        _ if segments.is_some() => {
-            section.value("segments")?.error("is for curves; give more points")
+        Some((key, value)) if *key != "points" => {
+            no_bulges(section)?;
+            if *key == "path" { Some(Crack::along(&joined(value)?.0)) } else { open(key, value) }
         }
-        _ => section.require("points"),
+        _ => {
+            let points: Vec<Vec2> = section.require("points")?;
+            let bulges = bulges(section, points.len().saturating_sub(1))?;
+            Some(Crack { points, bulges, ..Crack::default() })
+        }
     }
 }
 
-/// The number of segments that is asked for; none if that is left to the program.
-pub(super) fn segments(section: &Section<'_>) -> Option<Option<usize>> {
-    if section.value("segments").is_none() {
-        return Some(None);
-    }
-    section.get::<usize>("segments")?;
-    Some(Some(section.within("segments")? as usize))
+/// Remarks a number of segments, which curves have none of.
+pub(super) fn note_segments(section: &Section<'_>) -> Option<()> {
+    section.optional::<usize>("segments")?;
+    let note = "has no effect, since curves consist of arcs; remove it";
+    section.value("segments").iter().for_each(|value| value.note(note));
+    Some(())
 }
 
-/// The vertices of an open curve.
-fn open(key: &str, value: &DocumentValue<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
+/// The `bulges` of so many edges; none of a polyline.
+pub(super) fn bulges(section: &Section<'_>, edges: usize) -> Option<Vec<f64>> {
+    let Some(value) = section.value("bulges") else { return Some(Vec::new()) };
+    let bulges = all(value.list()?.iter().map(f64::read))?;
+    if bulges.len() == edges {
+        return Some(bulges);
+    }
+    value.error(&format!(
+        "has {} of the {edges} numbers that `points` need: give one for each edge, 0 where it is straight",
+        bulges.len()
+    ))
+}
+
+/// Reports `bulges` beside a curve.
+pub(super) fn no_bulges(section: &Section<'_>) -> Option<()> {
+    match section.value("bulges") {
+        Some(value) => value.error("is for `points`; remove it"),
+        None => Some(()),
+    }
+}
+
+/// An open curve.
+fn open(key: &str, value: &DocumentValue<'_>) -> Option<Crack> {
     let curve = match key {
         "arc" => arc(value)?,
         "ellipse" => ellipse(value, true)?,
         _ => SmoothCurve::Spline(Spline::open(&knots(value, false)?)),
     };
-    points_or_error(curve.divided(segments), value)
+    Some(Crack::along(&edges(&curve, value)?))
 }
 
-pub(super) fn points_or_error(
-    points: Result<Vec<Vec2>, TooSharp>,
-    value: &DocumentValue<'_>,
-) -> Option<Vec<Vec2>> {
-    points.or_else(|TooSharp { at }| {
+/// The edges of a curve.
+pub(super) fn edges(curve: &SmoothCurve, value: &DocumentValue<'_>) -> Option<Vec<Edge>> {
+    let sharp = |at| {
         let message = format!(
-            "turns too sharply around {}: it would take more than {MOST_SEGMENTS} segments; make it rounder, or say how \
-             many by `segments`",
+            "turns too sharply around {}: it has a cusp, or would take more than {MOST_ARCS} arcs; make it rounder, \
+             or divide it there by a `path`",
             shown(at)
         );
-        value.error(&message).ok_or(())
-    }).ok()
+        value.error::<()>(&message);
+    };
+    curve.edges().map_err(sharp).ok()
 }
 
-/// Pieces one after the other, each from where the one before ends.
-fn path(value: &DocumentValue<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
-    Some(joined(value, segments)?.0)
-}
-
-/// Pieces one after the other, each from where the one before ends, and the number of the point at
-/// which each begins.
-pub(super) fn joined(
-    value: &DocumentValue<'_>,
-    segments: Option<usize>,
-) -> Option<(Vec<Vec2>, Vec<usize>)> {
+/// The edges of pieces one after the other, each from where the one before ends, and the number of
+/// the edge at which each begins.
+pub(super) fn joined(value: &DocumentValue<'_>) -> Option<(Vec<Edge>, Vec<usize>)> {
     let pieces = value.list()?;
     if pieces.is_empty() {
         return value.error("has no pieces; give one at least");
     }
-    let all = all(pieces.iter().map(|value| piece(value, segments)))?;
-    let (mut points, mut starts): (Vec<Vec2>, _) = (Vec::new(), vec![0]);
+    let all = all(pieces.iter().map(piece))?;
+    let (mut edges, mut starts): (Vec<Edge>, _) = (Vec::new(), Vec::new());
     for (piece, value) in all.iter().zip(&pieces) {
-        let Some(end) = points.last().copied() else {
-            points.clone_from(piece);
-            continue;
-        };
-        let size = (piece[piece.len() - 1] - piece[0]).length() + (end - points[0]).length();
-        if (piece[0] - end).length() > JOINT * size {
+        starts.push(edges.len());
+        edges.extend(piece.edges());
+        let own = starts[starts.len() - 1];
+        let Some(before) = own.checked_sub(1) else { continue };
+        let (end, start) = (edges[before].to, edges[own].from);
+        let last = piece.points[piece.points.len() - 1];
+        let size = (last - start).length() + (end - edges[0].from).length();
+        if (start - end).length() > JOINT * size {
             return value.error(&format!(
                 "has a gap: the piece begins at {}, but the one before ends at {}; begin each piece where the one \
                  before ends",
-                shown(piece[0]), shown(end)
+                shown(start),
+                shown(end)
             ));
         }
-        starts.push(points.len() - 1);
-        points.extend(&piece[1..]);
+        edges[own].from = end;
     }
-    Some((points, starts))
+    Some((edges, starts))
 }
 
-fn piece(value: &DocumentValue<'_>, segments: Option<usize>) -> Option<Vec<Vec2>> {
+fn piece(value: &DocumentValue<'_>) -> Option<Crack> {
     let (section, keys) = (value.table()?, ["points", "arc", "ellipse", "spline"]);
     let given = section.given(&keys);
     let [(key, curve)] = &given[..] else {
@@ -110,14 +128,15 @@ fn piece(value: &DocumentValue<'_>, segments: Option<usize>) -> Option<Vec<Vec2>
         );
     };
     if *key != "points" {
-        return open(key, curve, segments);
+        no_bulges(&section)?;
+        return open(key, curve);
     }
-    let points = Vec::read(curve)?;
+    let points: Vec<Vec2> = Vec::read(curve)?;
     if points.len() < 2 {
-        curve.error("has too few points; give two at least")
-    } else {
-        Some(points)
+        return curve.error("has too few points; give two at least");
     }
+    let bulges = bulges(&section, points.len() - 1)?;
+    Some(Crack { points, bulges, ..Crack::default() })
 }
 
 fn arc(value: &DocumentValue<'_>) -> Option<SmoothCurve> {
@@ -162,9 +181,9 @@ pub(super) fn knots(value: &DocumentValue<'_>, is_closed: bool) -> Option<Vec<Ve
     if points.len() < 3 {
         return value.error("needs at least 3 points; add `[x, y]`");
     }
-    if points.len() > MOST_SEGMENTS {
+    if points.len() > MOST_ARCS {
         return value
-            .error(&format!("has {} points, but at most {MOST_SEGMENTS} may be", points.len()));
+            .error(&format!("has {} points, but at most {MOST_ARCS} may be", points.len()));
     }
     let next = |k: usize| points[(k + 1) % points.len()];
     let last = if is_closed { points.len() } else { points.len() - 1 };

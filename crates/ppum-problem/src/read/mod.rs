@@ -25,13 +25,13 @@ mod temperature;
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use ppum::crack::Crack;
 use ppum::dataset::{
     Dataset, Elasticity, Equation, MAX_QUANTITIES, MAX_QUANTITY_TEXT, NamedQuantity, StressState,
 };
 use ppum::domain::Domain;
 use ppum::expression::Expression;
 use ppum::quantity::QuantityFormulaError;
-use ppum::vec2::Vec2;
 use toml::de::DeTable;
 
 use crate::check;
@@ -123,7 +123,7 @@ fn read_document(
     if let Some(problem) = &problem {
         report_violations(&document, table.get_ref(), problem);
     }
-    let files = document.files.take();
+    let (files, notes) = (document.files.take(), document.report.notes());
     let errors = document.report.into_errors();
     let problem = match problem {
         Some(problem) if errors.is_empty() => problem,
@@ -136,7 +136,7 @@ fn read_document(
     // errors are about the vertices of the file
     let text = Some(temperature::with_text(text, table.get_ref(), &problem));
     let body = (*problem.body).clone().settled().into();
-    Ok(Problem::of_checked(ProblemData { title, body, text, files, ..problem }))
+    Ok(Problem::of_checked(ProblemData { title, body, text, files, notes, ..problem }))
 }
 
 /// The tables that give a body; the problem of a temperature need not repeat them.
@@ -211,8 +211,7 @@ fn problem<'a>(document: &'a ProblemDocument<'a>, table: &'a DeTable<'a>) -> Opt
     let enrichments = root.each("enrichment", |new| enrichment::enrichment(&new, cracks.len()));
     let mut refinements = root.each("refine", |new| steps::refinement(&new));
     let kind = kind?;
-    let exact = exact(root, kind);
-    let source = source(root, kind);
+    let (exact, source) = (exact(root, kind), source(root, kind));
     let equation = equation(root, kind);
     let quantities = quantities(root, &equation);
     let mut boundary = boundary::boundary(root, kind, &mut shape, exact.as_deref());
@@ -259,6 +258,7 @@ fn problem<'a>(document: &'a ProblemDocument<'a>, table: &'a DeTable<'a>) -> Opt
         solver,
         text: None,
         files: Vec::new(),
+        notes: Vec::new(),
     })
 }
 
@@ -277,14 +277,11 @@ fn plan<'a>(root: &Section<'a>) -> (Option<Section<'a>>, Option<Discretization>)
     }
 }
 
-/// The lines of the cracks, and the friction of those whose faces touch.
-fn cracks(
-    root: &Section<'_>,
-    heated: Option<&HeatedBody<'_>>,
-) -> (Vec<Vec<Vec2>>, Vec<Option<f64>>) {
+/// The courses of the cracks, and the friction of those whose faces touch.
+fn cracks(root: &Section<'_>, heated: Option<&HeatedBody<'_>>) -> (Vec<Crack>, Vec<Option<f64>>) {
     match heated {
         Some(HeatedBody { body, .. }) => {
-            body.cracks().iter().map(|crack| (crack.points.clone(), None)).unzip()
+            body.cracks().iter().map(|crack| (crack.clone(), None)).unzip()
         }
         None => {
             let read = |section| Some((curve::course(&section)?, friction(&section)?));

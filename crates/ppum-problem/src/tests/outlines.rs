@@ -136,3 +136,83 @@ fn straight_sides_have_no_corners() {
         assert_eq!(problem.pieces(), [0, 1, 2, 3].map(piece));
     }
 }
+
+/// Curves are arcs: an arc is one edge, the same by `bulges`; an ellipse and a path have equal
+/// tangents at their joints; `segments` is remarked.
+#[test]
+fn curves_are_arcs() {
+    let text = r#"
+crack = [
+  { arc = { center = [0, -1], radius = 0.5, from = 30, to = 120 }, segments = 9 },
+  { points = [[1.0, 1.5], [0.5, 1.5], [0.0, 1.5]], bulges = [-0.4142135623730951, 0.0] },
+  { spline = [[-1.8, 0.2], [-1.5, 0.5], [-1.6, 0.9], [-1.2, 1.2]] },
+]
+hole = [
+  { ellipse = { center = [0, 0.2], axes = [0.5, 0.25], angle = 20 } },
+  { points = [[-1.2, -1.0], [-0.8, -1.0]], bulges = [1.0, 1.0] },
+]
+domain = { min = [-2, -2], max = [2, 2] }
+[material]
+young = 1.0
+poisson = 0.3
+state = "plane-stress"
+[[boundary]]
+on = { hole = 1 }
+pressure = 1
+[discretization]
+level = 3
+"#;
+    let problem = good(text);
+    let [arc, bulged, spline] = problem.cracks() else { panic!("three cracks") };
+    let (quarter, sixty) = ((std::f64::consts::PI / 8.0).tan(), 3f64.sqrt() / 4.0);
+    assert_eq!((arc.points.len(), arc.bulges.len()), (2, 1));
+    assert!((arc.bulges[0] - quarter).abs() < 1e-15, "{arc:?}");
+    assert!((arc.points[0] - vec2(sixty, -0.75)).length() < 1e-15, "{arc:?}");
+    assert_eq!(bulged.bulges, [-0.414_213_562_373_095_1, 0.0]);
+    let [ellipse, lens] = &problem.domain().holes[..] else { panic!("two holes") };
+    assert!((lens.rim_distance(vec2(-1.0, -0.8))).abs() < 1e-15);
+    assert!(!lens.contains(vec2(-1.0, -0.79)) && lens.contains(vec2(-1.0, -0.81)));
+    let rim: Vec<_> = ellipse.edges().collect();
+    let joints = rim.iter().zip(rim.iter().cycle().skip(1)).map(|(a, b)| [*a, *b]);
+    let course: Vec<_> = spline.edges().collect();
+    let kinks = course.windows(2).map(|pair| [pair[0], pair[1]]).chain(joints);
+    for [before, after] in kinks {
+        assert_eq!(before.to, after.from);
+        let turn = before.end_tangents()[1] - after.end_tangents()[0];
+        assert!(turn.length() < 1e-9, "{before:?} {after:?}");
+    }
+    let [sin, cos] = [20f64.to_radians().sin(), 20f64.to_radians().cos()];
+    for p in rim.iter().map(|edge| edge.at(0.4) - vec2(0.0, 0.2)) {
+        let (x, y) = ((cos * p.x + sin * p.y) / 0.5, (cos * p.y - sin * p.x) / 0.25);
+        assert!((x.hypot(y) - 1.0).abs() < 5e-9, "{p:?}");
+    }
+    assert_eq!(problem.arcs(), rim.len() + course.len() + 4);
+    let [note] = &problem.notes[..] else { panic!("{:?}", problem.notes) };
+    assert!(note.to_string().contains("`segments` in [[crack]] has no effect"), "{note}");
+    // pressure on half circles pushes the lens's material away
+    let on_lens = problem.stations(0.05);
+    assert_eq!(on_lens.len(), 25);
+    for station in on_lens {
+        let from_center = station.at - vec2(-1.0, -1.0);
+        assert!((from_center.length() - 0.2).abs() < 1e-14);
+        assert!((station.outward + from_center.unit()).length() < 1e-13);
+    }
+}
+
+/// A part of a piece with an arc is measured along it.
+#[test]
+fn parts_of_arcs() {
+    let text = BRACKET
+        .replacen("from = 270, to = 180 }", "from = 270, to = 180 }, name = \"fillet\"", 1)
+        .replacen("piece = \"slot\" }", "piece = \"fillet\", from = 0.4, to = 1.3 }", 1);
+    let problem = good(&text);
+    let edges: Vec<_> = problem.edges_of(problem.boundary[1].on).collect();
+    let length: f64 = edges.iter().map(|edge| edge.length()).sum();
+    assert!((length - 0.9).abs() < 1e-14 && edges.len() == 1, "{edges:?}");
+    let at = |angle: f64| vec2(2.0 + angle.cos(), 2.0 + angle.sin());
+    let from = at(1.5 * std::f64::consts::PI - 0.4);
+    assert!((edges[0].from - from).length() < 1e-14, "{edges:?}");
+    assert!((edges[0].center() - vec2(2.0, 2.0)).length() < 1e-13);
+    let head = problem.edges_of(problem.boundary[0].on).map(|edge| edge.from);
+    assert_eq!(head.collect::<Vec<_>>(), [vec2(1.0, 2.0), vec2(1.0, 4.0)]);
+}

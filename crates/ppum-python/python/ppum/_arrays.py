@@ -73,7 +73,7 @@ ARGUMENTS = {
 }  # fmt: skip
 #: Offsets by the array whose rows they part.
 OFFSETS = {
-    "cuts": "cut_offsets", "kinks": "kink_offsets", "singular": "singular_offsets", "points": "offsets",
+    "cuts": "cut_offsets", "kinks": "kink_offsets", "singular": "singular_offsets", "points": "offsets", "bulges": "offsets",
     "parameter_name": "parameter_offsets", "parameter_value": "parameter_offsets",
 }  # fmt: skip
 

@@ -14,6 +14,7 @@ from matplotlib.image import AxesImage
 from matplotlib.transforms import Bbox
 
 from . import _core
+from ._edges import polyline
 from ._errors import QuantityError
 from ._options import takes
 from ._styles import Norm, PlotOptions, request
@@ -99,10 +100,10 @@ def _coarse(field: "Field") -> View:
 
 
 def _draw_lines(field: "Field", ax: Any) -> None:
-    lines = [crack.points for crack in field.step.cracks]
+    lines = [polyline(crack.points, crack.bulges) for crack in field.step.cracks]
     for hole in field.dataset.holes:
         if hole.points is not None:
-            lines.append(np.vstack([hole.points, hole.points[:1]]))
+            lines.append(polyline(np.vstack([hole.points, hole.points[:1]]), hole.bulges))
         else:
             angles = np.linspace(0.0, 2.0 * np.pi, 361)
             around = np.stack([np.cos(angles), np.sin(angles)], axis=-1)

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from . import _core
 from ._export import TriangleOptions, save_triangles
-from ._facts import Advance, Crack, Growth, Hole, Point, Reaction, Tip, Warning, number, points, row, tips_of
+from ._facts import Advance, Crack, Growth, Hole, Point, Reaction, Tip, Warning, bulges, number, points, row, tips_of
 from ._field import KEPT, Field
 from ._options import passes
 from ._styles import ViewerOptions
@@ -63,8 +63,8 @@ class Step:
     @cached_property
     def cracks(self) -> tuple[Crack, ...]:
         """Cracks of the step."""
-        cracks = enumerate(self._facts["cracks"])
-        made = (Crack(k, points(c["points"]), tuple(c["ends"])) for k, c in cracks)
+        cracks = enumerate(zip(self._facts["cracks"], self._facts["bulges"]))
+        made = (Crack(k, points(c["points"]), tuple(c["ends"]), bulges(b)) for k, (c, b) in cracks)
         return Numbered(made, "crack")
 
     @cached_property
@@ -165,12 +165,13 @@ class Dataset:
     @cached_property
     def holes(self) -> tuple[Hole, ...]:
         """Holes of the domain."""
-        def hole(facts: dict[str, Any]) -> Hole:
+        def hole(facts: dict[str, Any], of_sides: list[float]) -> Hole:
             if facts["kind"] == "circle":
                 return Hole(tuple(facts["center"]), facts["radius"])
-            return Hole(points=points(facts["points"]), is_outside=facts["kind"] == "outside")
+            is_outside = facts["kind"] == "outside"
+            return Hole(points=points(facts["points"]), is_outside=is_outside, bulges=bulges(of_sides))
 
-        holes = map(hole, self._facts["domain"]["holes"])
+        holes = map(hole, self._facts["domain"]["holes"], self._facts["bulges"])
         return Numbered(holes, "hole")
 
     @property

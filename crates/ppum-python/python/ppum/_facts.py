@@ -8,7 +8,9 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from ._edges import length
 from ._tables import Table
+from ._text import plural
 
 Point = tuple[float, float]
 _Row = TypeVar("_Row")
@@ -16,38 +18,43 @@ _Row = TypeVar("_Row")
 
 @dataclass(frozen=True)
 class Crack:
-    """A crack: a polyline with a direction, whose left side is above.
+    """A crack: segments and arcs with a direction, whose left side is above.
 
     Attributes:
         index: Number of the crack, from 0.
         points: The vertices, shape (n, 2), lengths.
         ends: The kinds of its ends: ``tip``, ``mouth`` or ``junction``.
+        bulges: tan(sweep / 4) of each edge, positive where it turns left, 0 for segments, shape (n - 1,); None without arcs.
     """
 
     index: int
     points: NDArray[np.float64]
     ends: tuple[str, str]
+    bulges: NDArray[np.float64] | None = None
 
     @property
     def length(self) -> float:
         """Arc length from end to end."""
-        return float(np.hypot(*np.diff(self.points, axis=0).T).sum())
+        return length(self.points, self.bulges)
 
     def __repr__(self) -> str:
-        return f"<ppum.Crack {self.index}, {len(self.points)} points, {self.ends[0]} to {self.ends[1]}>"
+        arcs = "" if self.bulges is None else f", {plural(int(np.count_nonzero(self.bulges)), 'arc')}"
+        return f"<ppum.Crack {self.index}, {len(self.points)} points{arcs}, {self.ends[0]} to {self.ends[1]}>"
 
 
 @dataclass(frozen=True)
 class Hole:
     """A hole: a circle (`center`, `radius`) or a polygon (`points`, shape (n, 2)); the others are None.
 
-    With `is_outside` the polygon is the outline of the body, and the hole all that is outside of it.
+    With `is_outside` the polygon is the outline of the body, and the hole all that is outside of it. Where sides of it are
+    arcs, `bulges` has tan(sweep / 4) of the side behind each corner, positive where it turns left, 0 for segments, shape (n,).
     """
 
     center: Point | None = None
     radius: float | None = None
     points: NDArray[np.float64] | None = None
     is_outside: bool = False
+    bulges: NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True)
@@ -172,6 +179,15 @@ def tips_of(facts: list[dict[str, Any]], ends: Sequence[str]) -> Table[Tip]:
     both = zip(facts, ends, strict=True)
     tips = (row(Tip, t, end=end, xy=t["tip"], rings=_rings(t["rings"])) for t, end in both)
     return Table(tips, "tip")
+
+
+def bulges(given: Sequence[float]) -> NDArray[np.float64] | None:
+    """Return the bulges of edges, None if there are none."""
+    if not given:
+        return None
+    array = np.array(given, float)
+    array.flags.writeable = False
+    return array
 
 
 def points(points: Sequence[Point]) -> NDArray[np.float64]:

@@ -8,8 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _core
-from ._checks import check_type, mapping, numbers, rows, scalar, sequence, short, text
+from ._checks import check_shape, check_type, mapping, numbers, rows, scalar, sequence, short, text
 from ._cover import Cover
+from ._edges import distance, polyline
 from ._errors import BuildError
 from ._facts import Crack, Hole
 from ._mesh import Mesh
@@ -18,6 +19,8 @@ from ._problem import Elastic, Poisson
 from ._state import State
 
 Arrays = dict[str, Any]
+#: Points, and bulges of the edges between them, None without arcs.
+Chain = tuple[NDArray[np.float64], NDArray[np.float64] | None]
 
 EQUATION = "the material, for stresses and energy; then the first field is ``displacement`` or ``potential``"
 TABLES = "data that formulas read, by name: (x, values), or (x, y, values) with a row of values for each y"
@@ -29,7 +32,7 @@ class DatasetOptions(TypedDict, total=False):
     title: Annotated[str, Option("", "one line that names the problem")]
     program: Annotated[str, Option("", "name and version of the code that the arrays come from")]
     equation: Annotated[Elastic | Poisson | None, Option(None, EQUATION)]
-    holes: Annotated[Sequence[Hole], Option((), "holes of the domain, with `center` and `radius` or with `points`")]
+    holes: Annotated[Sequence[Hole], Option((), "holes of the domain, with `center` and `radius`, or with `points` and perhaps `bulges`")]
     tables: Annotated[Mapping[str, Sequence[ArrayLike]] | None, Option(None, TABLES)]
     quantities: Annotated[
         Mapping[str, str | tuple[str, str]] | None,
@@ -92,17 +95,45 @@ def _domain(cover: Cover | Mesh, holes: Sequence[Hole]) -> str:
 
 def _holes(holes: Sequence[Hole]) -> Arrays:
     points = [_outline(f"holes[{k}]", hole) for k, hole in enumerate(holes)]
-    kinds = ["circle" if h.points is None else "outside" if h.is_outside else "polygon" for h in holes]
+    bulges = [bulges_of(f"holes[{k}].bulges", hole.bulges, len(points[k])) for k, hole in enumerate(holes)]
     return {
-        "domain/holes/kind": kinds,
+        "domain/holes/kind": [_kind(hole, given) for hole, given in zip(holes, bulges)],
         "domain/holes/points": np.concatenate(points),
         "domain/holes/offsets": np.cumsum([0, *map(len, points)]),
         "domain/holes/radius": [scalar(f"holes[{k}].radius", h.radius if h.points is None else 0) for k, h in enumerate(holes)],
+        **_bulges("domain/holes/bulges", points, bulges),
     }
+
+
+def _kind(hole: Hole, bulges: NDArray[np.float64] | None) -> str:
+    kind = "circle" if hole.points is None else "outside" if hole.is_outside else "polygon"
+    return kind if bulges is None else f"curved-{kind}"
+
+
+def bulges_of(place: str, given: ArrayLike | None, count: int) -> NDArray[np.float64] | None:
+    """Return the bulges of so many edges; None if there are no arcs."""
+    if given is None:
+        return None
+    bulges = numbers(place, given)
+    check_shape(place, bulges, bulges.shape == (count,), f"({count},), one for each edge")
+    return bulges if bulges.any() else None
+
+
+def _bulges(name: str, points: Sequence[NDArray[np.float64]], bulges: Sequence[NDArray[np.float64] | None]) -> Arrays:
+    """Return the array of bulges of the edges behind all points; none without arcs."""
+    if all(given is None for given in bulges):
+        return {}
+    padded = [np.zeros(len(of)) for of in points]
+    for edges, given in zip(padded, bulges):
+        if given is not None:
+            edges[: len(given)] = given
+    return {name: np.concatenate(padded)}
 
 
 def _outline(place: str, hole: Hole) -> NDArray[np.float64]:
     """Return the points of a polygon, or the centre of a circle."""
+    if hole.points is None and hole.bulges is not None:
+        raise BuildError(f"{place}.bulges: belong to sides between `points`; leave them out")
     if hole.points is not None:
         return rows(f"{place}.points", hole.points, 2)
     if hole.center is None or hole.radius is None:
@@ -169,43 +200,46 @@ def components_of(equation: Elastic | Poisson | None) -> list[str]:
 
 
 def crack_arrays(state: State, cracks: Sequence[NDArray[np.float64]], holes: Sequence[Hole]) -> Arrays:
+    bulges = [_crack_bulges(k, given, len(cracks[k])) for k, given in enumerate(state.cracks)]
     for k, points in enumerate(cracks):
         if len(points) < 2:
             raise BuildError(f"cracks[{k}]: has {len(points)} points; a crack needs two or more")
         same = np.flatnonzero((points[1:] == points[:-1]).all(axis=1))
         if len(same):
             raise BuildError(f"cracks[{k}][{same[0] + 1}]: is the point before it; leave one out")
-        low, high = np.minimum(points[1:], points[:-1]), np.maximum(points[1:], points[:-1])
+        line = polyline(points, bulges[k])
+        low, high = np.minimum(line[1:], line[:-1]), np.maximum(line[1:], line[:-1])
         if ((high < state.cover.domain[0]) | (low > state.cover.domain[1])).any(axis=1).all():
             box = " to ".join(f"({x:g}, {y:g})" for x, y in state.cover.domain)
             raise BuildError(f"cracks[{k}]: lies outside of the domain, {box}; leave it out, or give its points in this frame")
     named = [list(given.ends) if isinstance(given, Crack) else None for given in state.cracks]
-    ends = [known or _ends(k, cracks, state.cover, holes) for k, known in enumerate(named)]
+    chains = list(zip(cracks, bulges))
+    ends = [known or _ends(k, chains, state.cover, holes) for k, known in enumerate(named)]
+    words = [of if given is None else [f"curved-{end}" for end in of] for of, given in zip(ends, bulges)]
     return {
         "cracks/points": np.concatenate([np.empty((0, 2)), *cracks]),
         "cracks/offsets": np.cumsum([0, *map(len, cracks)]),
-        "cracks/ends": np.array(ends, object).reshape(-1, 2),
+        "cracks/ends": np.array(words, object).reshape(-1, 2),
+        **_bulges("cracks/bulges", cracks, bulges),
     }
 
 
-def _ends(crack: int, cracks: Sequence[NDArray[np.float64]], cover: Cover | Mesh, holes: Sequence[Hole]) -> list[str]:
+def _crack_bulges(k: int, crack: Any, points: int) -> NDArray[np.float64] | None:
+    return bulges_of(f"cracks[{k}].bulges", crack.bulges, points - 1) if isinstance(crack, Crack) else None
+
+
+def _ends(crack: int, cracks: Sequence[Chain], cover: Cover | Mesh, holes: Sequence[Hole]) -> list[str]:
     (x0, y0), (x1, y1) = cover.domain.tolist()
-    border = [np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)])]
-    border += [np.concatenate([h.points, h.points[:1]]) for h in holes if h.points is not None]
+    border: list[Chain] = [(np.array([(x0, y0), (x1, y0), (x1, y1), (x0, y1), (x0, y0)]), None)]
+    border += [(np.concatenate([h.points, h.points[:1]]), h.bulges) for h in holes if h.points is not None]
     near = 1e-9 * max(x1 - x0, y1 - y0)
-    others = [points for k, points in enumerate(cracks) if k != crack]
+    others = [chain for k, chain in enumerate(cracks) if k != crack]
 
     def kind(p: NDArray[np.float64]) -> str:
         rims = [abs(np.hypot(*(p - np.array(h.center))) - (h.radius or 0)) for h in holes if h.center]
-        if min([_distance(p, line) for line in border] + rims) <= near:
+        if min([distance(p, *chain) for chain in border] + rims) <= near:
             return "mouth"
-        return "junction" if any(_distance(p, line) <= near for line in others) else "tip"
+        return "junction" if any(distance(p, *chain) <= near for chain in others) else "tip"
 
-    return [kind(cracks[crack][0]), kind(cracks[crack][-1])]
-
-
-def _distance(p: NDArray[np.float64], line: NDArray[np.float64]) -> float:
-    """Return the distance from a point to a polyline."""
-    start, along = line[:-1], np.diff(line, axis=0)
-    t = np.clip(((p - start) * along).sum(axis=1) / (along**2).sum(axis=1), 0, 1)
-    return float(np.hypot(*(start + t[:, None] * along - p).T).min())
+    points, _ = cracks[crack]
+    return [kind(points[0]), kind(points[-1])]

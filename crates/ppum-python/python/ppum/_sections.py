@@ -29,7 +29,8 @@ class CurveOptions(TypedDict, total=False):
     ellipse: Annotated[Table, _key("an ellipse, of a crack a part of one: `ppum.ellipse`, or a table of problem files")]
     spline: Annotated[ArrayLike, _key("points of a smooth curve, shape (n, 2)")]
     path: Annotated[Sequence[Table], _key("several curves, each from where the one before ends; those of holes have names")]
-    segments: Annotated[int, _key("the number of segments of each curve")]
+    bulges: Annotated[ArrayLike, _key("tan(sweep/4) of the edge behind each point, positive where it turns left; 0: a segment")]
+    segments: Annotated[int, _key("has no effect any more")]
 
 
 class HoleOptions(CurveOptions, total=False):

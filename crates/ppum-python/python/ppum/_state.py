@@ -68,7 +68,7 @@ class State:
     Attributes:
         cover: The partition of unity, or the elements.
         fields: One field or several; images and quantities are of the first.
-        cracks: Points of each crack, shape (k, 2), or `ppum.Crack`. By default an end on the border of the domain or of a
+        cracks: Points of each crack, shape (k, 2), or `ppum.Crack`, which may have arcs. By default an end on the border of the domain or of a
             hole is a ``mouth``, one on another crack a ``junction``, any other a ``tip``; values do not depend on it.
         functions: Functions beside ``one`` by name: `Jump`, `Component`, `Level`, `Formula` or the text of a formula.
         attributes: Values for each patch by name, shape (n,), NaN for none.

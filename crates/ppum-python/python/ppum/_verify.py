@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._checks import check_shape, numbers, real, short
+from ._edges import along, lengths
 from ._errors import BuildError
 from ._functions import Component, Formula, Jump, Level
 from ._state import Coefficients, Sampled, State
@@ -143,23 +144,23 @@ def _points(state: State, field: Any) -> Floats:
     points = np.empty((0, 2))
     while len(points) < POINTS:
         points = np.concatenate([points, _inside(state.cover.spread(random, POINTS), state, field)])
-    beside = [_inside(_beside(np.asarray(c), state, random), state, field) for c in _cracks(state)]
+    beside = [_inside(_beside(*crack, state, random), state, field) for crack in _cracks(state)]
     return np.concatenate([points[:POINTS], *beside])
 
 
-def _cracks(state: State) -> list[Any]:
-    return [getattr(crack, "points", crack) for crack in state.cracks]
+def _cracks(state: State) -> list[tuple[Floats, Floats | None]]:
+    """Return points and bulges of the cracks."""
+    return [(np.asarray(getattr(crack, "points", crack)), getattr(crack, "bulges", None)) for crack in state.cracks]
 
 
-def _beside(crack: Floats, state: State, random: np.random.Generator) -> Floats:
+def _beside(points: Floats, bulges: Floats | None, state: State, random: np.random.Generator) -> Floats:
     """Return points close to both faces of a crack."""
-    segments = np.diff(crack, axis=0)
-    lengths = np.hypot(*segments.T)
-    k = random.choice(len(segments), BESIDE, p=lengths / lengths.sum())
-    on = crack[k] + segments[k] * random.uniform(0, 1, (BESIDE, 1))
-    normal = np.column_stack([-segments[k, 1], segments[k, 0]]) / lengths[k, None]
-    off = DISTANCE * float(np.ptp(state.cover.domain, axis=0).max()) * normal
-    return np.concatenate([on + off, on - off])
+    chords, sizes = np.diff(points, axis=0), lengths(points, bulges)
+    k = random.choice(len(chords), BESIDE, p=sizes / sizes.sum())
+    given = np.zeros(len(chords)) if bulges is None else np.asarray(bulges)
+    way, tangents = along(chords[k], given[k], random.uniform(0, 1, BESIDE))
+    off = DISTANCE * float(np.ptp(state.cover.domain, axis=0).max()) * np.column_stack([-tangents[:, 1], tangents[:, 0]])
+    return np.concatenate([points[k] + way + off, points[k] + way - off])
 
 
 def _inside(points: Floats, state: State, field: Any) -> Floats:

@@ -4,7 +4,7 @@ use ppum::crack::Side;
 use ppum::field::Field;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::map::DeformationMap;
+use super::map::{DeformationMap, followed};
 use super::{DeformError, check};
 
 /// Largest displacement that is seen, in parts of the smaller side of what is shown.
@@ -15,7 +15,7 @@ const POINTS: u32 = 65;
 /// The factor with which the largest displacement that is seen in a window of the undeformed body
 /// is 5 % of the smaller side of the domain, rounded down to 1, 2 or 5 times a power of ten; of
 /// several fields the same for all, as for the images of a series. 1 if nothing moves.
-/// Displacements are looked at in 65 × 65 points and at the vertices of cracks.
+/// Displacements are looked at in 65 × 65 points and along cracks.
 ///
 /// # Errors
 /// A field of an equation without displacements.
@@ -66,7 +66,7 @@ fn largest(field: &Field<'_>, window: &Rect) -> f64 {
     let lattice = (0..POINTS * POINTS)
         .map(|k| shown.min + vec2(size.x * f64::from(k % POINTS), size.y * f64::from(k / POINTS)))
         .filter(|p| field.domain.contains(*p));
-    let vertices = field.step.cracks.iter().flat_map(|crack| crack.points.iter().copied());
+    let vertices = field.step.cracks.iter().flat_map(followed);
     let mut map = DeformationMap::new(field, shown.center());
     let mut length = |p: Vec2| {
         let u = map.displacement(p - shown.center(), Side::Above).unwrap_or([0.0; 2]);

@@ -1,6 +1,6 @@
 //! Cutting of the body into pieces with nearly affine images: parts are halved again and again.
 
-use ppum::domain::{Hole, LocalDomain};
+use ppum::domain::LocalDomain;
 use ppum::function::FunctionKind;
 use ppum::mesh::Mesh;
 use ppum::progress::Watcher;
@@ -156,9 +156,10 @@ impl Cutter for SquareCutter<'_, '_> {
                 self.whole(square).and_then(|piece| DeformedLeaf::new(self.view, map, &piece));
             return CutPart { leaves: leaf.into_iter().collect(), is_coarse: false };
         }
+        let at_rim = self.pieces.may_bend(square);
         let leaf = |piece: &ConvexPiece| {
             let leaf = DeformedLeaf::new(self.view, map, piece)?;
-            Some(DeformedLeaf { at_rim: beside_round_rim(self.view, piece), ..leaf })
+            Some(DeformedLeaf { at_rim, ..leaf })
         };
         let leaves = self.pieces.of(square).iter().filter_map(leaf).collect();
         CutPart { leaves, is_coarse: false }
@@ -167,17 +168,6 @@ impl Cutter for SquareCutter<'_, '_> {
     fn quarters(square: &Rect) -> [Rect; 4] {
         quarters(square)
     }
-}
-
-/// True if a corner of a piece comes near the rim of a round hole.
-fn beside_round_rim(view: &DeformedView<'_>, piece: &ConvexPiece) -> bool {
-    let size = (piece.corners[0] - piece.center()).length();
-    let center = view.anchor + piece.center();
-    view.field()
-        .domain
-        .holes
-        .iter()
-        .any(|hole| matches!(hole, Hole::Circle { .. }) && hole.rim_distance(center) < 2.0 * size)
 }
 
 /// The images of the sides of a piece that are faces. Their ends lie on the curve, chords

@@ -15,8 +15,8 @@ const HALVINGS: usize = 8;
 const THIN: f64 = 0.1;
 /// Between leaves, as seen from inside, there is less than this part of a pixel.
 const GAP: f64 = 1e-3;
-/// Rims of round holes and curved cuts lie behind the sides of pieces by less than this part of
-/// a pixel.
+/// Arcs, rims of round holes and curved cuts lie behind the sides of pieces by less than this part
+/// of a pixel.
 const BEHIND: f64 = 0.3;
 
 /// The inverse of a deformation on one leaf.
@@ -128,7 +128,7 @@ impl LeafInverse<'_, '_> {
         None
     }
 
-    /// A point of the body between a piece's side and the round rim, or curved cut, that it
+    /// A point of the body between a piece's side and the arc, round rim, or curved cut, that it
     /// stands for.
     fn behind_rim<C: DeformationChart>(
         &self,

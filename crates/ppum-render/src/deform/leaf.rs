@@ -8,7 +8,8 @@ use crate::pieces::ConvexPiece;
 
 /// Largest image of a piece \[pixels\].
 const LARGEST: f64 = 16.0;
-/// The limit for pieces beside a round rim or a curved cut, which they follow to a hundredth.
+/// The limit for pieces beside an arc, a round rim or a curved cut, which they follow to a
+/// hundredth.
 const LARGEST_AT_RIM: f64 = 2.0;
 /// Largest deviation of a piece's image from an affine one \[pixels\] …
 const BENT: f64 = 0.25;
@@ -32,8 +33,8 @@ pub(super) struct DeformedLeaf {
     pub(super) bounds: Rect,
     /// Deviation of these images from affine ones, a length.
     pub(super) bent: f64,
-    /// True beside a round rim or a curved cut: the body goes on behind the piece's side, a
-    /// little.
+    /// True beside an arc, a round rim or a curved cut: the body goes on behind the piece's side,
+    /// a little.
     pub(super) at_rim: bool,
     /// Images of the sides that are faces of cuts of elements.
     pub(super) faces: Vec<[Vec2; 2]>,

@@ -1,6 +1,7 @@
 //! Displacements and images of single points.
 
-use ppum::crack::Side;
+use ppum::crack::{Crack, Side};
+use ppum::edge::Edge;
 use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
 use ppum::vec2::{Vec2, vec2};
@@ -141,4 +142,16 @@ pub(super) fn gradient(view: &DeformedView<'_>, [u, v]: [Jet<f64>; 2]) -> [Vec2;
 pub(super) fn moved(view: &DeformedView<'_>, offset: Vec2, [x, y]: [f64; 2]) -> Vec2 {
     let [x0, y0] = view.reference;
     view.shift + offset + vec2(x - x0, y - y0) * view.factor()
+}
+
+/// Parts of an arc between whose ends cracks are straight.
+const PARTS: u32 = 16;
+
+/// The vertices of a crack, and some points between them on arcs.
+pub(super) fn followed(crack: &Crack) -> impl Iterator<Item = Vec2> + '_ {
+    let behind = |edge: Edge| {
+        let parts = if edge.is_arc() { PARTS } else { 1 };
+        (1..=parts).map(move |k| edge.at(f64::from(k) / f64::from(parts)))
+    };
+    std::iter::once(crack.points[0]).chain(crack.edges().flat_map(behind))
 }

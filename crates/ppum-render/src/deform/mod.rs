@@ -54,7 +54,7 @@ use ppum_raster::view::{View, ViewError};
 pub use automatic::{AutomaticFactor, automatic_factor};
 use error::check;
 pub use error::{DeformError, LARGEST_FACTOR};
-use map::DeformationMap;
+use map::{DeformationMap, followed};
 pub use path::Paths;
 pub use points::{DeformedPoints, DeformedRaster, MaterialPoint};
 pub use view::{Deformation, DeformedView, TOLERANCE};
@@ -164,14 +164,15 @@ fn finite(displacement: Option<[f64; 2]>) -> [f64; 2] {
 const STEPS: usize = 60;
 
 impl DeformedView<'_> {
-    /// The cracks with their vertices where they have moved to, those of the side above.
+    /// The cracks as polylines with their vertices where they have moved to, those of the side
+    /// above, and with points between those of arcs.
     #[must_use]
     pub fn moved_cracks(&self) -> Vec<Crack> {
-        let mut cracks = self.field().step.cracks.clone();
         let mut map = DeformationMap::new(self.field(), self.anchor);
-        for point in cracks.iter_mut().flat_map(|crack| &mut crack.points) {
-            *point = self.deformation.place_by(&mut map, self.anchor, *point);
-        }
-        cracks
+        let mut moved = |crack: &Crack| {
+            let place = |p| self.deformation.place_by(&mut map, self.anchor, p);
+            Crack::polyline(followed(crack).map(place).collect(), crack.ends)
+        };
+        self.field().step.cracks.iter().map(&mut moved).collect()
     }
 }

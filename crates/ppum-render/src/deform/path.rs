@@ -2,11 +2,13 @@
 
 use ppum::border::{is_mirrored_side, touch};
 use ppum::crack::{Crack, CrackEnd, Side};
-use ppum::domain::{Hole, LocalDomain};
+use ppum::domain::LocalDomain;
+use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::DeformedView;
 use super::map::DeformationMap;
+use crate::anchored_edge::AnchoredEdge;
 
 /// Largest distance of a path from the curve that it stands for \[pixels\].
 const CHORD: f64 = 0.1;
@@ -57,15 +59,13 @@ impl DeformedView<'_> {
         let mut face = |crack: &Crack, side: Side| {
             let mut paths = JoinedPaths::new(self);
             let body = self.field().domain;
-            let is_inside =
-                |k: usize| body.outer_side([crack.points[k], crack.points[k + 1]]) != Some(side);
-            let faces = FacePath::on_side(crack, side, self.anchor).enumerate();
-            for (_, face) in faces.filter(|(segment, _)| is_inside(*segment)) {
-                let mut place = |o: Vec2| {
+            let is_inside = |edge: &Edge| body.outer_side(*edge) != Some(side);
+            let faces = FacePath::on_side(crack, side, self.anchor);
+            for face in faces.filter(|face| is_inside(&face.edge)) {
+                paths.add(self.edge(face.edge, &mut |o, left| {
                     let is_plate = domain.contains(o);
-                    is_plate.then(|| map.place(self, face.beside(o), side)).flatten()
-                };
-                paths.add(self.line(face.ends, &mut place));
+                    is_plate.then(|| map.place(self, face.beside(o, left), side)).flatten()
+                }));
             }
             paths.all
         };
@@ -82,21 +82,45 @@ impl DeformedView<'_> {
             return self.element_borders();
         }
         let (mut border, bounds) = (BoundaryPath::new(self), &self.field().domain.bounds);
-        let is_drawn = |a: Vec2, b: Vec2| !is_mirrored_side([a, b], mirrors, touch(bounds));
-        let mut all = border.sides(&bounds.corners(), 1.0, is_drawn);
+        let is_drawn = |edge: &Edge| {
+            edge.is_arc() || !is_mirrored_side([edge.from, edge.to], mirrors, touch(bounds))
+        };
+        let sides = bounds.sides().into_iter().map(Edge::segment);
+        let mut all = border.sides(sides.filter(is_drawn), 1.0);
         for hole in &self.field().domain.holes {
-            all.extend(match hole {
-                Hole::Circle { center, radius } => border.circle(*center, *radius),
-                Hole::Polygon { points, .. } => border.sides(points, -hole.orientation(), is_drawn),
-            });
+            all.extend(border.sides(hole.edges().filter(is_drawn), -hole.orientation()));
+            all.extend(
+                AnchoredEdge::circle(hole, self.anchor)
+                    .into_iter()
+                    .flat_map(|rim| border.circle(rim)),
+            );
         }
         all
     }
 
+    /// The image of an edge, whose points have places that depend on their offset from the anchor
+    /// and the unit normal to the left there.
+    fn edge(&self, edge: Edge, place: &mut dyn FnMut(Vec2, Vec2) -> Option<Vec2>) -> Paths {
+        if !edge.is_arc() {
+            let left = edge.chord().unit().left();
+            let ends = [edge.from, edge.to].map(|end| end - self.anchor);
+            return self.line(ends, &mut |o| place(o, left));
+        }
+        let arc = AnchoredEdge::new(edge, self.anchor);
+        let parts = self.parts(edge.length()).max(edge.sweep().abs().ceil() as usize);
+        let mut at = |s: f64| place(arc.at(s), arc.tangent_at(s).left());
+        self.trace(arc.range, parts, |a, b| 0.5 * (a + b), &mut at)
+    }
+
+    /// The number of parts of a curve of a length that are looked at.
+    fn parts(&self, length: f64) -> usize {
+        let parts = (length / (PART * self.view.pixel_size())).min(PARTS as f64) as usize;
+        parts.max(1)
+    }
+
     /// The image of a segment.
     fn line(&self, [a, b]: [Vec2; 2], place: &mut dyn FnMut(Vec2) -> Option<Vec2>) -> Paths {
-        let parts = ((b - a).length() / (PART * self.view.pixel_size())).min(PARTS as f64) as usize;
-        self.trace([a, b], parts.max(1), |a: Vec2, b: Vec2| (a + b) * 0.5, place)
+        self.trace([a, b], self.parts((b - a).length()), |a: Vec2, b: Vec2| (a + b) * 0.5, place)
     }
 
     /// The image of a curve between two parameters that can be halved, in so many parts at least.
@@ -149,13 +173,15 @@ impl DeformedView<'_> {
     }
 }
 
-/// One side of one segment of a crack; offsets from the anchor.
+/// One side of one edge of a crack.
 struct FacePath {
+    edge: Edge,
+    /// The ends' offsets from the anchor.
     ends: [Vec2; 2],
     /// True for ends that are tips.
     tips: [bool; 2],
-    /// Unit vector away from the crack.
-    away: Vec2,
+    /// +1 if the side is on the left.
+    sign: f64,
 }
 
 impl FacePath {
@@ -163,24 +189,24 @@ impl FacePath {
     fn on_side(crack: &Crack, side: Side, anchor: Vec2) -> impl Iterator<Item = Self> {
         let sign = if side == Side::Above { 1.0 } else { -1.0 };
         let last = crack.points.len() - 2;
-        crack.points.windows(2).enumerate().map(move |(k, ends)| {
+        crack.edges().enumerate().map(move |(k, edge)| {
             let is_tip = |end: usize| crack.ends[end] == CrackEnd::Tip;
             let tips = [k == 0 && is_tip(0), k == last && is_tip(1)];
-            let away = (ends[1] - ends[0]).unit().left() * sign;
-            Self { ends: [ends[0] - anchor, ends[1] - anchor], tips, away }
+            let ends = [edge.from - anchor, edge.to - anchor];
+            Self { edge, ends, tips, sign }
         })
     }
 
-    /// A point of the face moved off the crack by [`BESIDE`] of its distance to a tip, or of the
-    /// segment's length.
-    fn beside(&self, offset: Vec2) -> Vec2 {
+    /// A point of the face, where the unit normal is `left`, moved off the crack by [`BESIDE`] of
+    /// its distance to a tip, or of the chord's length.
+    fn beside(&self, offset: Vec2, left: Vec2) -> Vec2 {
         let [a, b] = self.ends;
         let of_tip = |(end, is_tip): (Vec2, bool)| {
             if is_tip { (offset - end).length() } else { f64::INFINITY }
         };
         let distance =
             self.ends.into_iter().zip(self.tips).map(of_tip).fold((b - a).length(), f64::min);
-        offset + self.away * (BESIDE * distance)
+        offset + left * (self.sign * BESIDE * distance)
     }
 }
 
@@ -238,42 +264,24 @@ impl<'a, 'f> BoundaryPath<'a, 'f> {
         is_border.then(|| self.map.place(self.view, offset, Side::Above)).flatten()
     }
 
-    /// Some of the sides of a polygon; the body lies on the left of them, or on the right if
-    /// `left` is −1.
-    fn sides(
-        &mut self,
-        corners: &[Vec2],
-        left: f64,
-        is_drawn: impl Fn(Vec2, Vec2) -> bool,
-    ) -> Paths {
+    /// Some edges of the border; the body lies on the left of them, or on the right if `left`
+    /// is −1.
+    fn sides(&mut self, edges: impl Iterator<Item = Edge>, left: f64) -> Paths {
         let (view, mut paths) = (self.view, JoinedPaths::new(self.view));
-        for (k, &a) in corners.iter().enumerate() {
-            let b = corners[(k + 1) % corners.len()];
-            if !is_drawn(a, b) {
-                continue;
-            }
-            let inward = (b - a).unit().left() * left;
-            let ends = [a - view.anchor, b - view.anchor];
-            paths.add(view.line(ends, &mut |o| self.place(o, inward)));
+        for edge in edges {
+            paths.add(view.edge(edge, &mut |o, normal| self.place(o, normal * left)));
         }
         paths.all
     }
 
-    /// A circle with the body around it. Angles are counted from the direction of the anchor, near
-    /// which points differ from the nearest one by little.
-    fn circle(&mut self, center: Vec2, radius: f64) -> Paths {
-        let away = self.view.anchor - center;
-        let far = away.length();
-        let toward = if far > 0.0 { away / far } else { vec2(1.0, 0.0) };
-        let view = self.view;
-        let mut place = |angle: f64| {
-            let normal = toward * angle.cos() + toward.left() * angle.sin();
-            let beside = toward.left() * angle.sin() - toward * (2.0 * (0.5 * angle).sin().powi(2));
-            self.place(toward * (radius - far) + beside * radius, normal)
-        };
-        let mut paths = JoinedPaths::new(view);
-        for ends in [[-std::f64::consts::PI, 0.0], [0.0, std::f64::consts::PI]] {
-            paths.add(view.trace(ends, PARTS, |a, b| 0.5 * (a + b), &mut place));
+    /// A round rim with the body on its right.
+    fn circle(&mut self, rim: AnchoredEdge) -> Paths {
+        let (view, mut paths) = (self.view, JoinedPaths::new(self.view));
+        let [low, high] = rim.range;
+        for ends in [[low, 0.0], [0.0, high]] {
+            paths.add(view.trace(ends, PARTS, |a, b| 0.5 * (a + b), &mut |s| {
+                self.place(rim.at(s), -rim.tangent_at(s).left())
+            }));
         }
         paths.all
     }

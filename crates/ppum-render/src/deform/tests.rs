@@ -33,7 +33,7 @@ fn by_formulas(texts: [&str; 2], crack: Option<[Vec2; 2]>) -> Dataset {
     }
     let mut step = Step::new(partition);
     if let Some(ends) = crack {
-        step = step.with_crack(Crack { points: ends.to_vec(), ends: [CrackEnd::Tip; 2] });
+        step = step.with_crack(Crack::polyline(ends.to_vec(), [CrackEnd::Tip; 2]));
     }
     let tip = Frame::Tip(TipId { crack: 0, end: End::Last });
     let frame = if crack.is_some() { tip } else { Frame::World };
@@ -224,12 +224,20 @@ fn inner(bounds: &Rect, p: Vec2) -> f64 {
 }
 
 /// A bent plate against the polygon of its border, moved point by point: what lies inside has
-/// a point.
+/// a point, also beside a crack that has not opened, a segment or arcs.
 #[test]
 fn a_bent_plate_fills_the_polygon_of_its_moved_border() {
-    let dataset =
-        by_formulas(["0.1*x*y - 0.15*sin(y)", "0.12*x^2 - 0.05*y*x + 0.1*cos(2*x)"], None);
-    let field = Field::new(&dataset, 0).unwrap();
+    for bulge in [0.0, 0.02, 0.6, -3.0] {
+        let mut dataset =
+            by_formulas(["0.1*x*y - 0.15*sin(y)", "0.12*x^2 - 0.05*y*x + 0.1*cos(2*x)"], None);
+        let (points, bulges) = (vec![vec2(-0.7, -0.3), vec2(0.4, 0.5)], vec![bulge]);
+        dataset.steps[0].cracks.push(Crack { points, bulges, ends: [CrackEnd::Tip; 2] });
+        fills_the_polygon_of_its_moved_border(&dataset);
+    }
+}
+
+fn fills_the_polygon_of_its_moved_border(dataset: &Dataset) {
+    let field = Field::new(dataset, 0).unwrap();
     let deformation = Deformation::new(&field, 1.3).unwrap();
     let view = View::new(vec2(0.1, 0.4), 6.5, [120, 100]).unwrap();
     let points = deformed(&field, 1.3, &view);

@@ -2,6 +2,7 @@
 
 use ppum::crack::{SegmentId, Side};
 use ppum::domain::Hole;
+use ppum::edge::Edge;
 use ppum::field::{Field, LocalField};
 use ppum::line::Line;
 use ppum::vec2::{Rect, Vec2};
@@ -9,7 +10,8 @@ use std::f64::consts::PI;
 
 use super::bent::Bent;
 use super::site::ExtremumSite;
-use crate::pieces::{AnchoredCircle, PolygonCut, crack_lines, material_kinks, side_lines, turns};
+use crate::anchored_edge::AnchoredEdge;
+use crate::pieces::{AnchoredCircle, material_kinks, rim_edges, turns};
 
 /// Fewest and most samples that a curve should have.
 const SAMPLES: [usize; 2] = [32, 1 << 14];
@@ -36,7 +38,9 @@ pub(super) struct BoundaryCurve {
 
 enum CurveShape {
     Straight([Vec2; 2]),
-    Arc(RimArc),
+    /// The part between two places of an arc, seen from its left for +1, from its right for −1.
+    Arc(AnchoredEdge, [f64; 2], f64),
+    Round(RimArc),
     Bent(Bent),
 }
 
@@ -61,7 +65,11 @@ impl BoundaryCurve {
     pub(super) fn at(&self, t: f64, pixel: f64) -> Vec2 {
         match &self.shape {
             CurveShape::Straight([a, b]) => *a + (*b - *a) * t + self.toward * (BESIDE * pixel),
-            CurveShape::Arc(arc) => arc.at(t, BESIDE * pixel),
+            CurveShape::Arc(edge, [low, high], side) => {
+                let s = low + (high - low) * t;
+                edge.at(s) + edge.tangent_at(s).left() * (side * BESIDE * pixel)
+            }
+            CurveShape::Round(arc) => arc.at(t, BESIDE * pixel),
             CurveShape::Bent(bent) => bent.at(t, BESIDE * pixel),
         }
     }
@@ -84,7 +92,8 @@ impl BoundaryCurve {
     pub(super) fn samples(&self, pixel: f64) -> usize {
         let length = match &self.shape {
             CurveShape::Straight([a, b]) => (*b - *a).length(),
-            CurveShape::Arc(arc) => arc.circle.radius * (arc.angles[1] - arc.angles[0]),
+            CurveShape::Arc(_, [low, high], _) => (high - low).abs(),
+            CurveShape::Round(arc) => arc.circle.radius * (arc.angles[1] - arc.angles[0]),
             CurveShape::Bent(bent) => bent.length(),
         };
         ((length / pixel).ceil() as usize).clamp(SAMPLES[0], SAMPLES[1])
@@ -108,15 +117,11 @@ impl RimArc {
 pub(super) fn boundary_curves(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> Vec<BoundaryCurve> {
     let mut curves = borders(rect);
     for (index, crack) in (0..).zip(&field.step.cracks) {
-        for (segment, (_, cut)) in (0..).zip(crack_lines(crack, anchor)) {
+        for (segment, edge) in (0..).zip(crack.edges()) {
             let id = SegmentId { crack: index, segment };
-            let normal = cut.tangent.left();
-            let faces = |ends| {
-                [(Side::Above, normal), (Side::Below, -normal)].map(|(side, toward)| {
-                    BoundaryCurve::straight(ends, toward, ExtremumSite::Face(id, side))
-                })
-            };
-            curves.extend(cut.part_in(rect).into_iter().flat_map(faces));
+            for (side, sign) in [(Side::Above, 1.0), (Side::Below, -1.0)] {
+                curves.extend(beside(edge, sign, ExtremumSite::Face(id, side), anchor, rect));
+            }
         }
     }
     for (index, hole) in field.domain.holes.iter().enumerate() {
@@ -126,6 +131,28 @@ pub(super) fn boundary_curves(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> V
     curves
 }
 
+/// The parts of an edge in a rectangle, seen from its left for the side +1.
+fn beside(
+    edge: Edge,
+    side: f64,
+    on: ExtremumSite,
+    anchor: Vec2,
+    rect: &Rect,
+) -> Vec<BoundaryCurve> {
+    let local = AnchoredEdge::new(edge, anchor);
+    if edge.is_arc() {
+        let curve = |part| {
+            let shape = CurveShape::Arc(local, part, side);
+            BoundaryCurve { shape, toward: Vec2::ZERO, on }
+        };
+        return local.within(rect).into_iter().map(curve).collect();
+    }
+    let line = Line { from: local.tangent.left() * -local.distance, along: local.tangent };
+    let toward = local.tangent.left() * side;
+    let ends = line.clipped(rect, local.range);
+    ends.map(|ends| BoundaryCurve::straight(ends, toward, on)).into_iter().collect()
+}
+
 fn borders(rect: &Rect) -> Vec<BoundaryCurve> {
     let side = |ends| BoundaryCurve::straight(ends, Vec2::ZERO, ExtremumSite::Border);
     rect.sides().map(side).into()
@@ -133,15 +160,11 @@ fn borders(rect: &Rect) -> Vec<BoundaryCurve> {
 
 fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Vec<BoundaryCurve>) {
     let on = if hole.is_outside() { ExtremumSite::Border } else { ExtremumSite::Rim(index) };
-    let arc = AnchoredCircle::new(hole, anchor).and_then(|circle| arc(circle, rect));
-    let arc = arc.map(|arc| (CurveShape::Arc(arc), Vec2::ZERO));
     let orientation = hole.orientation();
-    let side = |(_, cut): (_, PolygonCut)| {
-        let outward = cut.tangent.left() * -orientation;
-        cut.part_in(rect).map(|ends| (CurveShape::Straight(ends), outward))
-    };
-    let shapes = side_lines(hole, anchor).into_iter().filter_map(side).chain(arc);
-    curves.extend(shapes.map(|(shape, toward)| BoundaryCurve { shape, toward, on }));
+    curves.extend(rim_edges(hole).flat_map(|edge| beside(edge, -orientation, on, anchor, rect)));
+    let round = AnchoredCircle::new(hole, anchor).and_then(|circle| arc(circle, rect));
+    let shape = round.map(CurveShape::Round);
+    curves.extend(shape.map(|shape| BoundaryCurve { shape, toward: Vec2::ZERO, on }));
 }
 
 /// The part of a rim near a rectangle; all of it if the rectangle surrounds the centre or is no
@@ -176,23 +199,36 @@ fn add_interfaces(field: &Field<'_>, anchor: Vec2, rect: &Rect, curves: &mut Vec
 }
 
 impl BoundaryCurve {
-    /// Parts of a straight face that begins or ends at a point, between distances from it that are
+    /// Parts of a face that begins or ends at a point, between distances from it that are
     /// multiplied by a factor each time.
     pub(super) fn parts_from(&self, point: Vec2, [first, factor, last]: [f64; 3]) -> Vec<Self> {
-        let (CurveShape::Straight([a, b]), ExtremumSite::Face(..)) = (&self.shape, self.on) else {
-            return Vec::new();
-        };
-        let (near, far) =
-            if (*a - point).length() < (*b - point).length() { (*a, *b) } else { (*b, *a) };
-        let length = (far - near).length();
+        // the end next to the point, and the part between two lengths from it
+        let (near, length, part): (_, _, Box<dyn Fn([f64; 2]) -> CurveShape>) =
+            match (&self.shape, self.on) {
+                (&CurveShape::Straight([a, b]), ExtremumSite::Face(..)) => {
+                    let is_first = (a - point).length() < (b - point).length();
+                    let (near, far) = if is_first { (a, b) } else { (b, a) };
+                    let (length, along) = ((far - near).length(), (far - near).unit());
+                    let ends = move |range: [f64; 2]| range.map(|r| near + along * r);
+                    (near, length, Box::new(move |range| CurveShape::Straight(ends(range))))
+                }
+                (&CurveShape::Arc(edge, [low, high], side), ExtremumSite::Face(..)) => {
+                    let [a, b] = [low, high].map(|s| (edge.at(s) - point).length());
+                    let (near, sign) = if a < b { (low, 1.0) } else { (high, -1.0) };
+                    let places = move |range: [f64; 2]| range.map(|r| near + sign * r);
+                    let part = move |range| CurveShape::Arc(edge, places(range), side);
+                    (edge.at(near), high - low, Box::new(part))
+                }
+                _ => return Vec::new(),
+            };
         if (near - point).length() > 0.1 * first || length == 0.0 {
             return Vec::new();
         }
-        let (along, last) = ((far - near) / length, last.min(length));
+        let last = last.min(length);
         let starts = std::iter::successors(Some(first), |r| Some(r * factor));
         let part = |r: f64| {
-            let ends = [r, (r * factor).min(last)].map(|r| near + along * r);
-            Self { shape: CurveShape::Straight(ends), toward: self.toward, on: self.on }
+            let shape = part([r, (r * factor).min(last)]);
+            Self { shape, toward: self.toward, on: self.on }
         };
         starts.take_while(|r| *r < last).map(part).collect()
     }

@@ -1,7 +1,6 @@
 //! Convex polygons cut by lines.
 
 use ppum::line::Line;
-use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 /// Rounding of offsets and of distances from lines, in parts of their size.
@@ -9,6 +8,9 @@ const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Ends of a face nearer to a corner than this part of a side are the corner.
 const SAME: f64 = 1e-7;
+
+/// Largest part of the way to a centre for what is seen from inside.
+const MOST_INSET: f64 = 0.3;
 
 /// The range of a face that is a whole line.
 const EVERYWHERE: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
@@ -21,7 +23,7 @@ const NOWHERE: [f64; 2] = [f64::NAN; 2];
 pub const SAGITTA: f64 = 0.01;
 
 /// A line that cuts polygons, and the part of it that the field jumps on.
-#[derive(Clone, Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct PolygonCut {
     /// Unit vector along the line.
     pub(crate) tangent: Vec2,
@@ -50,6 +52,11 @@ impl PolygonCut {
         Self { tangent, distance, range, is_interface: false, sagitta: 0.0 }
     }
 
+    /// The line as what stands for a curve within a distance of it.
+    pub(super) fn with_sagitta(self, sagitta: f64) -> Self {
+        Self { sagitta, ..self }
+    }
+
     /// The interface a x + b y + c = 0.
     pub(super) fn interface(form: [f64; 3], anchor: Vec2) -> Option<Self> {
         let line = Line::of_equation(form, anchor);
@@ -63,7 +70,7 @@ impl PolygonCut {
         let tangent = (b - a).unit();
         let range = if is_face { EVERYWHERE } else { NOWHERE };
         let cut = Self::along(tangent, -tangent.cross(a), range);
-        Self { is_interface: true, sagitta, ..cut }
+        Self { is_interface: true, ..cut.with_sagitta(sagitta) }
     }
 
     /// A line in a direction through a point on which nothing happens.
@@ -105,11 +112,6 @@ impl PolygonCut {
         self.line().within(&near, [self.range[0] - reach, self.range[1] + reach]).is_some()
     }
 
-    /// The part in a closed box.
-    pub(crate) fn part_in(&self, rect: &Rect) -> Option<Segment> {
-        self.line().clipped(rect, self.range)
-    }
-
     fn line(&self) -> Line {
         Line { from: self.tangent.left() * -self.distance, along: self.tangent }
     }
@@ -117,7 +119,12 @@ impl PolygonCut {
     /// Part of the way to a centre that leads away from a curve.
     pub(super) fn inset(&self, center: Vec2) -> f64 {
         let way = self.side(center).abs();
-        if self.sagitta > 0.0 { (3.0 * self.sagitta / way).min(0.3) } else { 0.0 }
+        if self.sagitta > 0.0 { (3.0 * self.sagitta / way).min(MOST_INSET) } else { 0.0 }
+    }
+
+    /// True if that part of the way does not lead past an arc.
+    pub(super) fn is_too_near(&self, center: Vec2) -> bool {
+        !self.is_interface && MOST_INSET * self.side(center).abs() < self.sagitta
     }
 }
 
@@ -154,17 +161,16 @@ impl AnchoredPolygon {
         let n = self.corners.len();
         for k in 0..n {
             let (here, there) = (sign * distances[k], sign * distances[(k + 1) % n]);
-            let on_line = || Some(cut.clone());
+            let on_line = || Some(*cut);
             if here >= 0.0 {
                 corners.push(self.corners[k]);
                 // the side goes on, runs along the line, or leaves it behind
-                let side =
-                    if here == 0.0 && there <= 0.0 { on_line() } else { self.sides[k].clone() };
+                let side = if here == 0.0 && there <= 0.0 { on_line() } else { self.sides[k] };
                 sides.push(side);
             }
             if here * there < 0.0 {
                 corners.push(crossing(self.corners[k], self.next(k), [here, there]));
-                sides.push(if here > 0.0 { on_line() } else { self.sides[k].clone() });
+                sides.push(if here > 0.0 { on_line() } else { self.sides[k] });
             }
         }
         Self { corners, sides }
@@ -179,7 +185,7 @@ impl AnchoredPolygon {
             return Some(self);
         }
         let corners = long.iter().map(|&k| self.corners[k]).collect();
-        let sides = long.iter().map(|&k| self.sides[k].clone()).collect();
+        let sides = long.iter().map(|&k| self.sides[k]).collect();
         (long.len() > 2).then_some(Self { corners, sides })
     }
 
@@ -189,7 +195,7 @@ impl AnchoredPolygon {
         for k in 0..self.corners.len() {
             let (a, b, side) = (self.corners[k], self.next(k), &self.sides[k]);
             corners.push(a);
-            sides.push(side.clone());
+            sides.push(*side);
             let Some(cut) = side else { continue };
             let along = [a, b].map(|p| cut.tangent.dot(p));
             let mut ends: Vec<f64> = cut.range.iter().map(|end| part(along, *end)).collect();
@@ -197,10 +203,15 @@ impl AnchoredPolygon {
             ends.sort_by(f64::total_cmp);
             for t in ends {
                 corners.push(a + (b - a) * t);
-                sides.push(side.clone());
+                sides.push(*side);
             }
         }
         Self { corners, sides }
+    }
+
+    /// True for a sliver beside an arc, of which nothing is seen from inside.
+    pub(super) fn is_sliver(&self, center: Vec2) -> bool {
+        self.sides.iter().flatten().any(|cut| cut.is_too_near(center))
     }
 
     /// Part of the way to the centre for what is seen from inside.

@@ -4,7 +4,8 @@
 //! be followed: level fields that clip the patch or that its functions are made of, and the lines
 //! of cracks. Linear ones are cut exactly, others by chords as curved interfaces are.
 
-use ppum::crack::{Crack, LocalCrack, LocalSegment};
+use ppum::crack::Crack;
+use ppum::edge::Edge;
 use ppum::field::Field;
 use ppum::function::{Frame, FunctionKind};
 use ppum::mesh::{ElementField, Mesh};
@@ -14,6 +15,7 @@ use ppum::vec2::Vec2;
 use super::curve::LevelCurve;
 use super::cut::{AnchoredPolygon, centroid};
 use super::piece::{ConvexPiece, INSET, SHORTEST};
+use crate::anchored_edge::AnchoredEdge;
 
 /// The lines that cut one patch of a mesh.
 #[derive(Debug, Default)]
@@ -36,8 +38,8 @@ struct ElementCut {
 enum Zero {
     /// A level field, by its index among the step's fields.
     Level(usize),
-    /// The distance from the line of a crack's segment.
-    Line(LocalSegment),
+    /// The distance from the line or circle of a crack's edge.
+    Edge(AnchoredEdge),
 }
 
 /// The part of a line that is drawn as a face.
@@ -107,28 +109,24 @@ impl ElementCuts {
         self.0.push(ElementCut { zero: Zero::Level(index), kept, face, slope, is_straight });
     }
 
-    /// The lines of the segments of cracks that come near the patch.
+    /// The lines and circles of the edges of cracks that come near the patch.
     fn add_cracks(&mut self, field: &Field<'_>, mesh: &Mesh, patch: usize, anchor: Vec2) {
         let bounds = mesh.bounds(patch);
-        let is_near = |ends: &[Vec2]| {
-            let (min, max) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-            let gap = (min - bounds.max).max(bounds.min - max);
+        let is_near = |edge: &Edge| {
+            let near = edge.bounds();
+            let gap = (near.min - bounds.max).max(bounds.min - near.max);
             gap.x.max(gap.y) <= 0.0
         };
-        let meets = |crack: &&Crack| crack.points.windows(2).any(is_near);
-        for crack in field.step.cracks.iter().filter(meets) {
-            let (space, degree) = (mesh.map_space[patch], mesh.map_degree[patch]);
-            let maps = mesh.map_of(patch).map(|c| [&[0.0], c].concat());
-            let slope = maps.iter().map(|c| steepness(space, degree.into(), c)).sum();
-            let is_straight = degree == 1 && space == PolynomialSpace::Total;
-            let local = LocalCrack::new(crack, anchor);
-            let segments = crack.points.windows(2).zip(local.segments());
-            let near = segments.filter(|(ends, _)| is_near(ends));
-            self.0.extend(near.map(|(_, segment)| {
-                let (zero, face) = (Zero::Line(*segment), FaceLine::Nothing);
-                ElementCut { zero, kept: None, face, slope, is_straight }
-            }));
-        }
+        let edges = field.step.cracks.iter().flat_map(Crack::edges).filter(is_near);
+        let (space, degree) = (mesh.map_space[patch], mesh.map_degree[patch]);
+        let maps = mesh.map_of(patch).map(|c| [&[0.0], c].concat());
+        let slope = maps.iter().map(|c| steepness(space, degree.into(), c)).sum();
+        let is_map_straight = degree == 1 && space == PolynomialSpace::Total;
+        self.0.extend(edges.map(|edge| {
+            let zero = Zero::Edge(AnchoredEdge::new(edge, anchor));
+            let is_straight = is_map_straight && !edge.is_arc();
+            ElementCut { zero, kept: None, face: FaceLine::Nothing, slope, is_straight }
+        }));
     }
 
     /// The pieces of a convex part of the reference shape, given by its corners; none where clips
@@ -194,9 +192,7 @@ impl ElementCut {
     fn value(&self, element: &ElementField<'_, '_>, delta: Vec2) -> f64 {
         match self.zero {
             Zero::Level(field) => element.level(field, delta),
-            Zero::Line(segment) => {
-                segment.distance + segment.tangent.cross(element.point(delta).offset)
-            }
+            Zero::Edge(edge) => edge.side(element.point(delta).offset),
         }
     }
 

@@ -7,6 +7,7 @@
 //! - the lines of the segments of cracks that meet it: their extensions too, which does no harm,
 //! - the sides of polygonal holes and tangents of round ones, which leave the hole by less than
 //!   [`SAGITTA`] of the square,
+//! - for arcs of cracks and rims chords, or tangents where these stay in the body, as near as that,
 //! - the border of the domain,
 //! - the sets on which the material's formulas may jump, curved ones by chords;
 //!
@@ -18,23 +19,24 @@
 
 mod curve;
 mod cut;
+mod edge_line;
 mod element;
 mod piece;
 mod round;
 
 use ppum::box_tree::BoxTree;
-use ppum::crack::{Crack, LocalCrack, LocalSegment};
-use ppum::domain::{Hole, LocalDomain, LocalRim, LocalSide};
+use ppum::domain::{Hole, LocalDomain};
+use ppum::edge::Edge;
 use ppum::equation::Equation;
 use ppum::field::Field;
 use ppum::formula::Kink;
-use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 pub(crate) use curve::{FormulaLevel, LevelCurve};
 pub(crate) use cut::PolygonCut;
 pub use cut::SAGITTA;
 use cut::{AnchoredPolygon, centroid};
+use edge_line::{EdgeCut, EdgeLine};
 pub use element::{ElementCuts, steepness};
 use piece::SHORTEST;
 pub(crate) use piece::contains;
@@ -58,8 +60,8 @@ pub struct Pieces<'f> {
     domain: LocalDomain,
     /// The box of the domain, relative to the anchor.
     bounds: Rect,
-    /// Segments of cracks and sides of holes, found by their boxes.
-    lines: Vec<PolygonCut>,
+    /// Edges of cracks and of polygonal holes, found by their boxes.
+    lines: Vec<EdgeLine>,
     tree: BoxTree,
     rounds: Vec<AnchoredCircle>,
     round_tree: BoxTree,
@@ -70,7 +72,7 @@ pub struct Pieces<'f> {
 
 impl<'f> Pieces<'f> {
     /// For quantities of the gradient: pieces end at cracks, rims and interfaces of the material.
-    /// O(n log n) for n segments and sides.
+    /// O(n log n) for n edges.
     #[must_use]
     pub fn new(field: &Field<'f>, anchor: Vec2) -> Self {
         let mut pieces = Self::of_values(field, anchor);
@@ -83,10 +85,16 @@ impl<'f> Pieces<'f> {
     #[must_use]
     pub fn of_values(field: &Field<'f>, anchor: Vec2) -> Self {
         let (domain, holes) = (field.domain, &field.domain.holes);
-        let of_cracks = field.step.cracks.iter().flat_map(|crack| crack_lines(crack, anchor));
-        let of_holes = holes.iter().flat_map(|hole| side_lines(hole, anchor));
-        let (ends, lines): (Vec<Segment>, Vec<_>) = of_cracks.chain(of_holes).unzip();
-        let boxes: Vec<_> = ends.iter().map(|[a, b]| Rect::new(a.min(*b), a.max(*b))).collect();
+        let of_cracks = field.step.cracks.iter().flat_map(|crack| {
+            let line = |edge: Edge| EdgeLine::of_crack(edge, crack.is_curved(), anchor);
+            crack.edges().map(move |edge| (edge.bounds(), line(edge)))
+        });
+        let of_holes = holes.iter().flat_map(|hole| {
+            let orientation = hole.orientation();
+            let line = move |edge: Edge| EdgeLine::of_rim(edge, -orientation, anchor);
+            rim_edges(hole).map(move |edge| (edge.bounds(), line(edge)))
+        });
+        let (boxes, lines): (Vec<Rect>, Vec<_>) = of_cracks.chain(of_holes).unzip();
         let is_round = |hole: &&Hole| matches!(hole, Hole::Circle { .. });
         let round_boxes: Vec<Rect> = holes.iter().filter(is_round).map(Hole::bounds).collect();
         Self {
@@ -156,7 +164,10 @@ impl<'f> Pieces<'f> {
             all = all.into_iter().flat_map(|polygon| round.outside(polygon, size, least)).collect();
         }
         let straight = self.interfaces.iter().filter(|cut| cut.meets(square));
-        for cut in lines.into_iter().chain(straight) {
+        for cut in lines {
+            all = all.into_iter().flat_map(|polygon| cut.split(polygon, least)).collect();
+        }
+        for cut in straight {
             all = all.into_iter().flat_map(|polygon| polygon.split(cut, least)).flatten().collect();
         }
         for curve in &self.curves {
@@ -171,7 +182,7 @@ impl<'f> Pieces<'f> {
     fn finished(&self, polygon: AnchoredPolygon, shortest: f64) -> Option<ConvexPiece> {
         let polygon = polygon.without_short_sides(shortest)?.with_ends();
         let center = centroid(&polygon.corners);
-        if !self.domain.contains(center) {
+        if polygon.is_sliver(center) || !self.domain.contains(center) {
             return None;
         }
         let faces = (0..polygon.corners.len()).map(|k| self.is_face(&polygon, k, center)).collect();
@@ -199,10 +210,18 @@ impl<'f> Pieces<'f> {
         a.into_iter().zip(b).any(|(a, b)| (a - b).abs() > JUMP * (a.abs() + b.abs()))
     }
 
-    fn lines_in(&self, square: &Rect) -> Vec<&PolygonCut> {
+    /// True if the box of an arc, or a round rim, comes near a rectangle of offsets.
+    pub(crate) fn may_bend(&self, rect: &Rect) -> bool {
+        let (near, mut found) = (Rect::around(rect.center(), rect.size() * 0.51), Vec::new());
+        self.tree.query_box(&self.in_world(&near), &mut found);
+        let mut near_lines = found.iter().map(|&k| &self.lines[k as usize]);
+        near_lines.any(EdgeLine::is_arc) || self.rounds_in(&near).next().is_some()
+    }
+
+    fn lines_in(&self, square: &Rect) -> Vec<EdgeCut> {
         let mut found = Vec::new();
         self.tree.query_box(&self.in_world(square), &mut found);
-        found.iter().map(|&k| &self.lines[k as usize]).filter(|cut| cut.meets(square)).collect()
+        found.iter().flat_map(|&k| self.lines[k as usize].cuts(square)).collect()
     }
 
     fn rounds_in(&self, square: &Rect) -> impl Iterator<Item = &AnchoredCircle> {
@@ -242,27 +261,9 @@ pub fn quarters(square: &Rect) -> [Rect; 4] {
     ]
 }
 
-/// The segments of a crack, and their lines seen from an anchor.
-pub(crate) fn crack_lines(crack: &Crack, anchor: Vec2) -> Vec<(Segment, PolygonCut)> {
-    let local = LocalCrack::new(crack, anchor);
-    let line = |(ends, segment): (&[Vec2], &LocalSegment)| {
-        // those of the local crack are infinite at the crack's ends
-        let range = [ends[0], ends[1]].map(|end| segment.tangent.dot(end - anchor));
-        ([ends[0], ends[1]], PolygonCut::along(segment.tangent, segment.distance, range))
-    };
-    crack.points.windows(2).zip(local.segments()).map(line).collect()
-}
-
-/// The sides of a polygonal hole, and their lines seen from an anchor; none of a round one.
-pub(crate) fn side_lines(hole: &Hole, anchor: Vec2) -> Vec<(Segment, PolygonCut)> {
-    let local = hole.at(anchor);
-    let LocalRim::Polygon(sides, _) = local.rim() else { return Vec::new() };
-    let line = |(ends, side): (Segment, &LocalSide)| {
-        let (length, tangent) = (side.direction.length(), side.direction.unit());
-        let range = [tangent.dot(side.a), tangent.dot(side.b)];
-        (length > 0.0).then(|| (ends, PolygonCut::along(tangent, side.cross / length, range)))
-    };
-    hole.sides().zip(sides).filter_map(line).collect()
+/// The sides of a polygonal hole that have a length; none of a round one.
+pub(crate) fn rim_edges(hole: &Hole) -> impl Iterator<Item = Edge> + '_ {
+    hole.edges().filter(|edge| edge.chord().length() > 0.0)
 }
 
 #[cfg(test)]

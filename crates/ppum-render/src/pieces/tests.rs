@@ -1,8 +1,10 @@
 //! Pieces of random squares: they fill them, and nothing runs through them.
 
 use super::*;
-use ppum::crack::Side;
+use crate::anchored_edge::AnchoredEdge;
+use ppum::crack::{Crack, CrackEnd, Side};
 use ppum::dataset::Dataset;
+use ppum::domain::PolygonSide;
 use ppum::equation::{Elasticity, StressState};
 use ppum::function::{FunctionKind, GROUP, Slot};
 use ppum::jet::Jet;
@@ -70,12 +72,10 @@ fn area(piece: &ConvexPiece) -> f64 {
 
 /// True if the way between two points crosses the crack.
 fn crosses(crack: &Crack, anchor: Vec2, [p, q]: [Vec2; 2]) -> bool {
-    let local = LocalCrack::new(crack, anchor);
-    crack.points.windows(2).zip(local.segments()).any(|(ends, segment)| {
-        let [a, b] = [p, q].map(|p| segment.distance + segment.tangent.cross(p));
-        let along = segment.tangent.dot(p + (q - p) * (a / (a - b)));
-        let [lo, hi] = [ends[0], ends[1]].map(|end| segment.tangent.dot(end - anchor));
-        a * b < 0.0 && lo < along && along < hi
+    crack.edges().any(|edge| {
+        let (local, way) = (AnchoredEdge::new(edge, anchor), Edge::segment([p, q]));
+        let near = local.near(2.0 * p.length().max(q.length()));
+        near.into_iter().any(|part| !way.meets(&local.part(part)).is_empty())
     })
 }
 
@@ -191,6 +191,96 @@ fn pieces_fill_the_square_but_for_holes() {
             }
         }
     }
+}
+
+/// A crack of arcs and a segment, one of 340°, a small one, and holes with round sides.
+fn curved_dataset() -> Dataset {
+    let crack = |points: &[[f64; 2]], bulges: &[f64], ends| Crack {
+        points: points.iter().map(|&p| p.into()).collect(),
+        bulges: bulges.to_vec(),
+        ends,
+    };
+    let cracks = vec![
+        crack(
+            &[[0.5713, 0.0931], [0.8642, 0.2817], [1.0, 0.2], [1.1831, 0.1973]],
+            &[0.31, 0.0, -0.8],
+            [CrackEnd::Tip; 2],
+        ),
+        crack(&[[1.3, 0.5], [1.32, 0.49]], &[85f64.to_radians().tan()], [CrackEnd::Tip; 2]),
+        crack(&[[0.3, 0.4], [0.304, 0.402]], &[0.7], [CrackEnd::Tip; 2]),
+    ];
+    let mut dataset = Recipe { cracks, ..Recipe::default() }.dataset();
+    let round = |points: &[[f64; 2]], bulges: &[f64]| Hole::Polygon {
+        points: points.iter().map(|&p| p.into()).collect(),
+        bulges: bulges.to_vec(),
+        side: PolygonSide::Inside,
+    };
+    dataset.domain.holes = vec![
+        // a stadium, a lens in clockwise order, and one with a bite
+        round(&[[0.5, 0.5], [0.8, 0.5], [0.8, 0.6], [0.5, 0.6]], &[0.0, 1.0, 0.0, 1.0]),
+        round(&[[0.3, -0.1], [0.45, -0.05]], &[-0.4, -0.3]),
+        round(&[[1.0, -0.2], [1.2, -0.2], [1.1, 0.05]], &[0.0, 0.2, -0.5]),
+    ];
+    dataset
+}
+
+/// Squares of many sizes at ends, joints and inside of all arcs.
+fn places_on_arcs(dataset: &Dataset, random: &mut Random) -> Vec<(Vec2, Rect)> {
+    let cracks = dataset.steps[0].cracks.iter().flat_map(Crack::edges);
+    let edges = cracks.chain(dataset.domain.holes.iter().flat_map(Hole::edges));
+    let points = edges.flat_map(|edge| [0.0, 0.37, 0.9, 1.0].map(|t| edge.at(t)));
+    let sized = |p: Vec2| [0.7, 0.1, 0.01, 1e-3, 1e-6, 1e-12].map(|size| (p, size));
+    let places = points.flat_map(sized).collect::<Vec<_>>().into_iter();
+    let square = |(point, size): (Vec2, f64)| {
+        let shift = random.point(&Rect::around(Vec2::ZERO, vec2(0.45, 0.45))) * size;
+        (point, Rect::around(shift, vec2(0.5, 0.5) * size))
+    };
+    places.map(square).collect()
+}
+
+/// As they are seen from inside, pieces beside arcs lie on one side of them and in the body, and
+/// they leave out no more of it than lines are from arcs.
+#[test]
+fn pieces_lie_beside_arcs() {
+    let dataset = curved_dataset();
+    let field = Field::new(&dataset, 0).expect("a field");
+    let (mut random, mut looked) = (Random(3), 0);
+    for (anchor, square) in places_on_arcs(&dataset, &mut random) {
+        let (domain, size) = (dataset.domain.at(anchor), square.size().x);
+        let pieces = Pieces::new(&field, anchor).of(&square);
+        for piece in &pieces {
+            looked += 1;
+            assert!(area(piece) > 0.0);
+            let inner: Vec<Vec2> = (0..5).map(|_| random_point(piece, &mut random)).collect();
+            for &p in piece.corners.iter().chain(&inner) {
+                let p = piece.seen_from_inside(p);
+                let message = || format!("{anchor:?} {square:?} {piece:?} {p:?}");
+                assert!(domain.contains(p), "{}", message());
+                for crack in &field.step.cracks {
+                    assert!(!crosses(crack, anchor, [piece.center(), p]), "{}", message());
+                }
+            }
+        }
+        for _ in 0..20 {
+            let p = random.point(&square);
+            let is_held = pieces.iter().any(|piece| {
+                let corners = &piece.corners;
+                let next = corners.iter().cycle().skip(1);
+                let mut sides = corners.iter().zip(next);
+                sides.all(|(a, b)| (*b - *a).unit().cross(p - *a) >= -2e-5 * size)
+            });
+            let around = [[0.0, 0.0], [1.0, 0.0], [-1.0, 0.0], [0.0, 1.0], [0.0, -1.0]];
+            let is_inside =
+                around.iter().all(|&d| domain.contains(p + Vec2::from(d) * (0.05 * size)));
+            // slivers beside arcs are left out
+            let edges = field.step.cracks.iter().flat_map(Crack::edges);
+            let mut locals = edges.map(|edge| AnchoredEdge::new(edge, anchor));
+            let is_apart = locals.all(|e| (e.at(e.closest(p)) - p).length() > 0.02 * size);
+            let message = || format!("{anchor:?} {square:?} {p:?} {pieces:?}");
+            assert!(!is_inside || !is_apart || is_held, "{}", message());
+        }
+    }
+    assert!(looked > 500, "{looked}");
 }
 
 /// A square without anything is itself; one on a crack has faces along it, and a corner at the tip.

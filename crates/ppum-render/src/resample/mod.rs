@@ -242,12 +242,13 @@ pub fn cells(
 
 /// Memory of what a field is evaluated from \[bytes\]: supports and frames of the patches (four
 /// points each), blocks (function, degree, place of the coefficients; one entry per patch to find
-/// them), coefficients, vertices of the cracks and texts of the functions.
+/// them), coefficients, vertices and bulges of the cracks and texts of the functions.
 #[must_use]
 pub fn representation_bytes(field: &Field<'_>) -> u64 {
     const POINT: usize = 16;
     let (step, data) = (field.step, field.data);
     let vertices: usize = step.cracks.iter().map(|crack| crack.points.len()).sum();
+    let bulges: usize = step.cracks.iter().map(|crack| crack.bulges.len()).sum();
     let coefficients: usize = data.coefficients.iter().map(Vec::len).sum();
     let text = |kind: &FunctionKind| match kind {
         FunctionKind::Formula { text, .. } => text.len(),
@@ -259,6 +260,7 @@ pub fn representation_bytes(field: &Field<'_>) -> u64 {
         + (4 + 1 + 8) * data.block_function.len()
         + 8 * coefficients
         + POINT * vertices
+        + 8 * bulges
         + texts;
     bytes as u64
 }

@@ -11,6 +11,7 @@
 use std::collections::BTreeSet;
 
 use ppum::crack::{SegmentId, Side, tips};
+use ppum::edge::Edge;
 use ppum::field::Field;
 use ppum::function::{Frame, FunctionKind};
 use ppum::line::Line;
@@ -25,6 +26,7 @@ use rayon::prelude::*;
 use super::norms::{DifferenceNorms, of_values};
 use super::stencil::Stencil;
 use super::{Interpolation, SampleGrid, at_offsets};
+use crate::anchored_edge::AnchoredEdge;
 
 /// Most columns and rows of pixels that errors are measured at.
 pub const PIXELS: u32 = 128;
@@ -220,17 +222,30 @@ fn jumps(subject: &ResamplingSetup<'_>, least: f64) -> bool {
     }
     let shown = Rect::new(-view.half(), view.half());
     (0..).zip(&field.step.cracks).any(|(crack, c)| {
-        (0..).zip(c.points.windows(2)).any(|(segment, ends)| {
-            let line = Line::through([ends[0] - view.center, ends[1] - view.center]);
-            let Some([from, to]) = line.within(&shown, [0.0, 1.0]) else { return false };
-            (0..STATIONS).any(|k| {
-                let t = from + (to - from) * (f64::from(k) + 0.5) / f64::from(STATIONS);
-                let point = ends[0] + (ends[1] - ends[0]) * t;
-                let mut local = field.on(SegmentId { crack, segment }, point);
+        (0..).zip(c.edges()).any(|(segment, edge)| {
+            let seen = seen_parts(edge, view.center, &shown);
+            seen.into_iter().flat_map(stations).any(|t| {
+                let mut local = field.on(SegmentId { crack, segment }, edge.at(t));
                 let [a, b] =
                     [Side::Above, Side::Below].map(|s| quantity.at(&mut local, Vec2::ZERO, s));
                 (a - b).abs() > least
             })
         })
     })
+}
+
+/// Parts of the length of a range at which two sides are compared.
+fn stations([from, to]: [f64; 2]) -> impl Iterator<Item = f64> {
+    (0..STATIONS).map(move |k| from + (to - from) * (f64::from(k) + 0.5) / f64::from(STATIONS))
+}
+
+/// The parts of the length of an edge in a box of offsets from an anchor.
+fn seen_parts(edge: Edge, anchor: Vec2, shown: &Rect) -> Vec<[f64; 2]> {
+    if edge.is_arc() {
+        let local = AnchoredEdge::new(edge, anchor);
+        let ([low, high], seen) = (local.range, local.within(shown));
+        return seen.iter().map(|part| part.map(|s| (s - low) / (high - low))).collect();
+    }
+    let line = Line::through([edge.from - anchor, edge.to - anchor]);
+    line.within(shown, [0.0, 1.0]).into_iter().collect()
 }

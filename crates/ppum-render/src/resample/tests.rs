@@ -23,10 +23,8 @@ fn plate(text: &str, frame: Frame) -> Dataset {
         potential.push_patch(&[(0, 0)]);
     }
     potential.coefficients[0].fill(1.0);
-    let crack = Crack {
-        points: vec![vec2(-1.0, 0.7), vec2(0.31, 0.7)],
-        ends: [CrackEnd::Mouth, CrackEnd::Tip],
-    };
+    let crack =
+        Crack::polyline(vec![vec2(-1.0, 0.7), vec2(0.31, 0.7)], [CrackEnd::Mouth, CrackEnd::Tip]);
     let step = Step::new(partition)
         .with_crack(crack)
         .with_function("f", FunctionKind::formula(text, frame));

@@ -1,26 +1,23 @@
 //! The segments that no triangle of an exported mesh crosses: outline, rims, cracks, and lines on
 //! which a derivative of the field jumps.
 //!
-//! A round hole becomes the polygon of [`SIDES`] sides around it: all of its points belong to the
-//! domain, and its sides leave the rim by r (1/cos(π/n) − 1) < 10⁻⁴ r. Where a weight is continuous
-//! and its derivative is not, as for the linear one, stresses jump at the places of a patch where
-//! |ξ| or |η| is one of the breakpoints or 1. These lines, and straight interfaces of the
-//! material, are segments too; for triangles of higher order those on which stresses have a kink,
-//! as for the quadratic weight, since polynomials do not follow it.
+//! Arcs become [polylines](super::arcs). Where a weight is continuous and its derivative is not, as
+//! for the linear one, stresses jump at the places of a patch where |ξ| or |η| is one of the
+//! breakpoints or 1. These lines, and straight interfaces of the material, are segments too; for
+//! triangles of higher order those on which stresses have a kink, as for the quadratic weight,
+//! since polynomials do not follow it.
 
-use std::f64::consts::TAU;
-
-use ppum::crack::SegmentId;
+use ppum::crack::{Crack, SegmentId};
 use ppum::dataset::BoxPartition;
 use ppum::domain::{Domain, Hole};
+use ppum::edge::Edge;
 use ppum::field::Field;
 use ppum::line::Line;
 use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum::weight::WeightFunction;
 
-/// Sides of the polygon around a round hole.
-const SIDES: u32 = 256;
+use super::arcs::{chords, meetings_on_arc};
 
 /// Lines nearer to each other than this part of the domain are one: their difference is rounding.
 pub(super) const SAME: f64 = 1e-9;
@@ -94,17 +91,27 @@ pub(super) fn borders(
     let plain = |ends| ExportSegment { ends, kind: BorderKind::default() };
     let rims = domain.holes.iter().flat_map(Hole::sides);
     let mut all: Vec<_> = domain.bounds.sides().into_iter().chain(rims).map(plain).collect();
-    for (crack, points) in (0..).zip(field.step.cracks.iter().map(|crack| &crack.points)) {
-        for (segment, ends) in (0..).zip(points.windows(2)) {
+    let inner = if lines.jumps || lines.order > 1 {
+        inner_lines(field, &domain.bounds, lines)
+    } else {
+        Vec::new()
+    };
+    let straight = all.iter().chain(&inner).map(|line| Edge::segment(line.ends));
+    let (cracks, reach) = (&field.step.cracks, SAME * longest(&domain.bounds));
+    let others: Vec<Edge> = straight.chain(cracks.iter().flat_map(Crack::edges)).collect();
+    for (crack, of_crack) in (0..).zip(cracks) {
+        for (segment, edge) in (0..).zip(of_crack.edges()) {
             let crack = Some(SegmentId { crack, segment });
             let kind = BorderKind { crack, ..BorderKind::default() };
-            all.push(ExportSegment { ends: [ends[0], ends[1]], kind });
+            let on_arc =
+                if edge.is_arc() { meetings_on_arc(&edge, &others, reach) } else { vec![] };
+            let points = [vec![edge.from], chords(&edge, &on_arc)].concat();
+            let part = |ends: &[Vec2]| ExportSegment { ends: [ends[0], ends[1]], kind };
+            all.extend(points.windows(2).map(part));
         }
     }
-    if lines.jumps || lines.order > 1 {
-        all.extend(inner_lines(field, &domain.bounds, lines));
-    }
-    divided(&all, SAME * longest(&domain.bounds))
+    all.extend(inner);
+    divided(&all, reach)
 }
 
 /// Lines in patches and of the material.
@@ -200,25 +207,6 @@ pub(super) fn crossings(borders: &[ExportSegment]) -> Vec<Vec2> {
         found.extend(level.iter().filter(crosses).map(|[c, _]| vec2(a.x, c.y)));
     }
     found
-}
-
-/// The domain with polygons in the place of round holes.
-pub(super) fn with_polygons(domain: &Domain) -> Domain {
-    let polygon = |hole: &Hole| match hole {
-        Hole::Circle { center, radius } => Hole::polygon(around(*center, *radius)),
-        Hole::Polygon { .. } => hole.clone(),
-    };
-    Domain { bounds: domain.bounds, holes: domain.holes.iter().map(polygon).collect() }
-}
-
-fn around(center: Vec2, radius: f64) -> Vec<Vec2> {
-    let step = TAU / f64::from(SIDES);
-    let far = radius / (0.5 * step).cos();
-    let corner = |k: u32| {
-        let (sin, cos) = (step * f64::from(k)).sin_cos();
-        center + vec2(cos, sin) * far
-    };
-    (0..SIDES).map(corner).collect()
 }
 
 /// Coordinates along an axis that are apart from each other by more than rounding; others are moved

@@ -9,6 +9,7 @@
 //! Near a tip stresses grow without bound, and no mesh resolves them: there the tolerance holds
 //! outside of a radius, R, in which it is loosened as R/r down to R/100.
 
+mod arcs;
 mod arrays;
 mod average;
 mod borders;
@@ -33,9 +34,10 @@ use ppum::text::short;
 use ppum::vec2::Vec2;
 use ppum_solve::triangulation::NotFinite;
 
+use arcs::with_polygons;
 use arrays::ArrayColumns;
 pub use arrays::PointArray;
-use borders::{ExportSegment, LineRequest, SAME, borders, crossings, longest, with_polygons};
+use borders::{ExportSegment, LineRequest, SAME, borders, crossings, longest};
 use elements::{ElementPlace, evaluate_elements};
 use lagrange::{Lagrange, node_count};
 pub use measure::RANDOM_POINTS;

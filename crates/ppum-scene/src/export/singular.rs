@@ -81,7 +81,7 @@ fn candidates(field: &Field<'_>) -> Vec<Vec2> {
 
 /// The length on which the field varies near a point: that of the crack that it lies on, half of it
 /// if both ends are tips, the size of the hole, or the distance from any other border or crack,
-/// whichever is smallest. Kinks do not count: they may stand for an arc.
+/// whichever is smallest.
 fn extent(field: &Field<'_>, p: Vec2) -> f64 {
     let bounds = &field.domain.bounds;
     let sides = bounds.sides().map(|side| (segment::distance(side, p), f64::INFINITY));
@@ -89,7 +89,8 @@ fn extent(field: &Field<'_>, p: Vec2) -> f64 {
     let holes = holes.map(|hole| (hole.rim_distance(p), longest(&hole.rim_bounds())));
     let cracks = field.step.cracks.iter().map(|crack| {
         let tips = crack.tips().count().max(1);
-        (segment::polyline_distance(&crack.points, p), crack.length() / tips as f64)
+        let away = crack.edges().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min);
+        (away, crack.length() / tips as f64)
     });
     let near = SAME * longest(bounds);
     let lengths = sides.into_iter().chain(holes).chain(cracks);

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use ppum::crack::{Crack, CrackEnd, Side, tips};
 use ppum::dataset::Dataset;
-use ppum::domain::{Domain, Hole};
+use ppum::domain::{Domain, Hole, PolygonSide};
 use ppum::field::Field;
 use ppum::progress::unwatched;
 use ppum::quantity::Quantity;
@@ -133,6 +133,58 @@ fn crossing([a, b]: [Vec2; 2], segment: &[Vec2]) -> bool {
     let parts =
         |p: Vec2, q: Vec2, r: Vec2, s: Vec2| (q - p).cross(r - p) * (q - p).cross(s - p) < 0.0;
     parts(a, b, c, d) && parts(c, d, a, b)
+}
+
+/// A mesh around arcs: triangles fill the body, vertices on a crack lie on it, as many seen from
+/// above as from below but for the tips, and none has a triangle on its other side.
+#[test]
+fn meshes_follow_arcs() {
+    let arc = |points: [[f64; 2]; 2], bulge: f64| Crack {
+        points: points.map(Vec2::from).to_vec(),
+        bulges: vec![bulge],
+        ends: [CrackEnd::Tip; 2],
+    };
+    let cracks = vec![arc([[0.6, 0.05], [0.9, 0.2]], 0.5), arc([[1.15, 0.3], [1.17, 0.26]], -8.0)];
+    // lines on which slopes of the linear weight jump cross arcs
+    for weight in [WeightFunction::Cubic, WeightFunction::Linear] {
+        let recipe = Recipe { level: 1, tip_level: 3, weight, ..Recipe::default() };
+        follows_arcs(Recipe { cracks: cracks.clone(), ..recipe }.dataset());
+    }
+}
+
+fn follows_arcs(mut dataset: Dataset) {
+    let corners = [[0.4, 0.5], [0.7, 0.5], [0.7, 0.6], [0.4, 0.6]].map(Vec2::from).to_vec();
+    let (bulges, side) = (vec![0.0, 1.0, 0.0, 1.0], PolygonSide::Inside);
+    dataset.domain.holes = vec![Hole::Polygon { points: corners, bulges, side }];
+    let field = Field::new(&dataset, 0).unwrap();
+    let arrays = PointArray::defaults(&field).unwrap();
+    let accuracy =
+        Accuracy { tolerance: 0.3, radius: Some(0.1), cells: 60_000, ..Accuracy::default() };
+    let mesh = resolve(&field, &arrays, &accuracy, unwatched()).unwrap();
+    let size = dataset.domain.bounds.size();
+    let exact = size.x * size.y - (0.3 * 0.1 + std::f64::consts::PI * 0.0025);
+    let found: f64 = mesh.triangles().map(|t| area(mesh.corners(t))).sum();
+    assert!(mesh.triangles().all(|t| area(mesh.corners(t)) > 0.0));
+    assert!((found - exact).abs() < 1e-5, "{found} {exact}");
+    let mut seen = [0; 2];
+    for (place, p) in mesh.places.iter().zip(&mesh.points) {
+        let Some(id) = place.on else { continue };
+        let edge = dataset.steps[0].cracks[id.crack as usize].edge(id.segment as usize);
+        assert!(edge.distance(*p) < 1e-12, "{p:?}");
+        seen[usize::from(place.side == Side::Below)] += 1;
+    }
+    assert!(seen[0] > 300 && seen[0] == seen[1], "{seen:?}");
+    for triangle in mesh.triangles() {
+        let center = mesh.corners(triangle).iter().fold(Vec2::ZERO, |sum, p| sum + *p / 3.0);
+        for &corner in triangle {
+            let place = &mesh.places[corner as usize];
+            let Some(id) = place.on else { continue };
+            let edge = dataset.steps[0].cracks[id.crack as usize].edge(id.segment as usize);
+            let (is_above, part) = (edge.side(center) > 0.0, edge.closest_part(center));
+            let is_near = edge.distance(center) < 1e-3 && part > 0.1 && part < 0.9;
+            assert!(!is_near || is_above == (place.side == Side::Above), "{place:?} {center:?}");
+        }
+    }
 }
 
 /// Displacements at points are those of `sample`, to the last digits, which depend on what else is

@@ -14,6 +14,7 @@ mod nodes;
 mod of_elements;
 
 use ppum::crack::{SegmentId, Side};
+use ppum::edge::Edge;
 use ppum::field::Field;
 use ppum::sample::{AnchorMap, SidedPoint};
 use ppum::vec2::Vec2;
@@ -219,8 +220,8 @@ impl Torn<'_> {
     fn divide(&mut self, triangle: u32, edge: usize, changed: &mut Vec<u32>) {
         let other = self.triangles[triangle as usize].neighbours[edge];
         let [a, b] = [edge, (edge + 1) % 3].map(|k| self.corners(triangle)[k]);
-        let middle = (a + b) * 0.5;
         let kind = self.triangles[triangle as usize].kinds[edge];
+        let middle = self.middle(kind, [a, b]);
         let point = self.add_middle(middle, triangle, edge);
         if other == NONE {
             self.split(triangle, edge, point, changed);
@@ -233,6 +234,15 @@ impl Torn<'_> {
         let new = self.split(triangle, edge, point, changed);
         let new_other = self.split(other, across, beyond, changed);
         self.join((triangle, new_other), (new, other));
+    }
+
+    /// The middle of an edge; on the arc of a crack that it is a chord of, unless rounding has put
+    /// its ends beside the arc.
+    fn middle(&self, kind: BorderKind, [a, b]: [Vec2; 2]) -> Vec2 {
+        let middle = (a + b) * 0.5;
+        let arc = kind.crack.map(|id| self.cracks[id.crack as usize].edge(id.segment as usize));
+        let on_arc = arc.filter(Edge::is_arc).map(|arc| arc.closest_point(middle));
+        on_arc.filter(|p| (*p - middle).length() < 0.25 * (b - a).length()).unwrap_or(middle)
     }
 
     fn edge_to(&self, triangle: u32, neighbour: u32) -> usize {
@@ -250,19 +260,19 @@ impl Torn<'_> {
     fn on_edge(&self, point: Vec2, triangle: u32, edge: usize) -> TornPoint {
         let corners = self.corners(triangle);
         let kind = self.triangles[triangle as usize].kinds[edge];
-        let along = corners[(edge + 1) % 3] - corners[edge];
+        let ends = [corners[edge], corners[(edge + 1) % 3]];
         let place = match kind.crack {
-            Some(segment) => on_crack(segment, point, self.side(segment, along)),
+            Some(segment) => on_crack(segment, point, self.side(segment, ends)),
             None => self.place(point),
         };
         let inside = if kind.kink { self.seen_from_inside(point, corners, INSET) } else { place };
         TornPoint { position: point, seen: ValueSide::Plane { place, inside } }
     }
 
-    /// The side of a crack that a triangle is on, from the direction of its edge.
-    fn side(&self, SegmentId { crack, segment }: SegmentId, along: Vec2) -> Side {
-        let points = &self.cracks[crack as usize].points[segment as usize..];
-        if (points[1] - points[0]).dot(along) > 0.0 { Side::Above } else { Side::Below }
+    /// The side of a crack that a triangle is on, from its edge along the crack.
+    fn side(&self, SegmentId { crack, segment }: SegmentId, [a, b]: [Vec2; 2]) -> Side {
+        let edge = self.cracks[crack as usize].edge(segment as usize);
+        if edge.tangent_towards((a + b) * 0.5).dot(b - a) > 0.0 { Side::Above } else { Side::Below }
     }
 
     /// Splits one triangle; its half with the first end of the edge keeps its number. The number of

@@ -10,7 +10,8 @@ use ppum::field::Field;
 use ppum::progress::Watcher;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-use super::borders::{ExportSegment, LineRequest, SAME, borders, longest, with_polygons};
+use super::arcs::with_polygons;
+use super::borders::{ExportSegment, LineRequest, SAME, borders, longest};
 use super::torn::Torn;
 use super::vtu::{FileNotes, array, flat, numbers, write_texts};
 use crate::image::body::BodyView;

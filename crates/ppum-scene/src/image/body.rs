@@ -106,10 +106,9 @@ impl<'f> BodyView<'f> {
             return self.lines.cracks(&field.step.cracks);
         }
         let moved = |part: &BodyPart<'_>| {
-            let mut cracks = part.points.as_ref().map_or_else(Vec::new, |p| p.view.moved_cracks());
-            let all = cracks.iter_mut().flat_map(|crack| &mut crack.points);
-            all.for_each(|p| *p = part.reflection.point(*p));
-            cracks
+            let cracks = part.points.as_ref().map_or_else(Vec::new, |p| p.view.moved_cracks());
+            let reflection = part.reflection;
+            cracks.into_iter().map(move |crack| reflection.crack(&crack))
         };
         self.parts().flat_map(moved).collect()
     }

@@ -78,12 +78,8 @@ impl MirrorLines {
     pub fn cracks(&self, cracks: &[Crack]) -> Vec<Crack> {
         let mut all = cracks.to_vec();
         for reflection in self.reflections() {
-            let reflected = |crack: &Crack| {
-                let points = crack.points.iter().map(|p| reflection.point(*p)).collect();
-                Crack { points, ..crack.clone() }
-            };
-            for crack in cracks.iter().map(reflected) {
-                if all.iter().all(|known| known.points != crack.points) {
+            for crack in cracks.iter().map(|crack| reflection.crack(crack)) {
+                if !all.contains(&crack) {
                     all.push(crack);
                 }
             }

@@ -1,8 +1,10 @@
 //! Places that keep their digits, and how they are written.
 
 use ppum::crack::{Crack, SegmentId, TipId, tips};
+use ppum::edge::Edge;
 use ppum::text::trimmed_to;
 use ppum::vec2::Vec2;
+use ppum_render::anchored_edge::AnchoredEdge;
 use ppum_render::view::View;
 use serde::{Deserialize, Serialize};
 
@@ -75,8 +77,8 @@ impl Location {
     fn nearest_on_crack(&self, cracks: &[Crack]) -> Option<(f64, Self)> {
         let mut nearest: Option<(f64, Self)> = None;
         for (crack, c) in (0..).zip(cracks) {
-            for (segment, ends) in (0..).zip(c.points.windows(2)) {
-                let (distance, spot) = self.projected([ends[0], ends[1]]);
+            for (segment, edge) in (0..).zip(c.edges()) {
+                let (distance, spot) = self.projected(edge);
                 if nearest.is_none_or(|(least, _)| distance < least) {
                     nearest = Some((distance, spot.on(SegmentId { crack, segment })));
                 }
@@ -85,16 +87,18 @@ impl Location {
         nearest
     }
 
-    /// The nearest point of a segment, seen from its nearer end, with its distance.
+    /// The nearest point of an edge, seen from its nearer end, with its distance.
     #[must_use]
-    pub fn projected(&self, [a, b]: [Vec2; 2]) -> (f64, Self) {
-        let [from_a, from_b] = [self.from(a), self.from(b)];
-        let (end, way, sign) =
-            if from_a.length() < from_b.length() { (a, from_a, 1.0) } else { (b, from_b, -1.0) };
-        let (tangent, length) = ((b - a).unit(), (b - a).length());
-        let inner = (sign * tangent.dot(way)).clamp(0.0, length);
-        let offset = tangent * (sign * inner);
-        ((way - offset).length(), Self::new(end, offset))
+    pub fn projected(&self, edge: Edge) -> (f64, Self) {
+        let [from_a, from_b] = [self.from(edge.from), self.from(edge.to)];
+        let (edge, way) = if from_a.length() < from_b.length() {
+            (edge, from_a)
+        } else {
+            (edge.reversed(), from_b)
+        };
+        let local = AnchoredEdge::new(edge, edge.from);
+        let offset = local.at(local.closest(way));
+        ((way - offset).length(), Self::new(edge.from, offset))
     }
 
     /// The number of the tip that it is exactly, if it is one.
@@ -235,6 +239,7 @@ pub fn number(value: f64, digits: usize) -> String {
 #[cfg(test)]
 mod tests {
     use ppum::vec2::vec2;
+    use ppum_testkit::random::Random;
 
     use super::*;
 
@@ -251,6 +256,24 @@ mod tests {
             ("", None),
         ] {
             assert_eq!(sum(text), sum_of_two, "{text}");
+        }
+    }
+
+    /// A point beside an arc is put on it, with the side's digits however near it is, and nowhere
+    /// farther than the arc is.
+    #[test]
+    fn points_are_put_on_arcs() {
+        let mut random = Random(61);
+        for _ in 0..300 {
+            let mut point = || vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+            let (from, to, p) = (point(), point(), point());
+            let edge = Edge { from, to, bulge: random.between(-5.0, 5.0) };
+            let (distance, on) = Location::new(p, Vec2::ZERO).projected(edge);
+            assert!((distance - edge.distance(p)).abs() < 1e-12, "{edge:?} {p:?}");
+            assert!(edge.distance(on.point()) < 1e-13, "{edge:?} {p:?}");
+            let beside = from + edge.end_tangents()[0] * 1e-13;
+            let near = Location::new(from, beside - from).projected(edge).1;
+            assert!(near.anchor() == from && near.offset().length() < 2e-13, "{edge:?}");
         }
     }
 

@@ -227,14 +227,10 @@ impl PointReader {
 pub fn segment_of(field: &Field<'_>, spot: &Location) -> Option<SegmentId> {
     let cracks = &field.step.cracks;
     if let Some([crack, segment]) = spot.on {
-        let points = cracks.get(crack as usize).map(|c| &c.points[..]).unwrap_or_default();
-        let ends = points.get(segment as usize..segment as usize + 2).unwrap_or_default();
-        if let [a, b] = *ends {
-            let (distance, _) = spot.projected([a, b]);
-            let is_on = distance <= 1e-14 * (b - a).length().max(a.length());
-            return is_on.then_some(SegmentId { crack, segment });
-        }
-        return None;
+        let edge = cracks.get(crack as usize)?.edges().nth(segment as usize)?;
+        let (distance, _) = spot.projected(edge);
+        let is_on = distance <= 1e-14 * edge.length().max(edge.from.length());
+        return is_on.then_some(SegmentId { crack, segment });
     }
     let segments: usize = cracks.iter().map(|crack| crack.points.len()).sum();
     if segments > MOST_SEGMENTS {

@@ -4,7 +4,6 @@
 use crate::quadrature::closed_meet;
 use ppum::crack::Side;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_problem::geometry::around;
 use ppum_problem::{BoundaryCondition, BoundaryPart, BoundaryRange, DomainEdge, Problem, in_plane};
 
 /// A part of the boundary with the conditions on it, by their numbers.
@@ -115,7 +114,7 @@ fn sides(problem: &Problem, hole: usize) -> Vec<BoundaryPart> {
 fn bounds(problem: &Problem, on: BoundaryPart) -> Rect {
     match on {
         BoundaryPart::Hole(hole) => problem.domain().holes[hole].rim_bounds(),
-        BoundaryPart::Crack { crack, .. } => around(&problem.cracks()[crack].points),
-        _ => around(&problem.segments_of(on).flatten().collect::<Vec<_>>()),
+        BoundaryPart::Crack { crack, .. } => problem.cracks()[crack].bounds(),
+        _ => problem.edges_of(on).fold(Rect::EMPTY, |all, edge| all.union(&edge.bounds())),
     }
 }

@@ -14,6 +14,7 @@ use crate::smoothness::{Smoothness, box_of};
 use crate::space::TrialSpace;
 use crate::watched::{Halt, WorkPhase, in_batches};
 use ppum::crack::Side;
+use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::{BoundaryCondition, BoundaryPart, Expression, Problem};
 
@@ -316,12 +317,13 @@ pub(crate) fn boundary_rules(
     match on {
         BoundaryPart::Edge { edge, from, to } => {
             let ends = [from, to].map(|s| edge.point(&problem.domain().bounds, s));
-            quadrature.edge(cell, ends, edge.normal())
+            let part = Edge::segment(ends);
+            quadrature.edge(cell, part, part.chord().left().dot(edge.normal()).signum())
         }
-        BoundaryPart::Hole(hole) => quadrature.rim(cell, &problem.domain().holes[hole], |_| true),
+        BoundaryPart::Hole(hole) => quadrature.rim(cell, hole, |_| true),
         BoundaryPart::Sides(run) => {
             let is_wanted = |side| run.holds(run.hole, side);
-            quadrature.rim(cell, &problem.domain().holes[run.hole], is_wanted)
+            quadrature.rim(cell, run.hole, is_wanted)
         }
         BoundaryPart::Piece(piece) => {
             let runs = problem.pieces()[piece].runs.iter().map(|run| BoundaryPart::Sides(*run));

@@ -19,9 +19,9 @@ use crate::space::TrialSpace;
 use crate::watched::{Halt, WorkPhase, in_batches};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, Par};
+use ppum::crack::Crack;
 use ppum::dataset::monomials;
 use ppum::function::FunctionKind;
-use ppum::vec2::Vec2;
 use ppum_linear::{EigenError, SymmetricEigen, inverse_root_diagonal, scaled};
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -185,7 +185,7 @@ pub(super) fn matrix(n: usize, parts: &[FunctionCombinations]) -> Mat<f64> {
     matrix
 }
 
-/// Turn of a crack, in radians, from which on what lies in it is a wedge.
+/// Turn of a crack at a kink, in radians, from which on what lies in it is a wedge.
 const CORNER: f64 = 0.3;
 
 /// The first functions of the jumps of a patch of which nearly nothing lies where it is alone: of
@@ -193,12 +193,16 @@ const CORNER: f64 = 0.3;
 /// straight cracks are none of them.
 pub(super) fn sole_support(space: &TrialSpace<'_>, patch: usize, gram: &Gram) -> Vec<usize> {
     let (step, support) = (space.step(), space.partition().support(patch));
-    let turns = |points: &[Vec2]| {
-        let [before, after] = [points[1] - points[0], points[2] - points[1]];
-        let turn = before.cross(after).atan2(before.dot(after)).abs();
-        turn > CORNER && support.contains(points[1])
+    let turn = |crack: &Crack, k: usize| {
+        let before = crack.edge(k - 1).end_tangents()[1];
+        let after = crack.edge(k).end_tangents()[0];
+        before.cross(after).atan2(before.dot(after)).abs()
     };
-    let bends = |crack: u32| step.cracks[crack as usize].points.windows(3).any(turns);
+    let bends = |crack: u32| {
+        let crack = &step.cracks[crack as usize];
+        let mut inner = 1..crack.points.len() - 1;
+        inner.any(|k| support.contains(crack.points[k]) && turn(crack, k) > CORNER)
+    };
     let is_wedge = |kind: &FunctionKind| match kind {
         FunctionKind::Component { cuts } => {
             let first = cuts[0].segment.crack;

@@ -1,5 +1,5 @@
 //! Williams' series at tips and corners: displacement fields that satisfy equilibrium and leave the
-//! faces of a straight crack, or the sides of a wedge, free.
+//! faces of a crack that is straight or an arc, or the sides of a wedge, free.
 //!
 //! ```text
 //! c, s = r^λ cos λθ, r^λ sin λθ      C, S = r^λ cos (λ−2)θ, r^λ sin (λ−2)θ
@@ -11,6 +11,15 @@
 //! and φ = i z^λ, ψ = −i b z^λ. At a tip λ = n + ½ with b = 1 − λ and 1 + λ (Williams 1957), of a
 //! wedge they are [`WedgeTerm`]s (Williams 1952). One unknown each: they *tie* the components of
 //! the functions c, s, C and S. For Poisson's equation, s alone leaves the faces of a crack free.
+//!
+//! On an arc of the curvature q, z̄ = z/(1 + iqz), so that the faces are free with
+//!
+//! ```text
+//! φ = A z^λ    ψ = z^λ (Ā (1 + iqz)^−λ − λA (1 + iqz)^−1)    Poisson: Im (z/(1 + iqz/2))^λ
+//! ```
+//!
+//! exactly (docs/decisions/0048-arcs.md). The powers of q z add functions c and s of later terms to
+//! a term; what is left out beyond the last one is of the order of the first term that is missing.
 
 use super::transform::FunctionCombinations;
 use crate::corner::WedgeTerm;
@@ -33,15 +42,42 @@ pub(super) fn parts(space: &TrialSpace<'_>, patch: usize) -> Vec<FunctionCombina
     let part = |(functions, series): (Range<usize>, &SeriesFunctions)| {
         let n = functions.len();
         let rows = match series.origin {
-            // s alone
-            Origin::Tip(..) if is_scalar => {
-                Mat::from_fn(n / ANGULAR, n, |term, k| f64::from(k == ANGULAR * term + 1))
+            Origin::Tip(tip, _) if is_scalar => {
+                let bend = PatchTipFrame::new(space.step(), patch, tip).scaled_curvature();
+                potentials(series.terms(), 0.5 * bend)
             }
             _ => Mat::identity(n, n),
         };
         (functions, rows)
     };
     space.evaluated_series(patch).map(part).collect()
+}
+
+/// The terms Im (z/(1 + iqz))^λ of N in their functions: s, and of later terms c and s.
+fn potentials(terms: usize, q: f64) -> Mat<f64> {
+    let mut rows = Mat::zeros(terms, ANGULAR * terms);
+    for n in 0..terms {
+        let factors = binomial_series(-exponent(n), q);
+        for ([re, im], later) in factors.zip(n..terms) {
+            rows[(n, ANGULAR * later)] = im;
+            rows[(n, ANGULAR * later + 1)] = re;
+        }
+    }
+    rows
+}
+
+/// λ of a term of a tip.
+fn exponent(term: usize) -> f64 {
+    term as f64 + 0.5
+}
+
+/// The coefficients of the powers of z in (1 + iqz)^p.
+fn binomial_series(p: f64, q: f64) -> impl Iterator<Item = [f64; 2]> {
+    let next = move |(m, [re, im]): &(u32, [f64; 2])| {
+        let factor = q * (p - f64::from(*m)) / f64::from(*m + 1);
+        Some((*m + 1, [-factor * im, factor * re]))
+    };
+    std::iter::successors(Some((0, [1.0, 0.0])), next).map(|(_, coefficient)| coefficient)
 }
 
 /// Coefficients of the functions of a patch as they are stored from those of the functions that the
@@ -70,48 +106,74 @@ pub(super) fn fields(space: &TrialSpace<'_>, patch: usize) -> Option<Vec<[Vec<f6
     let n = space.evaluated(patch);
     let of_series = |(functions, series): (Range<usize>, &SeriesFunctions)| {
         let fields = match series.origin {
-            Origin::Tip(tip, symmetry) => of_tip(space.step(), (tip, symmetry), series, body),
+            Origin::Tip(tip, symmetry) => {
+                of_tip(space.step(), patch, (tip, symmetry), series, body)
+            }
             Origin::Corner { at, bisector, term } => vec![of_corner(at, bisector, &term, body)],
         };
-        let modes = fields.len() * ANGULAR / functions.len();
-        let place = move |(k, field): (usize, TermFactors)| {
-            field.map(|part| placed(&part, functions.start + ANGULAR * (k / modes), n))
-        };
-        fields.into_iter().enumerate().map(place)
+        let place = move |field: TermFactors| field.map(|part| placed(&part, functions.start, n));
+        fields.into_iter().map(place)
     };
     Some(space.evaluated_series(patch).flat_map(of_series).collect())
 }
 
-/// Factors of c, s, C and S of a term in the two components of a field.
-type TermFactors = [[f64; ANGULAR]; 2];
+/// Factors of the functions c, s, C and S of each term of a series in the two components of a
+/// field.
+type TermFactors = [Vec<f64>; 2];
 
 /// The fields of a tip, of each term for opening and for sliding, or of one symmetry alone.
 fn of_tip(
     step: &Step,
+    patch: usize,
     (tip, only): (TipId, Option<Symmetry>),
     series: &SeriesFunctions,
     body: &Elasticity,
 ) -> Vec<TermFactors> {
-    let crack = &step.cracks[tip.crack as usize];
-    let axis = crack.growth_direction(tip.end);
-    let kappa = body.at(crack.end_point(tip.end)).kolosov();
+    let frame = PatchTipFrame::new(step, patch, tip);
+    let (kappa, bend) = (body.at(frame.at).kolosov(), frame.scaled_curvature());
     let modes = |n: usize| {
-        let lambda = n as f64 + 0.5;
+        let lambda = exponent(n);
         let both = [(Symmetry::Symmetric, 1.0 - lambda), (Symmetry::Antisymmetric, 1.0 + lambda)];
         let wanted = both.into_iter().filter(move |(own, _)| only.is_none_or(|only| *own == only));
         let term = move |(symmetry, factor)| WedgeTerm { exponent: lambda, symmetry, factor };
-        wanted.map(move |of| world(&mode(kappa, &term(of)), axis))
+        wanted.map(move |of| world(bent(kappa, &term(of), [n, series.terms()], bend), frame.axis))
     };
     (0..series.terms()).flat_map(modes).collect()
 }
 
 /// The field of a corner.
 fn of_corner(at: Vec2, bisector: f64, term: &WedgeTerm, body: &Elasticity) -> TermFactors {
-    world(&mode(body.at(at).kolosov(), term), vec2(bisector.cos(), bisector.sin()))
+    let mode = mode(body.at(at).kolosov(), term).map(Vec::from);
+    world(mode, vec2(bisector.cos(), bisector.sin()))
+}
+
+/// A term of N at a tip on an arc of the curvature q, in the frame of the tip: to z̄^(λ+m), m > 0,
+/// comes λĀ (iq)^m − A (−λ over m) (−iq)^m, with A = 1 for opening and A = i for sliding.
+fn bent(kappa: f64, term: &WedgeTerm, [n, terms]: [usize; 2], q: f64) -> TermFactors {
+    let mut factors = [vec![0.0; ANGULAR * terms], vec![0.0; ANGULAR * terms]];
+    for (own, mode) in factors.iter_mut().zip(mode(kappa, term)) {
+        own[ANGULAR * n..ANGULAR * (n + 1)].copy_from_slice(&mode);
+    }
+    let lambda = term.exponent;
+    let both = binomial_series(-1.0, -q).zip(binomial_series(-lambda, -q));
+    for ((first, second), later) in both.zip(n..terms).skip(1) {
+        let [re, im] = match term.symmetry {
+            Symmetry::Symmetric => [0, 1].map(|k| lambda * first[k] - second[k]),
+            Symmetry::Antisymmetric => {
+                let [re, im] = [0, 1].map(|k| lambda * first[k] + second[k]);
+                [im, -re]
+            }
+        };
+        let at = ANGULAR * later;
+        let [x, y] = &mut factors;
+        (x[at], x[at + 1]) = (re, im);
+        (y[at], y[at + 1]) = (im, -re);
+    }
+    factors
 }
 
 /// A term in the frame of the tip or corner.
-fn mode(kappa: f64, term: &WedgeTerm) -> TermFactors {
+fn mode(kappa: f64, term: &WedgeTerm) -> [[f64; ANGULAR]; 2] {
     let WedgeTerm { exponent: l, factor: b, symmetry } = *term;
     match symmetry {
         Symmetry::Symmetric => [[kappa - b, 0.0, -l, 0.0], [0.0, kappa + b, 0.0, l]],
@@ -120,12 +182,12 @@ fn mode(kappa: f64, term: &WedgeTerm) -> TermFactors {
 }
 
 /// A mode in the world's frame.
-fn world([along, across]: &TermFactors, axis: Vec2) -> TermFactors {
-    let sum = |a: f64, b: f64| std::array::from_fn(|j| a * along[j] + b * across[j]);
+fn world([along, across]: TermFactors, axis: Vec2) -> TermFactors {
+    let sum = |a: f64, b: f64| along.iter().zip(&across).map(|(x, y)| a * x + b * y).collect();
     [sum(axis.x, -axis.y), sum(axis.y, axis.x)]
 }
 
-/// A combination of four functions from one on among all n.
+/// A combination of functions from one on among all n.
 fn placed(part: &[f64], first: usize, n: usize) -> Vec<f64> {
     let mut all = vec![0.0; n];
     all[first..first + part.len()].copy_from_slice(part);
@@ -165,6 +227,8 @@ pub(super) struct PatchTipFrame {
     pub(super) axis: Vec2,
     /// One over the farthest distance in the patch, the unit of lengths.
     pub(super) unit: f64,
+    /// The curvature of the crack at the tip, positive to the left.
+    curvature: f64,
 }
 
 impl PatchTipFrame {
@@ -173,7 +237,13 @@ impl PatchTipFrame {
         let at = crack.end_point(tip.end);
         let BoxPartition { origin, scale, .. } = step.partition.boxes();
         let unit = 1.0 / ((origin[patch] - at).length() + scale[patch].length());
-        Self { at, axis: crack.growth_direction(tip.end), unit }
+        let curvature = crack.edge_to(tip.end).curvature();
+        Self { at, axis: crack.growth_direction(tip.end), unit, curvature }
+    }
+
+    /// The curvature of the crack in the unit of lengths.
+    fn scaled_curvature(&self) -> f64 {
+        self.curvature / self.unit
     }
 }
 
@@ -186,7 +256,7 @@ fn powers(
 ) -> Vec<ComplexPolynomial> {
     let (origin, scale) =
         (step.partition.boxes().origin[patch], step.partition.boxes().scale[patch]);
-    let PatchTipFrame { at, axis, unit } = PatchTipFrame::new(step, patch, tip);
+    let PatchTipFrame { at, axis, unit, .. } = PatchTipFrame::new(step, patch, tip);
     let from_tip = origin - at;
     let turned = |v: Vec2| [axis.dot(v) * unit, axis.cross(v) * unit];
     let linear = [from_tip, Vec2 { x: scale.x, y: 0.0 }, Vec2 { x: 0.0, y: scale.y }].map(turned);
@@ -214,4 +284,96 @@ fn product(
         }
     }
     product
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    type Pair = [f64; 2];
+
+    fn times([a, b]: Pair, [c, d]: Pair) -> Pair {
+        [a * c - b * d, a * d + b * c]
+    }
+
+    fn conjugate([a, b]: Pair) -> Pair {
+        [a, -b]
+    }
+
+    fn power([a, b]: Pair, exponent: f64) -> Pair {
+        let (size, angle) = (a.hypot(b).powf(exponent), exponent * b.atan2(a));
+        [size * angle.cos(), size * angle.sin()]
+    }
+
+    fn sum<const N: usize>(parts: [(f64, Pair); N]) -> Pair {
+        [0, 1].map(|k| parts.iter().map(|(factor, part)| factor * part[k]).sum())
+    }
+
+    const TERMS: usize = 60;
+
+    /// A combination of c, s, C and S of all terms at a point.
+    fn value(factors: &[f64], z: Pair) -> f64 {
+        let (r, theta) = (z[0].hypot(z[1]), z[1].atan2(z[0]));
+        let of_term = |(n, own): (usize, &[f64])| {
+            let (l, size) = (exponent(n), r.powf(exponent(n)));
+            let [(s, c), (s2, c2)] = [l, l - 2.0].map(|order| (order * theta).sin_cos());
+            size * (own[0] * c + own[1] * s + own[2] * c2 + own[3] * s2)
+        };
+        factors.chunks(ANGULAR).enumerate().map(of_term).sum()
+    }
+
+    const POINTS: [Pair; 4] = [[0.3, 0.2], [-0.35, 0.1], [0.1, -0.4], [-0.2, -0.3]];
+
+    /// Compares a term with its potentials: 2μu = κφ − zφ̄′ − ψ̄.
+    #[test]
+    fn fields_on_arcs() {
+        let kappa = 1.7;
+        for q in [0.0, 0.8, -1.1] {
+            for (symmetry, a, sign) in [
+                (Symmetry::Symmetric, [1.0, 0.0], -1.0),
+                (Symmetry::Antisymmetric, [0.0, 1.0], 1.0),
+            ] {
+                for n in [0, 1, 3] {
+                    let l = exponent(n);
+                    let term = WedgeTerm { exponent: l, symmetry, factor: 1.0 + sign * l };
+                    let field = bent(kappa, &term, [n, TERMS], q);
+                    for z in POINTS {
+                        let w = [1.0 - q * z[1], q * z[0]];
+                        let phi = times(a, power(z, l));
+                        let slope = times(a, power(z, l - 1.0));
+                        let bracket = sum([
+                            (1.0, times(conjugate(a), power(w, -l))),
+                            (-l, times(a, power(w, -1.0))),
+                        ]);
+                        let expected = sum([
+                            (kappa, phi),
+                            (-l, times(z, conjugate(slope))),
+                            (-1.0, conjugate(times(power(z, l), bracket))),
+                        ]);
+                        for (own, expected) in field.iter().zip(expected) {
+                            let found = value(own, z);
+                            assert!(
+                                (found - expected).abs() < 1e-13,
+                                "{q} {n}: {found} {expected}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Im (z/(1 + iqz))^λ.
+    #[test]
+    fn potentials_on_arcs() {
+        for q in [0.0, 0.7, -0.9] {
+            let rows = potentials(TERMS, q);
+            for (n, z) in [0, 1, 4].into_iter().flat_map(|n| POINTS.map(|z| (n, z))) {
+                let w = times(z, power([1.0 - q * z[1], q * z[0]], -1.0));
+                let row: Vec<f64> = rows.row(n).iter().copied().collect();
+                let (found, expected) = (value(&row, z), power(w, exponent(n))[1]);
+                assert!((found - expected).abs() < 1e-13, "{q} {n}: {found} {expected}");
+            }
+        }
+    }
 }

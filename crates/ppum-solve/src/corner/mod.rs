@@ -7,17 +7,23 @@
 //! the field badly: kinks of cracks, corners of holes, the ends of held pieces of edges, clamped
 //! corners, mouths of cracks at held edges. They are found from the geometry and the
 //! conditions alone.
+//!
+//! Angles between arcs are those of their tangents. The fields of a wedge leave tractions of the
+//! order κ r on sides of curvature κ: they are the leading part of the field there, and what the
+//! curvature adds is smoother by one power of r, which polynomials see.
 
 mod exponent;
 mod sectors;
 mod wedge;
 
+use crate::edges::{is_smooth, kinks};
 use crate::quadrature::{clamp_non_finite, sign_changes};
 use crate::smoothness::levels_of_data;
 use exponent::{Constants, smallest};
 use ppum::border::touch;
 use ppum::crack::{Crack, LocalCrack, Side, tips};
 use ppum::domain::Hole;
+use ppum::edge::Edge;
 use ppum::formula::Formula;
 use ppum::line::circles_meet;
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -34,7 +40,7 @@ const SAME_ANGLE: f64 = 1e-6;
 const LOGARITHM: f64 = 0.3;
 
 /// Exponent, that of a turn of 24°, from which on a kink or a corner of a hole has no functions:
-/// cells see its field well, and vertices of paths that follow curves are no corners.
+/// cells see its field well.
 const MILD: f64 = 0.8;
 
 /// Most corners with functions: each has up to eight, which drawing compiles.
@@ -247,7 +253,7 @@ fn scale_of_values(problem: &Problem) -> f64 {
             BoundaryPart::Edge { edge, from, to } => (0..=4)
                 .map(|k| edge.point(bounds, from + (to - from) * f64::from(k) / 4.0))
                 .collect(),
-            part => problem.segments_of(part).flatten().collect(),
+            part => problem.edges_of(part).flat_map(|e| [e.from, e.middle(), e.to]).collect(),
         };
         let held = condition.fixed();
         // values, unlike pressures, do not depend on the normal
@@ -259,10 +265,7 @@ fn scale_of_values(problem: &Problem) -> f64 {
 }
 
 fn nature(problem: &Problem, sector: &Sector, at: Vec2, touch: f64) -> SingularCause {
-    let inner = |crack: &Crack| {
-        let inner = &crack.points[1..crack.points.len() - 1];
-        inner.iter().any(|p| (*p - at).length() <= touch)
-    };
+    let inner = |crack: &Crack| kinks(crack).any(|p| (p - at).length() <= touch);
     match problem.cracks().iter().position(inner) {
         Some(crack) => SingularCause::Kink(crack),
         None if (sector.held[0], sector.axes[0]) == (sector.held[1], sector.axes[1]) => {
@@ -283,11 +286,10 @@ fn places(problem: &Problem) -> Vec<Vec2> {
         all.extend(jumps(condition, problem));
     }
     let holes = &problem.domain().holes;
-    all.extend(holes.iter().flat_map(Hole::sides).map(|[a, _]| a));
-    let cracks = problem.cracks().iter().flat_map(|crack| crack.points.windows(2));
-    let straight = cracks.map(|s| [s[0], s[1]]).chain(bounds.sides());
-    let crossings = straight.flat_map(|s| holes.iter().flat_map(move |hole| crossing(s, hole)));
-    all.extend(crossings);
+    all.extend((0..holes.len()).flat_map(|hole| corners_of_rim(problem, hole)));
+    let cracks = problem.cracks().iter().flat_map(|crack| crack.edges());
+    let edges = cracks.chain(bounds.sides().map(Edge::segment));
+    all.extend(edges.flat_map(|edge| holes.iter().flat_map(move |hole| crossing(edge, hole))));
     for (k, hole) in holes.iter().enumerate() {
         all.extend(holes[..k].iter().flat_map(|other| rims_crossing(hole, other)));
     }
@@ -295,8 +297,24 @@ fn places(problem: &Problem) -> Vec<Vec2> {
     all
 }
 
+/// The vertices of a rim at which it has a corner, or its conditions change.
+fn corners_of_rim(problem: &Problem, hole: usize) -> Vec<Vec2> {
+    let sides: Vec<Edge> = problem.domain().holes[hole].edges().collect();
+    let before = |k: usize| (k + sides.len() - 1) % sides.len();
+    let goes_on = |k: usize| {
+        let is_on = |condition: &BoundaryCondition, k| problem.is_on(condition.on, hole, k);
+        let same = |condition| is_on(condition, before(k)) == is_on(condition, k);
+        is_smooth(&sides[before(k)], &sides[k]) && problem.boundary.iter().all(same)
+    };
+    (0..sides.len()).filter(|k| !goes_on(*k)).map(|k| sides[k].from).collect()
+}
+
 /// A part of the boundary that is smooth: its points by a coordinate, and the ends of that.
 type SmoothBoundary<'p> = (Box<dyn Fn(f64) -> Vec2 + 'p>, [f64; 2]);
+
+fn smooth_boundary<'p>(edge: Edge) -> SmoothBoundary<'p> {
+    (Box::new(move |s| edge.at(s)), [0.0, 1.0])
+}
 
 /// Places at which the data of a condition may jump.
 fn jumps(condition: &BoundaryCondition, problem: &Problem) -> Vec<Vec2> {
@@ -314,18 +332,12 @@ fn jumps(condition: &BoundaryCondition, problem: &Problem) -> Vec<Vec2> {
     curves(condition.on, problem).into_iter().flat_map(on_curve).collect()
 }
 
-/// The edges, circles and segments that a part of the boundary consists of.
+/// The edges and circles that a part of the boundary consists of.
 fn curves(part: BoundaryPart, problem: &Problem) -> Vec<SmoothBoundary<'_>> {
-    let straight = |[a, b]: [Vec2; 2]| -> SmoothBoundary<'_> {
-        (Box::new(move |s| a + (b - a) * s), [0.0, 1.0])
-    };
     match part {
         BoundaryPart::Edge { edge, from, to } => {
             let bounds = &problem.domain().bounds;
             vec![(Box::new(move |s| edge.point(bounds, s)), [from, to])]
-        }
-        BoundaryPart::Crack { crack, .. } => {
-            problem.cracks()[crack].points.windows(2).map(|s| straight([s[0], s[1]])).collect()
         }
         BoundaryPart::Hole(hole)
             if let Hole::Circle { center, radius } = problem.domain().holes[hole] =>
@@ -333,27 +345,32 @@ fn curves(part: BoundaryPart, problem: &Problem) -> Vec<SmoothBoundary<'_>> {
             let at = move |angle: f64| center + vec2(angle.cos(), angle.sin()) * radius;
             vec![(Box::new(at), [0.0, TAU])]
         }
-        _ => problem.segments_of(part).map(straight).collect(),
+        BoundaryPart::Crack { crack, .. } => {
+            problem.cracks()[crack].edges().map(smooth_boundary).collect()
+        }
+        _ => problem.edges_of(part).map(smooth_boundary).collect(),
     }
 }
 
-/// Vertices of a crack that are no tips.
+/// The kinks and the ends of a crack that are no tips.
 fn vertices(crack: &Crack) -> impl Iterator<Item = Vec2> + '_ {
     let is_tip = |p: &Vec2| crack.tips().any(|end| crack.end_point(end) == *p);
-    crack.points.iter().copied().filter(move |p| !is_tip(p))
+    let last = crack.points.len() - 1;
+    let all = [crack.points[0]].into_iter().chain(kinks(crack)).chain([crack.points[last]]);
+    all.filter(move |p| !is_tip(p))
 }
 
-/// The points that a segment shares with a rim.
-fn crossing([a, b]: [Vec2; 2], hole: &Hole) -> Vec<Vec2> {
-    let on_segment = rim_crossings(a, b, hole).into_iter().filter(|t| (0.0..=1.0).contains(t));
-    on_segment.map(|t| a + (b - a) * t).collect()
+/// The points that an edge shares with a rim.
+fn crossing(edge: Edge, hole: &Hole) -> Vec<Vec2> {
+    let on_edge = rim_crossings(edge, hole).into_iter().filter(|t| (0.0..=1.0).contains(t));
+    on_edge.map(|t| edge.at(t)).collect()
 }
 
 /// The points that two rims share.
 fn rims_crossing(hole: &Hole, other: &Hole) -> Vec<Vec2> {
     match (hole, other) {
-        (Hole::Polygon { .. }, _) => hole.sides().flat_map(|s| crossing(s, other)).collect(),
-        (_, Hole::Polygon { .. }) => other.sides().flat_map(|s| crossing(s, hole)).collect(),
+        (Hole::Polygon { .. }, _) => hole.edges().flat_map(|edge| crossing(edge, other)).collect(),
+        (_, Hole::Polygon { .. }) => other.edges().flat_map(|edge| crossing(edge, hole)).collect(),
         (Hole::Circle { center, radius }, Hole::Circle { center: c, radius: r }) => {
             let meet = circles_meet((*center, *radius), (*c, *r));
             meet.filter(|[p, q]| p != q).into_iter().flatten().collect()

@@ -1,8 +1,9 @@
 //! The body around a point of its boundary: sectors of material between rays.
 
+use crate::edges::is_smooth;
 use ppum::crack::Side;
 use ppum::domain::Hole;
-use ppum::segment;
+use ppum::edge::Edge;
 use ppum::vec2::{Vec2, vec2};
 use ppum_problem::{BoundaryPart, DomainEdge, Problem};
 use std::f64::consts::TAU;
@@ -90,17 +91,31 @@ impl CornerSurroundings<'_> {
     pub(super) fn distance(&self, p: Vec2) -> f64 {
         let domain = self.problem.domain();
         let edges = DomainEdge::ALL.map(|edge| edge.depth(&domain.bounds, p).abs());
-        let circles = domain.holes.iter().filter_map(|hole| match hole {
-            Hole::Circle { radius, .. } if self.is_on(hole.rim_distance(p)) => Some(*radius),
-            Hole::Circle { .. } => Some(hole.rim_distance(p)),
-            Hole::Polygon { .. } => None,
+        let rims = domain.holes.iter().flat_map(|hole| match hole {
+            Hole::Circle { radius, .. } if self.is_on(hole.rim_distance(p)) => vec![*radius],
+            Hole::Circle { .. } => vec![hole.rim_distance(p)],
+            Hole::Polygon { .. } => self.of_chain(p, &hole.edges().collect::<Vec<_>>(), true),
         });
-        let sides = domain.holes.iter().flat_map(Hole::sides);
-        let cracks = self.problem.cracks().iter().flat_map(|c| c.points.windows(2));
-        let segments =
-            sides.chain(cracks.map(|s| [s[0], s[1]])).map(|[a, b]| segment::distance([a, b], p));
-        let all = edges.into_iter().chain(circles).chain(segments);
+        let cracks = self.problem.cracks().iter();
+        let cracks =
+            cracks.flat_map(|crack| self.of_chain(p, &crack.edges().collect::<Vec<_>>(), false));
+        let all = edges.into_iter().chain(rims).chain(cracks);
         all.filter(|distance| !self.is_on(*distance)).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Distances of a point to edges that follow each other. A smooth curve through the point is as
+    /// far as where it has turned away, whatever edges it has.
+    fn of_chain(&self, p: Vec2, chain: &[Edge], is_closed: bool) -> Vec<f64> {
+        let mut all: Vec<f64> = chain.iter().map(|edge| edge.distance(p)).collect();
+        for k in (0..chain.len()).filter(|&k| self.is_on(chain[k].distance(p))) {
+            for ahead in [true, false] {
+                let run = SmoothRun { chain, is_closed, ahead };
+                let (passed, end) = run.until_turned(p, k);
+                passed.into_iter().for_each(|k| all[k] = f64::INFINITY);
+                all.extend(end.map(|end| (end - p).length()));
+            }
+        }
+        all
     }
 
     /// The sectors of material around a point whose surroundings are free up to `room`; none inside
@@ -174,13 +189,10 @@ impl CornerSurroundings<'_> {
             rays.extend(self.along_rim((index, hole), p));
         }
         for (crack, index) in self.problem.cracks().iter().zip(0..) {
-            for segment in crack.points.windows(2) {
-                let on = |way: Vec2| RayLine::Crack {
-                    crack: index,
-                    ahead: way.dot(segment[1] - segment[0]) > 0.0,
-                };
-                let ways = self.along([segment[0], segment[1]], p);
-                rays.extend(ways.map(|way| ray(way, on(way))));
+            for edge in crack.edges() {
+                let on = |ahead| RayLine::Crack { crack: index, ahead };
+                let ways = self.along(edge, p);
+                rays.extend(ways.map(|(way, ahead)| ray(way, on(ahead))));
             }
         }
         rays
@@ -209,18 +221,69 @@ impl CornerSurroundings<'_> {
             }
             Hole::Circle { .. } => Vec::new(),
             Hole::Polygon { .. } => {
-                let sides = hole.sides().enumerate();
-                let ways = |(k, side)| self.along(side, p).map(move |way| ray(way, on(k)));
+                let sides = hole.edges().enumerate();
+                let ways = |(k, side)| self.along(side, p).map(move |(way, _)| ray(way, on(k)));
                 sides.flat_map(ways).collect()
             }
         }
     }
 
-    /// The ways along a segment from a point on it.
-    fn along(&self, [a, b]: [Vec2; 2], p: Vec2) -> impl Iterator<Item = Vec2> {
-        let on = self.is_on(segment::distance([a, b], p));
-        let touch = self.touch;
-        [a - p, b - p].into_iter().filter(move |way| on && way.length() > touch)
+    /// The ways along an edge from a point on it, and whether they lead ahead.
+    fn along(&self, edge: Edge, p: Vec2) -> impl Iterator<Item = (Vec2, bool)> {
+        let (on, touch, tangent) =
+            (self.is_on(edge.distance(p)), self.touch, edge.tangent_towards(p));
+        let ends = [(edge.from - p, false), (edge.to - p, true)];
+        let far = ends.into_iter().filter(move |(way, _)| on && way.length() > touch);
+        far.map(move |(way, ahead)| match (edge.is_arc(), ahead) {
+            (false, _) => (way, ahead),
+            (true, true) => (tangent, ahead),
+            (true, false) => (-tangent, ahead),
+        })
+    }
+}
+
+/// Turn, in radians, from which on a curve has turned away from a point of it: about its radius
+/// away.
+const TURNED: f64 = 1.0;
+
+/// Edges that follow each other, ahead or back.
+struct SmoothRun<'e> {
+    chain: &'e [Edge],
+    is_closed: bool,
+    ahead: bool,
+}
+
+impl SmoothRun<'_> {
+    fn edge(&self, k: usize) -> Edge {
+        if self.ahead { self.chain[k] } else { self.chain[k].reversed() }
+    }
+
+    /// The edge behind another one.
+    fn next(&self, k: usize) -> Option<usize> {
+        let n = self.chain.len();
+        let is_last = k == if self.ahead { n - 1 } else { 0 };
+        let next = (k + if self.ahead { 1 } else { n - 1 }) % n;
+        (self.is_closed || !is_last).then_some(next)
+    }
+
+    /// The numbers of the edges from a point of one of them on up to a corner, or to where they
+    /// have turned away, and that place.
+    fn until_turned(&self, p: Vec2, first: usize) -> (Vec<usize>, Option<Vec2>) {
+        let (mut passed, mut left) = (Vec::new(), TURNED);
+        let (mut k, mut start) = (first, self.edge(first).closest_part(p));
+        loop {
+            let (edge, sweep) = (self.edge(k), self.chain[k].sweep().abs());
+            passed.push(k);
+            if sweep * (1.0 - start) >= left {
+                return (passed, Some(edge.at(start + left / sweep)));
+            }
+            left -= sweep * (1.0 - start);
+            let next = self.next(k).filter(|&next| next != first);
+            match next.filter(|&next| is_smooth(&edge, &self.edge(next))) {
+                Some(next) => (k, start) = (next, 0.0),
+                None => return (passed, None),
+            }
+        }
     }
 }
 

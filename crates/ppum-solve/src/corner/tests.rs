@@ -1,9 +1,10 @@
 use super::*;
 use ppum::dataset::{Material, StressState};
-use ppum::domain::Domain;
+use ppum::domain::{Domain, PolygonSide};
 use ppum::vec2::vec2;
 use ppum_problem::{
-    BaseCells, BoundaryCondition, Condition, Discretization, DomainEdge, Expression, ProblemData,
+    BaseCells, BoundaryCondition, BoundaryRange, Condition, Discretization, DomainEdge, Expression,
+    ProblemData,
 };
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
@@ -303,4 +304,87 @@ fn potentials_have_the_exponents_of_laplace() {
     let mut expected: Vec<_> = places.map(|(p, l, n)| (Vec2::from(p), l, n)).to_vec();
     expected.push((vec2(0.0, 0.0), 0.667, SingularCause::Kink(0)));
     assert_eq!(found(&problem), expected);
+}
+
+/// A closed chain of edges, each in some arcs, as a hole.
+fn hole_of(edges: &[Edge], parts: usize) -> Hole {
+    let at = |k: usize| k as f64 / parts as f64;
+    let of = |edge: &Edge| (0..parts).map(|k| edge.part([at(k), at(k + 1)])).collect::<Vec<_>>();
+    let all: Vec<Edge> = edges.iter().flat_map(of).collect();
+    let points = all.iter().map(|edge| edge.from).collect();
+    let bulges = all.iter().map(|edge| edge.bulge).collect();
+    Hole::Polygon { points, bulges, side: PolygonSide::Inside }
+}
+
+/// A slot with round ends has no corners; a lens has two, with the openings of its tangents and the
+/// same room, however its arcs are divided and wherever it lies.
+#[test]
+fn curves_have_corners_where_their_tangents_turn() {
+    let mut random = Random(24);
+    for round in 0..20 {
+        let (center, way) = (random.point(&BOUNDS) * 0.3, random.direction());
+        let at = |x: f64, y: f64| center + way * x + way.left() * y;
+        let segment = |a, b| Edge { from: a, to: b, bulge: 0.0 };
+        let round_end = |a, b| Edge { from: a, to: b, bulge: 1.0 };
+        let slot = [
+            segment(at(-0.2, -0.1), at(0.2, -0.1)),
+            round_end(at(0.2, -0.1), at(0.2, 0.1)),
+            segment(at(0.2, 0.1), at(-0.2, 0.1)),
+            round_end(at(-0.2, 0.1), at(-0.2, -0.1)),
+        ];
+        let is_arc = |hole: &Hole| hole.edges().map(|edge| edge.is_arc()).collect::<Vec<_>>();
+        assert_eq!(is_arc(&hole_of(&slot, 1)), [false, true, false, true]);
+        assert_eq!(found(&plate_with(vec![hole_of(&slot, 1)])), [], "{round}");
+        let half = random.between(0.3, 1.2);
+        let lens = [at(-0.2, 0.0), at(0.2, 0.0)];
+        let bulge = (0.5 * half).tan();
+        let lens = [
+            Edge { from: lens[0], to: lens[1], bulge },
+            Edge { from: lens[1], to: lens[0], bulge },
+        ];
+        let exponent = wedge(0.0, 2.0 * PI - 2.0 * half, [FREE; 2], 1.8);
+        let mut rooms = Vec::new();
+        for parts in [1, 2, 7, 40] {
+            let problem = checked(&plate_with(vec![hole_of(&lens, parts)]));
+            let corners = corners(&problem);
+            assert_eq!(corners.len(), 2, "{round} {parts}");
+            for (corner, edge) in corners.iter().zip(&lens) {
+                assert!((corner.at - edge.from).length() < 1e-12);
+                assert!((corner.exponent - exponent).abs() < 2e-4 && corner.wedge.is_some());
+                let wedge = corner.wedge.as_ref().expect("free sides");
+                let out = (edge.from - edge.to).unit();
+                assert!((vec2(wedge.bisector.cos(), wedge.bisector.sin()) - out).length() < 1e-9);
+                rooms.push(corner.room);
+            }
+        }
+        let [least, most] = [f64::min, f64::max].map(|f| rooms.iter().copied().reduce(f).unwrap());
+        assert!(least > 0.1 && most - least < 1e-9, "{rooms:?}");
+    }
+}
+
+/// Smooth chains of arcs are cracks without kinks; a corner between arcs is a kink of the opening
+/// of its tangents. A load that ends within a smooth rim is found.
+#[test]
+fn kinks_of_arcs_and_ends_of_loads() {
+    let arc = Edge { from: vec2(-0.6, -0.2), to: vec2(0.1, -0.3), bulge: 0.3 };
+    let on = Edge::leaving(arc.to, arc.end_tangents()[1], -1.0, 0.4);
+    let smooth = Crack::along(&[arc.part([0.0, 0.4]), arc.part([0.4, 1.0]), on]);
+    assert_eq!(found(&plate().with_crack_along(smooth)), []);
+    let turned = arc.end_tangents()[1].left();
+    let kinked = Crack::along(&[
+        arc.part([0.0, 0.4]),
+        arc.part([0.4, 1.0]),
+        Edge::leaving(arc.to, turned, 1.0, 0.4),
+    ]);
+    let kink = (arc.to, 0.544, SingularCause::Kink(0));
+    assert_eq!(found(&plate().with_crack_along(kinked)), [kink]);
+    let circle = [0.0, PI].map(|from| Edge::around(Vec2::ZERO, 0.3, [from, from + PI]));
+    let hole = hole_of(&circle, 4);
+    let mut problem = plate_with(vec![hole.clone()]);
+    assert_eq!(found(&problem), []);
+    let on = BoundaryPart::Sides(BoundaryRange { hole: 0, from: 1, to: 3 });
+    problem.boundary.push(BoundaryCondition::pressure(on, 1.0.into()));
+    let sides: Vec<Edge> = hole.edges().collect();
+    let at = |p: Vec2| (p, 1.0, SingularCause::Load);
+    assert_eq!(found(&problem), [at(sides[1].from), at(sides[3].from)]);
 }

@@ -5,6 +5,8 @@ mod balance;
 mod body;
 mod pieces;
 mod supports;
+#[cfg(test)]
+mod tests;
 mod touching;
 
 pub(crate) use balance::Balance;

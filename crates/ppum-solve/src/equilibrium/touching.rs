@@ -1,8 +1,10 @@
 //! Pieces that touch: whether their faces hold them together, and the motions that they leave.
 //!
 //! Faces take pressures p ≥ 0, and shear up to μ p. In the plane both are sums of forces p ≥ 0
-//! along m ± μ s, and those on a straight edge are equivalent to some at its two ends. With the
-//! works R of the loads on the free modes of all pieces, and A of these forces,
+//! along m ± μ s, and those on a straight edge are equivalent to some at its two ends; on arcs they
+//! are taken at the ends of short parts, where m and s are those of the arc: nothing turns a disc
+//! without friction. With the works R of the loads on the free modes of all pieces, and A of these
+//! forces,
 //!
 //! ```text
 //! R + A p = 0     p ≥ 0
@@ -40,14 +42,17 @@ pub(super) fn contact_forces(pieces: &BodyPieces, problem: &Problem) -> Vec<Cont
     for crack in 0..problem.cracks().len() {
         let Some(FaceLaw { friction }) = face_law(problem, crack as u32) else { continue };
         for edge in pieces.shared_edges(crack) {
-            let along = (edge.ends[1] - edge.ends[0]).unit();
-            let ways = [-friction, friction].map(|shear| along.left() + along * shear);
-            let ways = if friction > 0.0 { &ways[..] } else { &ways[..1] };
+            let face = problem.cracks()[crack].edge(edge.of);
+            let shears = if friction > 0.0 { &[-friction, friction][..] } else { &[0.0] };
             all.extend(edge.ends.into_iter().flat_map(|at| {
-                ways.iter().map(move |&force| ContactForce {
+                let chord = (edge.ends[1] - edge.ends[0]).unit();
+                let along = if face.is_arc() { face.tangent_towards(at) } else { chord };
+                let force = move |shear: &f64| along.left() + along * *shear;
+                let pieces = edge.pieces;
+                shears.iter().map(move |shear| ContactForce {
                     at,
-                    force,
-                    pieces: edge.pieces,
+                    force: force(shear),
+                    pieces,
                     friction,
                 })
             }));

@@ -1,15 +1,17 @@
 //! Rules on cells.
 
+use super::arcs::{ArcRun, EdgeCuts};
 use super::geometry::{KinkLine, LevelFunction, Singularity, SmoothnessGeometry};
+use super::holes::PlacedHole;
 use super::orders::{ActiveFunctions, Orders};
 use super::polygon::{ConvexPolygon, SegmentCut, line_side};
 use super::rule::{CellRule, Rules};
 use super::singular::PieceQuadrature;
 use super::split::TOLERANCE;
-use super::{adapt, curve, holes, split};
+use super::{adapt, arcs, curve, holes, split};
 use ppum::crack::Crack;
 use ppum::dataset::BoxPartition;
-use ppum::domain::{Domain, Hole};
+use ppum::domain::Domain;
 use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::is_on_rim;
@@ -36,15 +38,11 @@ pub struct CoveredCell<'a> {
 pub struct Quadrature<'a> {
     pub(super) geometry: SmoothnessGeometry<'a>,
     pub(super) orders: Orders,
-    /// Segments of cracks and sides of holes.
-    segments: Vec<SegmentCut>,
+    /// The cuts of cracks and holes.
+    cuts: EdgeCuts,
     /// Segments of cracks on the boundary, which is no other part where it is a face of a crack.
     pub(super) faces: Vec<Segment>,
-    /// Round rims: at least as many as there are round holes.
-    pub(super) circles: Vec<Arc<LevelFunction>>,
-    /// Boxes of the holes, and of the round ones.
-    boxes: Vec<Rect>,
-    circle_boxes: Vec<Rect>,
+    pub(super) holes: Arc<[PlacedHole<'a>]>,
     /// Most divisions in one cell, or along one line through it.
     pub(super) divisions: usize,
 }
@@ -88,23 +86,17 @@ impl<'a> Quadrature<'a> {
     /// The quadrature for a geometry.
     #[must_use]
     pub(crate) fn new(geometry: SmoothnessGeometry<'a>, orders: Orders) -> Self {
-        let sides = geometry.holes.iter().flat_map(Hole::sides).map(SegmentCut::segment);
         let (on_rims, inside): (Vec<&Crack>, Vec<&Crack>) =
-            geometry.cracks.iter().partition(|crack| is_on_rim(crack, geometry.holes));
+            geometry.cracks.iter().partition(|c| !c.is_curved() && is_on_rim(c, geometry.holes));
         let edges = box_around(geometry.partition);
-        let is_on_edge = |crack: &&Crack| {
-            edges.as_ref().is_some_and(|all| all.line_along(&crack.points).is_some())
-        };
+        let is_on_edge =
+            |crack: &&Crack| edges.as_ref().is_some_and(|all| all.line_along(crack).is_some());
         let on_edges = inside.iter().copied().filter(is_on_edge);
-        let faces = on_rims.into_iter().chain(on_edges).flat_map(cuts);
-        let faces = faces.map(|cut| cut.ends).collect();
-        let segments = inside.into_iter().flat_map(cuts).chain(sides).collect();
-        let circles = geometry.holes.iter().filter_map(holes::level).collect();
-        let round = geometry.holes.iter().filter(|hole| matches!(hole, Hole::Circle { .. }));
-        let circle_boxes = round.map(Hole::bounds).collect();
-        let boxes = geometry.holes.iter().map(Hole::bounds).collect();
-        let divisions = adapt::MOST_DIVISIONS;
-        Self { geometry, orders, segments, faces, circles, boxes, circle_boxes, divisions }
+        let faces = on_rims.into_iter().chain(on_edges).flat_map(|crack| crack.points.windows(2));
+        let faces = faces.map(|ends| [ends[0], ends[1]]).collect();
+        let cuts = EdgeCuts::new(&inside, geometry.holes);
+        let holes = geometry.holes.iter().map(PlacedHole::new).collect();
+        Self { geometry, orders, cuts, faces, holes, divisions: adapt::MOST_DIVISIONS }
     }
 
     /// Returns the quadrature with fewer divisions of a cell where formulas are probed.
@@ -128,7 +120,8 @@ impl<'a> Quadrature<'a> {
             && common_probes.is_empty()
             && self.geometry.is_smooth(cell.patches)
             && self.cuts_near(cell.rect).next().is_none()
-            && !self.boxes.iter().any(|hole| hole.overlaps(cell.rect))
+            && self.runs_near(cell.rect).next().is_none()
+            && !self.holes.iter().any(|hole| hole.bounds.overlaps(cell.rect))
     }
 
     /// The rules on the pieces of a cell that meet a disc, with more points than the disc asks for
@@ -156,15 +149,24 @@ impl<'a> Quadrature<'a> {
         orders: Orders,
         disc: Option<Disc>,
     ) -> Vec<CellRule> {
-        let segments = self.cuts_near(cell).collect();
-        let boxes = self.boxes.iter().zip(self.geometry.holes);
-        let holes = boxes.filter(|(b, _)| b.overlaps(cell)).map(|(_, hole)| hole).collect();
+        let (segments, runs) = (self.cuts_near(cell).collect(), self.runs_near(cell).collect());
+        let holes = self.holes.iter().filter(|hole| hole.bounds.overlaps(cell)).collect();
         let size = cell.size();
         let least = LEAST_AREA * size.x * size.y;
         let (rules, left) = (Rules::default(), Cell::new(self.divisions));
         let quadrature = self;
-        let mut run =
-            CellIntegration { quadrature, cell, orders, disc, segments, holes, least, rules, left };
+        let mut run = CellIntegration {
+            quadrature,
+            cell,
+            orders,
+            disc,
+            segments,
+            runs,
+            holes,
+            least,
+            rules,
+            left,
+        };
         let mut sorted = patches.to_vec();
         sorted.sort_unstable();
         let partition = self.geometry.partition;
@@ -181,15 +183,13 @@ impl<'a> Quadrature<'a> {
 
     /// The segments of cracks and sides of holes that meet the closed box.
     pub(super) fn cuts_near(&self, rect: &Rect) -> impl Iterator<Item = SegmentCut> {
-        self.segments.iter().copied().filter(|cut| meets(rect, cut.ends[0], cut.ends[1]))
+        self.cuts.segments.iter().copied().filter(|cut| meets(rect, cut.ends[0], cut.ends[1]))
     }
-}
 
-/// The segments of a crack, which goes on beyond its ends.
-fn cuts(crack: &Crack) -> impl Iterator<Item = SegmentCut> {
-    let last = crack.points.len().saturating_sub(2);
-    let segments = crack.points.windows(2).enumerate();
-    segments.map(move |(k, s)| SegmentCut { ends: [s[0], s[1]], goes_on: [k == 0, k == last] })
+    /// The arcs that may meet a box, in runs.
+    pub(super) fn runs_near(&self, rect: &Rect) -> impl Iterator<Item = &ArcRun> {
+        self.cuts.runs.iter().filter(|run| run.near(rect).next().is_some())
+    }
 }
 
 /// True if the segment meets the closed box, up to rounding.
@@ -209,8 +209,9 @@ struct CellIntegration<'a> {
     orders: Orders,
     disc: Option<Disc>,
     segments: Vec<SegmentCut>,
+    runs: Vec<&'a ArcRun>,
     /// The holes whose boxes meet the cell.
-    holes: Vec<&'a Hole>,
+    holes: Vec<&'a PlacedHole<'a>>,
     least: f64,
     rules: Rules,
     /// Divisions that are left.
@@ -224,8 +225,15 @@ impl CellIntegration<'_> {
             return;
         }
         let geometry = self.quadrature.geometry;
-        if holes::covered(&self.holes, rect) {
-            return;
+        let runs: Vec<&ArcRun> = self.runs.iter().copied().filter(|run| run.meets(rect)).collect();
+        let is_cut = !runs.is_empty() || self.cuts(rect).next().is_some();
+        let mut holes = holes::near(&self.holes, rect);
+        if !is_cut {
+            // all of it is on one side of each rim
+            holes.retain(|placed| placed.hole.contains(rect.center()));
+            if holes.iter().any(|placed| placed.is_curved) {
+                return;
+            }
         }
         let diameter = rect.size().length();
         let mut singular = self.singular_points(rect, patches);
@@ -236,14 +244,11 @@ impl CellIntegration<'_> {
 
         let kinks = geometry.active_kinks(patches);
         let active = geometry.active_probes(patches);
-        let mut curves = curves_near(&kinks, rect);
-        let circles = self.quadrature.circles.iter().zip(&self.quadrature.circle_boxes);
-        let near = circles.filter(|(_, b)| b.overlaps(rect)).map(|(level, _)| level.as_ref());
-        curves.extend(near.filter(|&level| curve::may_meet(level, rect)));
+        let levels = levels_near(&kinks, rect);
         let order = self.orders.choose(&ActiveFunctions {
             patches: patches.len(),
             distance: nearest / diameter,
-            kinks: geometry.has_kinks(patches) || !curves.is_empty(),
+            kinks: geometry.has_kinks(patches) || !levels.is_empty() || !runs.is_empty(),
             probes: !active.is_empty(),
         });
         let order = match self.disc {
@@ -258,10 +263,12 @@ impl CellIntegration<'_> {
             rules: &mut self.rules,
             patches,
             least: self.least,
-            curves: &curves,
-            holes: &holes::near(&self.holes, rect),
+            levels: &levels,
+            runs: &runs,
+            rect,
+            holes: &holes,
         };
-        for polygon in polygons {
+        for polygon in polygons.into_iter().flat_map(|p| arcs::resolved(p, anchor, &runs)) {
             pieces.add(anchor, &polygon, &singular);
         }
     }
@@ -269,11 +276,15 @@ impl CellIntegration<'_> {
     /// The rectangle cut by the segments that meet it and by straight kinks, relative to
     /// the anchor.
     fn cut(&self, rect: &Rect, anchor: Vec2, kinks: &[&KinkLine]) -> Vec<ConvexPolygon> {
-        let meets = |cut: &&SegmentCut| meets(rect, cut.ends[0], cut.ends[1]);
-        let meeting = self.segments.iter().filter(meets).copied();
         let straight = kinks.iter().filter_map(|kink| straight_cut(kink, rect));
-        let cuts: Vec<_> = meeting.chain(straight).map(|cut| cut.seen_from(anchor)).collect();
+        let cuts: Vec<_> =
+            self.cuts(rect).chain(straight).map(|cut| cut.seen_from(anchor)).collect();
         ConvexPolygon(rect.corners().map(|p| p - anchor).to_vec()).pieces(&cuts, self.least)
+    }
+
+    /// The straight cuts that meet a rectangle.
+    fn cuts(&self, rect: &Rect) -> impl Iterator<Item = SegmentCut> {
+        self.segments.iter().copied().filter(|cut| meets(rect, cut.ends[0], cut.ends[1]))
     }
 
     /// The distinct singular points, the nearest first.
@@ -321,7 +332,7 @@ impl KinkLine {
 }
 
 /// The level functions of the curved kinks that may meet a rectangle.
-fn curves_near<'k>(kinks: &[&'k KinkLine], rect: &Rect) -> Vec<&'k LevelFunction> {
+fn levels_near<'k>(kinks: &[&'k KinkLine], rect: &Rect) -> Vec<&'k LevelFunction> {
     let levels = kinks.iter().filter_map(|kink| match *kink {
         KinkLine::Curve(level) => Some(level.as_ref()),
         _ => None,

@@ -1,16 +1,13 @@
 //! Smooth maps of rectangles onto pieces: what tensor Gauss rules and curves are laid out in.
 
 use super::gauss::{MAX_POINTS, Rules1d};
-use super::geometry::{LevelFunction, RayGrading};
+use super::geometry::RayGrading;
+use super::local_curve::LocalCurve;
 use super::polygon::ConvexPolygon;
-use super::roots::{clamp_non_finite, zero};
+use super::roots::zero;
 use super::split::component;
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::rc::Rc;
-
-/// Nearer to a singular point than this part of a piece a curve is drawn as its tangent: what a
-/// function of the position says of sides there is rounding.
-const NEAR_APEX: f64 = 1e-8;
 
 /// The unit square.
 pub(super) const UNIT: Rect = Rect::new(Vec2::ZERO, vec2(1.0, 1.0));
@@ -47,24 +44,28 @@ pub(super) struct CurveStrip<'c> {
     pub(super) above: bool,
 }
 
-/// A level function seen through a chart.
+/// A curve seen through a chart.
 #[derive(Clone)]
 pub(super) struct LevelOn<'c> {
     pub(super) chart: Rc<CellChart<'c>>,
-    pub(super) anchor: Vec2,
-    pub(super) level: &'c LevelFunction,
+    pub(super) curve: LocalCurve<'c>,
 }
 
 impl LevelOn<'_> {
-    /// The function's value at coordinates of the chart.
+    /// The level function's value at coordinates of the chart.
     pub(super) fn at(&self, p: [f64; 2]) -> f64 {
-        self.sample(p).1
+        self.curve.value(self.chart.at(p).0)
     }
 
-    /// The place that coordinates of the chart stand for, and the function's value there.
+    /// The vector whose rounding makes that of the value, and the value.
     pub(super) fn sample(&self, p: [f64; 2]) -> (Vec2, f64) {
-        let place = self.anchor + self.chart.at(p).0;
-        (place, clamp_non_finite((self.level)(place)))
+        let offset = self.chart.at(p).0;
+        (self.curve.place(offset), self.curve.value(offset))
+    }
+
+    /// The least coordinate along an axis at which the curve is still resolved.
+    fn least(&self, axis: usize) -> f64 {
+        self.chart.least(axis, self.curve.least())
     }
 }
 
@@ -132,13 +133,13 @@ impl CellChart<'_> {
         }
     }
 
-    /// The least coordinate along an axis at which a curve is still resolved by positions.
-    fn least(&self, axis: usize) -> f64 {
+    /// The coordinate along an axis that is a part of the way from the anchor.
+    fn least(&self, axis: usize, part: f64) -> f64 {
         match self {
-            Self::Apex(apex) if axis == 1 => NEAR_APEX.powf(1.0 / apex.grading.power),
+            Self::Apex(apex) if axis == 1 => part.powf(1.0 / apex.grading.power),
             Self::Strip(strip) if axis != strip.height => {
                 let (lo, hi) = range(&strip.window, axis);
-                (strip.level.chart.least(axis) - lo) / (hi - lo)
+                (strip.level.chart.least(axis, part) - lo) / (hi - lo)
             }
             _ => f64::NEG_INFINITY,
         }
@@ -171,7 +172,7 @@ impl CurveStrip<'_> {
     /// The interval of the height at a place of the base.
     fn span(&self, base: f64) -> [f64; 2] {
         let (lo, hi) = range(&self.window, self.height);
-        let at = self.base(base).max(self.level.chart.least(1 - self.height));
+        let at = self.base(base).max(self.level.least(1 - self.height));
         let sample = |h: f64| [h, self.level.at(self.ordered(h, at))];
         let ends = [sample(lo), sample(hi)];
         let curve = if ends[0][1] * ends[1][1] < 0.0 {

@@ -12,6 +12,7 @@
 
 use super::chart::{CellChart, CurveStrip, LevelOn, UNIT, range};
 use super::geometry::LevelFunction;
+use super::local_curve::LocalCurve;
 use super::roots::{ZERO, sign_changes};
 use super::split::{TOLERANCE, breaks, cut_at};
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -66,6 +67,10 @@ impl<'c> ChartWindow<'c> {
         Self { chart: Rc::clone(&self.chart), range }
     }
 
+    fn level(&self, curve: &LocalCurve<'c>) -> LevelOn<'c> {
+        LevelOn { chart: Rc::clone(&self.chart), curve: curve.clone() }
+    }
+
     /// The coordinate that divides an axis in a ratio.
     pub(super) fn between(&self, axis: usize, part: f64) -> f64 {
         self.chart.between(axis, range(&self.range, axis), part)
@@ -80,25 +85,23 @@ impl<'c> ChartWindow<'c> {
 /// The windows cut along curves, and whether any of them was.
 pub(super) fn cut_all<'c>(
     mut windows: Vec<ChartWindow<'c>>,
-    curves: &[&'c LevelFunction],
-    anchor: Vec2,
+    curves: &[LocalCurve<'c>],
 ) -> (Vec<ChartWindow<'c>>, bool) {
     // Slivers between curves that coincide do not say how steep a level function is; whole
     // pieces do.
-    let rounding = |&level: &&'c LevelFunction| {
+    let rounding = |curve: &LocalCurve<'c>| {
         let of_window = |window: &ChartWindow<'c>| {
-            let chart = Rc::clone(&window.chart);
-            LevelGrid::new(&LevelOn { chart, anchor, level }, window, COARSE, 0.0).rounding
+            LevelGrid::new(&window.level(curve), window, COARSE, 0.0).rounding
         };
         windows.iter().map(of_window).fold(0.0, f64::max)
     };
     let zeros: Vec<f64> = curves.iter().map(rounding).collect();
     let mut any = false;
-    for (&level, zero) in curves.iter().zip(zeros) {
+    for (curve, zero) in curves.iter().zip(zeros) {
         let mut parts = Vec::new();
         for window in windows {
             let mut looks = LOOKS;
-            match cut(&window, AnchoredLevel { level, anchor, zero }, &mut looks, DEPTH) {
+            match cut(&window, (curve, zero), &mut looks, DEPTH) {
                 Some(cut) => {
                     any = true;
                     parts.extend(cut);
@@ -111,28 +114,20 @@ pub(super) fn cut_all<'c>(
     (windows, any)
 }
 
-/// A level function of offsets from an anchor.
-#[derive(Clone, Copy)]
-struct AnchoredLevel<'c> {
-    level: &'c LevelFunction,
-    anchor: Vec2,
-    /// Values up to this are rounding.
-    zero: f64,
-}
-
 /// False if samples say that the curve stays well away from a rectangle.
 pub(crate) fn may_meet(level: &LevelFunction, rect: &Rect) -> bool {
     let corners = [rect.min, vec2(rect.max.x, rect.min.y), rect.max, vec2(rect.min.x, rect.max.y)];
     let chart = Rc::new(CellChart::Quadrilateral(corners.map(|p| p - rect.min)));
-    let level = LevelOn { chart, anchor: rect.min, level };
-    let window = ChartWindow { chart: Rc::clone(&level.chart), range: UNIT };
+    let window = ChartWindow { chart, range: UNIT };
+    let level = window.level(&LocalCurve::Level(level, rect.min));
     !LevelGrid::new(&level, &window, COARSE, 0.0).is_clear()
 }
 
-/// The parts of a window on both sides of a curve; none if the curve does not run through it.
+/// The parts of a window on both sides of a curve, values of which up to `zero` are rounding; none
+/// if the curve does not run through it.
 fn cut<'c>(
     window: &ChartWindow<'c>,
-    curve: AnchoredLevel<'c>,
+    (curve, zero): (&LocalCurve<'c>, f64),
     looks: &mut usize,
     depth: usize,
 ) -> Option<Vec<ChartWindow<'c>>> {
@@ -140,8 +135,7 @@ fn cut<'c>(
         return None;
     }
     *looks -= 1;
-    let AnchoredLevel { level, anchor, zero } = curve;
-    let level_on = LevelOn { chart: Rc::clone(&window.chart), anchor, level };
+    let level_on = window.level(curve);
     if LevelGrid::new(&level_on, window, COARSE, zero).is_clear() {
         return None;
     }
@@ -155,7 +149,7 @@ fn cut<'c>(
     let mut any = false;
     let mut parts = Vec::new();
     for half in window.halves(grid.uneven()) {
-        let found = cut(&half, curve, looks, depth - 1);
+        let found = cut(&half, (curve, zero), looks, depth - 1);
         any |= found.is_some();
         parts.extend(found.unwrap_or_else(|| vec![half]));
     }

@@ -4,6 +4,7 @@ use super::gauss::MAX_POINTS;
 use ppum::crack::{Crack, SegmentId, Side};
 use ppum::dataset::BoxPartition;
 use ppum::domain::Hole;
+use ppum::edge::Edge;
 use ppum::vec2::Vec2;
 use std::fmt;
 use std::sync::Arc;
@@ -15,10 +16,10 @@ const LEAST_EXPONENT: f64 = 0.04;
 /// More points along a ray for the exponent λ: this over √λ.
 const EXTRA_POINTS: f64 = 8.0;
 
-/// A face of a crack: one side of one of its segments.
+/// A face of a crack: one side of one of its edges.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CrackFace {
-    /// The segment.
+    /// The edge.
     pub segment: SegmentId,
     /// The side that the material lies on.
     pub side: Side,
@@ -31,17 +32,20 @@ impl From<(SegmentId, Side)> for CrackFace {
 }
 
 impl CrackFace {
-    /// The faces of a crack on one side, one per segment.
+    /// The faces of a crack on one side, one per edge.
     pub(crate) fn of(crack: &Crack, index: usize, side: Side) -> impl Iterator<Item = Self> {
         let segment = move |segment| SegmentId { crack: index as u32, segment };
         (1..crack.points.len() as u32).map(move |k| Self { segment: segment(k - 1), side })
     }
 
-    /// The ends of the segment.
-    pub(super) fn ends(&self, cracks: &[Crack]) -> [Vec2; 2] {
-        let (points, k) =
-            (&cracks[self.segment.crack as usize].points, self.segment.segment as usize);
-        [points[k], points[k + 1]]
+    /// The edge.
+    pub(super) fn edge(&self, cracks: &[Crack]) -> Edge {
+        cracks[self.segment.crack as usize].edge(self.segment.segment as usize)
+    }
+
+    /// +1 if the material is on the right of the edge, −1 if it is on its left.
+    pub(super) fn outside(&self) -> f64 {
+        if self.side == Side::Above { -1.0 } else { 1.0 }
     }
 }
 

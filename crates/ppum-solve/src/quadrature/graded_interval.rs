@@ -1,11 +1,26 @@
-//! Parts of a segment, graded where it passes a singular point.
+//! Parts of an edge, graded where it passes a singular point.
 
 use super::adapt::Subregion;
 use super::gauss::{MAX_POINTS, Rules1d};
 use super::geometry::RayGrading;
 use ppum::vec2::Vec2;
 
-/// Coordinate s along a line as a function of the parameter that Gauss rules are laid out in.
+/// Longest part of an arc that gets one rule, in radians. A polynomial of degree 2p of the position
+/// is smooth there: with the points added below its integral is exact to rounding.
+pub(super) const LONGEST: f64 = 0.4;
+
+/// Gauss points more than along a straight line on the longest part, for sines and cosines.
+const EXTRA_POINTS: f64 = 3.0;
+
+/// A line or circle by a point, where s = 0, the unit tangent there and the curvature.
+#[derive(Clone, Copy)]
+pub(super) struct EdgeFrame {
+    pub(super) foot: Vec2,
+    pub(super) tangent: Vec2,
+    pub(super) curvature: f64,
+}
+
+/// Coordinate s along an edge as a function of the parameter that Gauss rules are laid out in.
 #[derive(Clone, Copy)]
 pub(super) enum LineParameter {
     /// The coordinate itself.
@@ -16,13 +31,31 @@ pub(super) enum LineParameter {
     Through { sign: f64, grading: RayGrading },
 }
 
-/// The points foot + s · tangent, relative to an anchor, for an interval of the parameter.
+/// The points of an edge, relative to an anchor, for an interval of the parameter.
 #[derive(Clone)]
 pub(super) struct GradedInterval {
     pub(super) path: LineParameter,
-    pub(super) foot: Vec2,
-    pub(super) tangent: Vec2,
+    pub(super) frame: EdgeFrame,
     pub(super) interval: (f64, f64),
+}
+
+impl EdgeFrame {
+    /// The point at a length from the foot: the chord is turned by half of the arc's turn.
+    pub(super) fn at(&self, s: f64) -> Vec2 {
+        if self.curvature == 0.0 {
+            return self.foot + self.tangent * s;
+        }
+        let half = 0.5 * self.curvature * s;
+        self.foot + self.turned(half) * (2.0 * half.sin() / self.curvature)
+    }
+
+    pub(super) fn tangent_at(&self, s: f64) -> Vec2 {
+        if self.curvature == 0.0 { self.tangent } else { self.turned(self.curvature * s) }
+    }
+
+    fn turned(&self, angle: f64) -> Vec2 {
+        self.tangent * angle.cos() + self.tangent.left() * angle.sin()
+    }
 }
 
 impl LineParameter {
@@ -37,11 +70,8 @@ impl LineParameter {
         }
     }
 
-    fn points(&self, n: usize) -> usize {
-        match self {
-            Self::Through { grading, .. } => (n + grading.extra).min(MAX_POINTS),
-            _ => n,
-        }
+    fn extra_points(&self) -> usize {
+        if let Self::Through { grading, .. } = self { grading.extra } else { 0 }
     }
 }
 
@@ -49,14 +79,22 @@ impl GradedInterval {
     fn part(&self, lo: f64, hi: f64) -> Self {
         Self { interval: (lo, hi), ..*self }
     }
+
+    /// Gauss points where `n` are enough for polynomials of s.
+    fn points(&self, n: usize) -> usize {
+        let [from, to] = [self.interval.0, self.interval.1].map(|u| self.path.at(u).0);
+        let turn = (self.frame.curvature * (to - from)).abs();
+        let extra = (EXTRA_POINTS * (turn / LONGEST).min(1.0)).ceil() as usize;
+        (n + self.path.extra_points() + extra).min(MAX_POINTS)
+    }
 }
 
 impl Subregion for GradedInterval {
     fn nodes(&self, rules: Rules1d, n: usize, push: &mut dyn FnMut(Vec2, f64)) {
         let (lo, hi) = self.interval;
-        for (u, w) in rules(self.path.points(n)).on(lo, hi) {
+        for (u, w) in rules(self.points(n)).on(lo, hi) {
             let (s, slope) = self.path.at(u);
-            push(self.foot + self.tangent * s, w * slope);
+            push(self.frame.at(s), w * slope);
         }
     }
 

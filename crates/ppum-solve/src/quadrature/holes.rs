@@ -1,47 +1,49 @@
 //! Holes in cells: their rims cut, and what lies inside is dropped.
 
 use super::adapt::Subregion as _;
-
 use super::gauss::gauss;
-use super::geometry::LevelFunction;
 use super::piece::SmoothPiece;
+use crate::edges::rim_edges;
 use ppum::domain::{Hole, LocalHole};
+use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2};
-use std::sync::Arc;
+use ppum_problem::geometry::BoxList;
 
-/// The rim of a round hole as the zero set of |x − center|² − radius², formed without cancellation
-/// near the rim.
-pub(super) fn level(hole: &Hole) -> Option<Arc<LevelFunction>> {
-    let Hole::Circle { center, radius } = *hole else { return None };
-    Some(Arc::new(move |p: Vec2| {
-        let distance = (p - center).length();
-        (distance - radius) * (distance + radius)
-    }))
+/// A hole with what many cells ask of it.
+pub(super) struct PlacedHole<'a> {
+    pub(super) hole: &'a Hole,
+    /// The box that holds it.
+    pub(super) bounds: Rect,
+    /// +1 if the material is on the right of its rim, −1 if it is on the left.
+    pub(super) outside: f64,
+    /// The edges of its rim, with their numbers.
+    pub(super) edges: BoxList<(usize, Edge)>,
+    /// True if one of them is an arc.
+    pub(super) is_curved: bool,
+}
+
+impl<'a> PlacedHole<'a> {
+    pub(super) fn new(hole: &'a Hole) -> Self {
+        let (bounds, outside, edges) = (hole.bounds(), hole.orientation(), rim_edges(hole));
+        let is_curved = edges.iter().any(Edge::is_arc);
+        let edges = edges.into_iter().enumerate().map(|(k, edge)| (edge.bounds(), (k, edge)));
+        Self { hole, bounds, outside, edges: BoxList::new(edges), is_curved }
+    }
 }
 
 /// The holes whose bounding boxes meet a rectangle.
-pub(super) fn near<'h>(holes: &[&'h Hole], rect: &Rect) -> Vec<&'h Hole> {
-    holes.iter().copied().filter(|hole| hole.bounds().overlaps(rect)).collect()
-}
-
-/// True if a rectangle lies in one round hole.
-pub(super) fn covered(holes: &[&Hole], rect: &Rect) -> bool {
-    let holds = |hole: &Hole| {
-        matches!(hole, Hole::Circle { .. }) && rect.corners().iter().all(|&p| hole.contains(p))
-    };
-    holes.iter().copied().any(holds)
+pub(super) fn near<'h>(holes: &[&'h PlacedHole<'h>], rect: &Rect) -> Vec<&'h PlacedHole<'h>> {
+    holes.iter().copied().filter(|hole| hole.bounds.overlaps(rect)).collect()
 }
 
 /// Removes the pieces that lie in a hole; each lies on one side of every rim.
-pub(super) fn remove(holes: &[&Hole], anchor: Vec2, pieces: &mut Vec<SmoothPiece<'_>>) {
-    if holes.is_empty() {
-        return;
+pub(super) fn remove(holes: &[LocalHole], pieces: &mut Vec<SmoothPiece<'_>>) {
+    if !holes.is_empty() {
+        pieces.retain(|part| {
+            let inside = middle(part);
+            !holes.iter().any(|hole| hole.contains(inside))
+        });
     }
-    let seen: Vec<LocalHole> = holes.iter().map(|hole| hole.at(anchor)).collect();
-    pieces.retain(|part| {
-        let inside = middle(part);
-        !seen.iter().any(|hole| hole.contains(inside))
-    });
 }
 
 /// A point well inside a piece: that of the rule of fewest points with the largest weight.

@@ -3,7 +3,7 @@
 //! Vertices run counter-clockwise, as offsets from an anchor the caller knows.
 
 use ppum::segment;
-use ppum::vec2::{Vec2, vec2};
+use ppum::vec2::{Rect, Vec2, vec2};
 use std::cmp::Ordering;
 
 /// Distances below this part of a polygon's diameter are rounding.
@@ -92,6 +92,17 @@ impl ConvexPolygon {
         let length = |[a, b]: [Vec2; 2]| (b - a).length();
         let longer = |kept, new| if length(new) > length(kept) { new } else { kept };
         ends.fold([self.0[0]; 2], longer)
+    }
+
+    /// The smallest box that holds it.
+    pub(super) fn bounds(&self) -> Rect {
+        let first = Rect::new(self.0[0], self.0[0]);
+        self.0.iter().fold(first, |b, v| Rect::new(b.min.min(*v), b.max.max(*v)))
+    }
+
+    /// True if `p` lies inside.
+    pub(super) fn holds(&self, p: Vec2) -> bool {
+        self.edges().all(|(a, b)| a == b || (a - p).cross(b - p) > 0.0)
     }
 
     /// True if `p` lies in the closed polygon, up to rounding.
@@ -185,9 +196,8 @@ impl ConvexPolygon {
     }
 
     /// The parts on either side of the middle of its longer side along the axes.
-    fn halves(&self) -> Option<[Self; 2]> {
-        let (min, max) =
-            self.0.iter().fold((self.0[0], self.0[0]), |(a, b), v| (a.min(*v), b.max(*v)));
+    pub(super) fn halves(&self) -> Option<[Self; 2]> {
+        let Rect { min, max } = self.bounds();
         let (middle, size) = ((min + max) * 0.5, max - min);
         let along = if size.x > size.y { vec2(0.0, size.x) } else { vec2(size.y, 0.0) };
         self.cut(middle, middle + along)

@@ -12,14 +12,15 @@
 //! [`SingularGrowth`]: super::SingularGrowth
 
 use super::adapt::{IntegrandDemand, refined};
+use super::arcs::ArcRun;
 use super::chart::{ApexTriangle, CellChart, quadrilaterals};
 use super::curve::{ChartWindow, cut_all};
 use super::geometry::{LevelFunction, Singularity};
-use super::holes;
+use super::holes::{self, PlacedHole};
+use super::local_curve::LocalCurve;
 use super::piece::SmoothPiece;
 use super::polygon::ConvexPolygon;
 use super::rule::Rules;
-use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::rc::Rc;
 
@@ -40,13 +41,16 @@ pub(super) struct PieceQuadrature<'r, 'c> {
     pub(super) demand: IntegrandDemand<'r>,
     /// Pieces smaller than this are dropped.
     pub(super) least: f64,
-    /// Curves across which integrands jump.
-    pub(super) curves: &'r [&'c LevelFunction],
-    /// Holes that may meet the rectangle.
-    pub(super) holes: &'r [&'r Hole],
+    /// Curves across which integrands have kinks.
+    pub(super) levels: &'r [&'c LevelFunction],
+    /// Arcs across which integrands jump.
+    pub(super) runs: &'r [&'r ArcRun],
+    /// The rectangle, and the holes that may meet it.
+    pub(super) rect: &'r Rect,
+    pub(super) holes: &'r [&'r PlacedHole<'r>],
 }
 
-impl PieceQuadrature<'_, '_> {
+impl<'c> PieceQuadrature<'_, 'c> {
     /// Adds the rule of a polygon given relative to `anchor`, with the `singular` points that may
     /// be near it.
     pub(super) fn add(&mut self, anchor: Vec2, polygon: &ConvexPolygon, singular: &[Singularity]) {
@@ -67,9 +71,10 @@ impl PieceQuadrature<'_, '_> {
     }
 
     fn add_regular(&mut self, anchor: Vec2, polygon: &ConvexPolygon) {
-        if !self.curves.is_empty() {
+        let curves = self.curves(anchor, polygon);
+        if !curves.is_empty() {
             let windows = quadrilaterals(polygon).map(ChartWindow::whole).collect();
-            let (windows, cut) = cut_all(windows, self.curves, anchor);
+            let (windows, cut) = cut_all(windows, &curves);
             if cut {
                 return self.add_windows(anchor, windows, true);
             }
@@ -77,12 +82,19 @@ impl PieceQuadrature<'_, '_> {
         self.add_parts(anchor, vec![SmoothPiece::Polygon(polygon.clone())], false);
     }
 
+    /// The curves that may cut a polygon.
+    fn curves(&self, anchor: Vec2, polygon: &ConvexPolygon) -> Vec<LocalCurve<'c>> {
+        let levels = self.levels.iter().map(|&level| LocalCurve::Level(level, anchor));
+        levels.chain(self.runs.iter().flat_map(|run| run.through(anchor, polygon))).collect()
+    }
+
     /// Adds triangles with their apex at the singular point, one for each edge of the polygon.
     fn add_fan(&mut self, at: &Singularity, polygon: &ConvexPolygon) {
         let has_area = |(a, b): &(Vec2, Vec2)| 0.5 * a.cross(*b) > self.least;
         let edges = polygon.edges().filter(has_area);
         let triangles = edges.map(|(a, b)| apex_triangle(at, a, b, self.demand.order));
-        let (windows, cut) = cut_all(triangles.flatten().collect(), self.curves, at.point);
+        let (windows, cut) =
+            cut_all(triangles.flatten().collect(), &self.curves(at.point, polygon));
         self.add_windows(at.point, windows, cut);
     }
 
@@ -92,7 +104,9 @@ impl PieceQuadrature<'_, '_> {
 
     /// Adds the rules of pieces, divided until they resolve what they have to.
     fn add_parts(&mut self, anchor: Vec2, mut parts: Vec<SmoothPiece<'_>>, curved: bool) {
-        holes::remove(self.holes, anchor, &mut parts);
+        let heights = [self.rect.min, self.rect.max].map(|p| p.y - anchor.y);
+        let holes = self.holes.iter().map(|placed| placed.hole.between(anchor, heights));
+        holes::remove(&holes.collect::<Vec<_>>(), &mut parts);
         let demand = IntegrandDemand { anchor, curved, ..self.demand };
         let rule = self.rules.rule(self.patches, anchor);
         let doubt = refined(parts, &demand, &mut |x, w| rule.push(x, w));

@@ -9,6 +9,7 @@
 use super::rim::{FOR_ENERGY, RimCorner, bends, finest};
 use crate::corner::{SingularCause, SingularCorner};
 use ppum::domain::Hole;
+use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::Problem;
 use ppum_problem::geometry::{around, exceeds, wider};
@@ -31,6 +32,11 @@ const STRONG: f64 = 0.6;
 /// the corner's room: most of the patches in the room then have the functions.
 const WITH_FUNCTIONS: f64 = 0.5;
 const CELLS_OF_FUNCTIONS: f64 = 0.25;
+
+/// Largest cells on an arc of a crack, in its radii. Continued across the arc, the field on one side
+/// of it is singular at the centre, so that polynomials of order p leave (h/R)^p: an arc of 170° has
+/// K to 6e-8 in cells of 0.2 radii and to 4e-10 in cells of 0.1, at order 6.
+const ON_CRACK: f64 = 0.125;
 
 /// Smallest cells that are asked for, in parts of the base cover's: what is smaller is
 /// not resolved.
@@ -60,10 +66,11 @@ enum GradedShape {
     Point(Vec2),
     Circle(Vec2, f64),
     Bend(RimCorner),
+    Arc(Edge),
 }
 
-/// The demands of the singular points and the round rims of a problem on a base cover with cells of
-/// the given size.
+/// The demands of the singular points, the round rims and the arcs of cracks of a problem on a base
+/// cover with cells of the given size.
 pub(super) fn graded(
     problem: &Problem,
     corners: &[SingularCorner],
@@ -71,15 +78,17 @@ pub(super) fn graded(
 ) -> Vec<GradedDemand> {
     let plate = problem.domain().bounds.size();
     let bits = |p: Vec2| [p.x.to_bits(), p.y.to_bits()];
+    let rims = problem.domain().holes.iter();
     let on_curves: BTreeSet<_> =
-        problem.domain().holes.iter().flat_map(bends).map(|bend| bits(bend.at)).collect();
+        rims.flat_map(|hole| bends(hole, 1.0)).map(|bend| bits(bend.at)).collect();
     // what follows a curve has its radius, and is no corner; what is given may end there
     let sharp = corners.iter().filter(|corner| {
         corner.nature != SingularCause::Corner || !on_curves.contains(&bits(corner.at))
     });
     let at_corners = sharp.filter_map(|c| GradedDemand::corner(c, plate.x.min(plate.y)));
     let rims = problem.domain().holes.iter().flat_map(|hole| GradedDemand::rim(hole, problem));
-    let mut all: Vec<_> = at_corners.chain(rims).collect();
+    let arcs = problem.cracks().iter().flat_map(|crack| crack.edges().filter(Edge::is_arc));
+    let mut all: Vec<_> = at_corners.chain(rims).chain(arcs.map(GradedDemand::on_arc)).collect();
     all.iter_mut().for_each(|graded| graded.finest = graded.finest.max(SMALLEST * size));
     all
 }
@@ -113,10 +122,16 @@ impl GradedDemand {
                 vec![of(GradedShape::Circle(center, radius), radius)]
             }
             Hole::Polygon { .. } => {
-                let all = bends(hole).into_iter();
+                let all = bends(hole, part).into_iter();
                 all.map(|bend| of(GradedShape::Bend(bend), bend.radius)).collect()
             }
         }
+    }
+
+    /// The demand of an arc of a crack.
+    fn on_arc(arc: Edge) -> Self {
+        let finest = ON_CRACK / arc.curvature().abs();
+        Self { from: GradedShape::Arc(arc), finest, slope: SLOPE }
     }
 
     /// Farthest distance from a cell of something that asks it to be smaller, in sizes of the cell.
@@ -127,6 +142,7 @@ impl GradedDemand {
         match self.from {
             GradedShape::Point(p) | GradedShape::Bend(RimCorner { at: p, .. }) => around(&[p]),
             GradedShape::Circle(center, radius) => wider(&around(&[center]), radius),
+            GradedShape::Arc(arc) => arc.bounds(),
         }
     }
 
@@ -147,6 +163,7 @@ impl GradedDemand {
         let radius = match self.from {
             GradedShape::Point(_) => return false,
             GradedShape::Circle(_, radius) | GradedShape::Bend(RimCorner { radius, .. }) => radius,
+            GradedShape::Arc(arc) => arc.curvature().abs().recip(),
         };
         let is_finer = self.finest * STEP <= FOR_ENERGY * radius;
         self.finest *= if is_finer { STEP } else { 1.0 };
@@ -161,6 +178,7 @@ impl GradedDemand {
             GradedShape::Point(_) => return RING * rings / (self.slope * self.slope),
             GradedShape::Circle(_, radius) => std::f64::consts::TAU * radius,
             GradedShape::Bend(bend) => bend.length,
+            GradedShape::Arc(arc) => arc.length(),
         };
         ON_RIM * length / self.finest
     }
@@ -170,6 +188,12 @@ impl GradedShape {
     fn distance(&self, cell: &Rect) -> f64 {
         match *self {
             Self::Point(p) | Self::Bend(RimCorner { at: p, .. }) => cell.distance(p),
+            Self::Arc(arc) if cell.contains(arc.from) => 0.0,
+            Self::Arc(arc) => {
+                let [a, b, c, d] = cell.corners();
+                let sides = [[a, b], [b, c], [c, d], [d, a]].map(Edge::segment);
+                sides.iter().map(|side| side.gap(&arc)).fold(f64::INFINITY, f64::min)
+            }
             Self::Circle(center, radius) => {
                 let away = cell.center() - center;
                 let farthest = vec2(away.x.abs(), away.y.abs()) + cell.size() * 0.5;

@@ -2,10 +2,12 @@
 //! crack, the body bends like a beam, and a few cells must lie across.
 
 use super::graded::SMALLEST;
+use crate::edges::rim_edges;
+use ppum::crack::Crack;
 use ppum::domain::Hole;
-use ppum::segment::polyline_distance;
+use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2};
-use ppum_problem::geometry::exceeds;
+use ppum_problem::geometry::{BoxList, exceeds, wider};
 use ppum_problem::{DomainEdge, Problem};
 
 /// Largest cells in a ligament, in parts of its width: the energy is right to 4e-4 then, with half
@@ -30,7 +32,7 @@ const MOST: usize = 16;
 enum LigamentEnd<'p> {
     Edge(DomainEdge, &'p Rect),
     Hole(&'p Hole),
-    Crack(&'p [Vec2]),
+    Crack(&'p Crack),
 }
 
 /// The ligaments of a problem that ask for cells smaller than `size`.
@@ -44,11 +46,12 @@ pub(super) fn ligaments(problem: &Problem, size: f64) -> Vec<Ligament<'_>> {
         let edges = DomainEdge::ALL.into_iter().filter(|_| !hole.is_outside());
         let edges = edges.map(|edge| LigamentEnd::Edge(edge, bounds));
         let others = holes[..k].iter().map(LigamentEnd::Hole);
-        let cracks = problem.cracks().iter().map(|crack| LigamentEnd::Crack(&crack.points));
+        let cracks = problem.cracks().iter().map(LigamentEnd::Crack);
         let all = edges.chain(others).chain(cracks);
+        let rim = rim_edges(hole);
         let mut own: Vec<_> = all
             .filter_map(|other| {
-                let width = width(hole, other);
+                let width = width(&rim, other.edges(), size / ACROSS);
                 let finest = (ACROSS * width).max(SMALLEST * size);
                 (width > thinnest && finest < size).then_some(Ligament { hole, other, finest })
             })
@@ -98,42 +101,28 @@ impl LigamentEnd<'_> {
         match *self {
             Self::Edge(edge, bounds) => edge.depth(bounds, p).abs(),
             Self::Hole(hole) => hole.rim_distance(p),
-            Self::Crack(points) => polyline_distance(points, p),
+            Self::Crack(crack) => crack.distance(p),
         }
     }
 
-    /// Points of which one is nearest to a circle or to a polygon that keeps apart, beside the
-    /// polygon's own.
-    fn corners(&self) -> Vec<Vec2> {
-        match self {
-            Self::Edge(..) | Self::Hole(Hole::Circle { .. }) => Vec::new(),
-            Self::Hole(Hole::Polygon { points, .. }) => points.clone(),
-            Self::Crack(points) => points.to_vec(),
+    fn edges(&self) -> Vec<Edge> {
+        match *self {
+            Self::Edge(edge, bounds) => {
+                vec![Edge::segment(edge.range(bounds).map(|s| edge.point(bounds, s)))]
+            }
+            Self::Hole(hole) => rim_edges(hole),
+            Self::Crack(crack) => crack.edges().collect(),
         }
     }
 }
 
-/// Width of the material between a hole and something else; zero or less where they touch.
-fn width(hole: &Hole, other: LigamentEnd<'_>) -> f64 {
-    match (hole, other) {
-        (Hole::Circle { center, radius }, LigamentEnd::Edge(edge, bounds)) => {
-            edge.depth(bounds, *center) - radius
-        }
-        (
-            Hole::Circle { center, radius },
-            LigamentEnd::Hole(Hole::Circle { center: c, radius: r }),
-        ) => (*c - *center).length() - radius - r,
-        (Hole::Circle { center, radius }, _) => other.distance(*center) - radius,
-        (Hole::Polygon { .. }, LigamentEnd::Hole(Hole::Circle { center, radius })) => {
-            hole.rim_distance(*center) - radius
-        }
-        (Hole::Polygon { points, .. }, LigamentEnd::Edge(edge, bounds)) => {
-            points.iter().map(|p| edge.depth(bounds, *p)).fold(f64::INFINITY, f64::min)
-        }
-        (Hole::Polygon { points, .. }, _) => {
-            let there = points.iter().map(|p| other.distance(*p));
-            let back = other.corners().into_iter().map(|p| hole.rim_distance(p));
-            there.chain(back).fold(f64::INFINITY, f64::min)
-        }
-    }
+/// Width of the material between a rim and other edges, zero where they touch; ∞ if it is more than
+/// `reach`.
+fn width(rim: &[Edge], others: Vec<Edge>, reach: f64) -> f64 {
+    let others = BoxList::new(others.into_iter().map(|edge| (edge.bounds(), edge)));
+    let near = |edge: &Edge| {
+        let near = others.near(&wider(&edge.bounds(), reach));
+        near.map(|other| edge.gap(other)).fold(f64::INFINITY, f64::min)
+    };
+    rim.iter().map(near).fold(f64::INFINITY, f64::min)
 }

@@ -4,9 +4,9 @@ use super::{RefineError, at_most};
 use crate::watched::WorkPhase;
 use ppum::cover::Cover;
 use ppum::domain::Hole;
-use ppum::segment::Segment;
+use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_problem::geometry::{BoxList, around, distance, wider};
+use ppum_problem::geometry::{BoxList, distance, wider};
 use ppum_problem::{DEEPEST, LocalRefinement, Problem, RefinementRegion, nine};
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -84,19 +84,19 @@ enum DistanceOrigin<'p> {
     Plate,
     Box(Rect),
     Disc(Vec2, f64),
-    Rim(&'p Hole, PolygonSides),
-    Crack(PolygonSides),
+    Rim(&'p Hole, PlacedEdges),
+    Crack(PlacedEdges),
 }
 
-/// The sides of a polygon or the segments of a crack, shared by all that name it.
-type PolygonSides = Rc<BoxList<Segment>>;
+/// The edges of a rim or a crack, shared by all that name it.
+type PlacedEdges = Rc<BoxList<Edge>>;
 
 fn demands(problem: &Problem) -> BoxList<ManualRefinement<'_>> {
-    let mut known: BTreeMap<(bool, usize), PolygonSides> = BTreeMap::new();
+    let mut known: BTreeMap<(bool, usize), PlacedEdges> = BTreeMap::new();
     let mut sides = |is_hole: bool, index: usize| {
-        let all: &dyn Fn() -> PolygonSides = &|| match is_hole {
-            true => placed(problem.domain().holes[index].sides()),
-            false => placed(problem.cracks()[index].points.windows(2).map(|s| [s[0], s[1]])),
+        let all: &dyn Fn() -> PlacedEdges = &|| match is_hole {
+            true => placed(problem.domain().holes[index].edges()),
+            false => placed(problem.cracks()[index].edges()),
         };
         known.entry((is_hole, index)).or_insert_with(all).clone()
     };
@@ -119,8 +119,8 @@ fn demands(problem: &Problem) -> BoxList<ManualRefinement<'_>> {
     }))
 }
 
-fn placed(all: impl Iterator<Item = Segment>) -> PolygonSides {
-    Rc::new(BoxList::new(all.map(|ends| (around(&ends), ends))))
+fn placed(all: impl Iterator<Item = Edge>) -> PlacedEdges {
+    Rc::new(BoxList::new(all.map(|edge| (edge.bounds(), edge))))
 }
 
 impl ManualRefinement<'_> {
@@ -161,8 +161,8 @@ impl ManualRefinement<'_> {
     }
 }
 
-/// True if one of the segments is no farther from a cell; what touches it up to rounding does.
-fn near(sides: &PolygonSides, cell: &Rect, reach: f64) -> bool {
+/// True if one of the edges is no farther from a cell; what touches it up to rounding does.
+fn near(sides: &PlacedEdges, cell: &Rect, reach: f64) -> bool {
     let reach = reach + ROUNDING * longest(cell);
     sides.near(&wider(cell, reach)).any(|side| distance(*side, cell) <= reach)
 }

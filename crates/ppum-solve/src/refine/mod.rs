@@ -16,7 +16,7 @@
 //!
 //! Enrichment does the rest at tips, and at corners that turn inwards between free sides: grading
 //! toward them gains nothing once the singular functions are there. Other singular points, and
-//! round rims, have no such functions: cells are graded towards them.
+//! round rims and arcs of cracks, have no such functions: cells are graded towards them.
 
 mod graded;
 mod ligament;
@@ -33,7 +33,8 @@ use ppum::border::touch;
 use ppum::cover::{Cover, CoverError};
 use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
 use ppum::dataset::BoxPartition;
-use ppum::domain::{Domain, Hole};
+use ppum::domain::Domain;
+use ppum::edge::Edge;
 use ppum::progress::Cancelled;
 use ppum::text::trimmed;
 use ppum::vec2::{Rect, Vec2};
@@ -210,7 +211,7 @@ impl TipDemands {
         };
         let points: Vec<_> = tips(problem.cracks()).map(|id| (id, tip(id), reach(id))).collect();
         let numbered = problem.cracks().iter().enumerate();
-        let cracks = BoxList::new(numbered.map(|crack| (around(&crack.1.points), crack)));
+        let cracks = BoxList::new(numbered.map(|crack| (crack.1.bounds(), crack)));
         let at_tips = tips(problem.cracks()).map(|tip| TipDemand::new(problem, &cracks, tip));
         let all = at_tips.chain(problem.cracks().iter().flat_map(|crack| mouths(crack, problem)));
         let place = |need: TipDemand| (wider(&around(&[need.tip]), need.near), need);
@@ -324,22 +325,20 @@ pub fn n_crossed_twice(problem: &Problem, partition: &BoxPartition) -> usize {
 }
 
 /// Rims of polygons, which can cross a patch twice.
-pub struct Rims<'p> {
+struct Rims {
     domain: Rect,
     overlap: f64,
-    /// Their corners, and sizes of cells that are not divided.
-    rims: BoxList<(&'p [Vec2], f64)>,
+    /// Their sides, and sizes of cells that are not divided.
+    rims: BoxList<(Vec<Edge>, f64)>,
 }
 
-impl<'p> Rims<'p> {
-    fn new(problem: &'p Problem) -> Self {
-        let rims = problem.domain().holes.iter().filter_map(|hole| match hole {
-            Hole::Circle { .. } => None,
-            Hole::Polygon { points, .. } => {
-                let size = hole.rim_bounds().size();
-                let part = if hole.is_outside() { LEAST_SLOT } else { LEAST_GAP };
-                Some((hole.rim_bounds(), (points.as_slice(), part * size.x.max(size.y))))
-            }
+impl Rims {
+    fn new(problem: &Problem) -> Self {
+        let polygons = problem.domain().holes.iter().filter(|hole| hole.edges().next().is_some());
+        let rims = polygons.map(|hole| {
+            let size = hole.rim_bounds().size();
+            let part = if hole.is_outside() { LEAST_SLOT } else { LEAST_GAP };
+            (hole.rim_bounds(), (hole.edges().collect(), part * size.x.max(size.y)))
         });
         let overlap = problem.discretization.overlap;
         Self { domain: problem.domain().bounds, overlap, rims: BoxList::new(rims) }
@@ -352,7 +351,7 @@ impl<'p> Rims<'p> {
         let inside = patch.intersection(&self.domain);
         self.rims
             .near(patch)
-            .any(|(points, least)| exceeds(size, *least) && runs_of_rim(points, &inside) > 1)
+            .any(|(sides, least)| exceeds(size, *least) && runs_of_rim(sides, &inside) > 1)
     }
 }
 
@@ -378,9 +377,7 @@ impl TipDemand {
         let near = cracks.near(&wider(&around(&[tip]), reach)).copied();
         let clearance = TipClearance::among(near, problem.domain(), (crack, id)).radius.min(reach);
         let elastic = problem.equation.elastic();
-        // beyond the other end there is nothing of it
-        let mut apart = bent_part(crack, id.end);
-        apart.pop();
+        let apart = bent_part(crack, id.end).iter().map(|edge| edge.from).collect();
         let interface = elastic.and_then(|body| interface_distance(body, tip, clearance));
         let clearance = interface.unwrap_or(clearance);
         Self {
@@ -423,7 +420,8 @@ fn mouths(crack: &Crack, problem: &Problem) -> Vec<TipDemand> {
 /// The point at which the way from the end of a crack at a hole comes out of it into the body
 /// again.
 fn behind_holes(from: Vec2, way: Vec2, domain: &Domain) -> Option<Vec2> {
-    let crossings = domain.holes.iter().flat_map(|hole| rim_crossings(from, from + way, hole));
+    let ray = Edge::segment([from, from + way]);
+    let crossings = domain.holes.iter().flat_map(|hole| rim_crossings(ray, hole));
     let mut all: Vec<f64> = crossings.filter(|t| *t > BEYOND).collect();
     all.sort_by(f64::total_cmp);
     let out = all.into_iter().find(|t| domain.contains(from + way * (t + BEYOND)))?;

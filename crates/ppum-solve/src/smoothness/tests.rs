@@ -53,10 +53,10 @@ fn knots_of_splines() {
 
 /// A crack, patches of half-size 0.1.
 fn surroundings() -> TraitContext<'static> {
-    let kinked = Crack {
-        points: vec![vec2(-1.0, 0.0), vec2(0.0, 0.0), vec2(1.0, 1.0)],
-        ends: [CrackEnd::Mouth, CrackEnd::Tip],
-    };
+    let kinked = Crack::polyline(
+        vec![vec2(-1.0, 0.0), vec2(0.0, 0.0), vec2(1.0, 1.0)],
+        [CrackEnd::Mouth, CrackEnd::Tip],
+    );
     TraitContext {
         cracks: vec![kinked].into(),
         tables: &[],

@@ -64,7 +64,7 @@ impl FaceLaw {
         points.zip(sides).map(at).collect()
     }
 
-    /// The normal stress between the faces at a point of a segment; zero where they are open.
+    /// The normal stress between the faces at a point of an edge; zero where they are open.
     pub fn pressed(
         self,
         field: &Field<'_>,
@@ -73,9 +73,8 @@ impl FaceLaw {
         size: f64,
     ) -> f64 {
         let mut local: LocalField<'_> = field.on(segment, at);
-        let crack = &field.step.cracks[segment.crack as usize].points;
-        let k = segment.segment as usize;
-        let normal = (crack[k + 1] - crack[k]).unit().left();
+        let edge = field.step.cracks[segment.crack as usize].edge(segment.segment as usize);
+        let normal = edge.tangent_towards(at).left();
         let mut on = |side: Side| {
             let mut u = [Jet::constant(0.0); 2];
             local.evaluate::<1>(Vec2::ZERO, side, &mut u).then_some(u)

@@ -10,6 +10,7 @@ use ppum::border::BorderLine;
 use ppum::border::touch;
 use ppum::crack::TipId;
 use ppum::dataset::BoxPartition;
+use ppum::edge::Edge;
 use ppum::segment::Segment;
 use ppum::vec2::Vec2;
 use ppum_problem::geometry::{clipped, solid_part, wider};
@@ -74,8 +75,9 @@ fn seen_length(
     let near =
         wider(&partition.support(patch).intersection(&domain.bounds), 1e-3 * touch(&domain.bounds));
     let others = domain.holes.iter().enumerate().filter(|(k, _)| line.hole != Some(*k));
-    let solid = |range| solid_part(a, b, range, others.clone().map(|(_, hole)| hole));
-    clipped(a, b, &near).map_or(0.0, |range| solid(range) * (b - a).length())
+    let edge = Edge::segment([a, b]);
+    let solid = |range| solid_part(edge, range, others.clone().map(|(_, hole)| hole));
+    clipped(edge, &near).into_iter().map(|range| solid(range) * edge.length()).sum()
 }
 
 fn held_line(line: &BorderLine, condition: &BoundaryCondition) -> Option<HeldLine> {

@@ -4,6 +4,7 @@
 //! real ones — so that each checks the other. The texts are formulas of x and y in the syntax of
 //! `ppum::formula`; what they bind with `let` is named `dx`, `px`, … and never `r` or `theta`.
 
+mod arc_crack;
 mod collinear;
 mod field;
 mod in_plane;
@@ -14,6 +15,7 @@ mod smooth;
 mod tests;
 mod williams;
 
+pub use arc_crack::ArcCrack;
 pub use collinear::CollinearCracks;
 pub use field::{Component, ElasticField, ExactField, stress};
 pub use in_plane::CrackInPlane;

@@ -12,6 +12,7 @@ pub use double::DoubleDouble;
 use double::operators;
 use ppum::crack::{Crack, End, TipId};
 use ppum::dataset::{Dataset, FieldData, Material, Step, StressState};
+use ppum::edge::Edge;
 use ppum::function::{Cut, CutBranch, Frame, FunctionKind, WESTERGAARD};
 use ppum::polynomial::exponents;
 use ppum::vec2::Vec2;
@@ -207,16 +208,19 @@ fn spline(weight: &WeightFunction, s: Dual) -> Dual {
     }
 }
 
-/// Unit direction out of the crack at an end.
+/// Unit direction out of the crack at an end: the chord of its edge, turned by half of what that
+/// turns.
 fn axis(crack: &Crack, end: End) -> ExtendedPoint {
-    let n = crack.points.len();
-    let (from, to) = match end {
-        End::Start => (crack.points[1], crack.points[0]),
-        End::Last => (crack.points[n - 2], crack.points[n - 1]),
+    let edge = match end {
+        End::Start => crack.edge(0).reversed(),
+        End::Last => crack.edge(crack.points.len() - 2),
     };
-    let [x, y] = minus(point(to, Vec2::ZERO), from);
-    let length = (x * x + y * y).sqrt();
-    [x / length, y / length]
+    let [x, y] = minus(point(edge.to, Vec2::ZERO), edge.from);
+    let (bulge, length) = (DoubleDouble::from(edge.bulge), (x * x + y * y).sqrt());
+    let one = DoubleDouble::from(1.0);
+    let weight = (one + bulge * bulge) * length;
+    let (cos, sin) = ((one - bulge * bulge) / weight, bulge * 2.0 / weight);
+    [cos * x - sin * y, cos * y + sin * x]
 }
 
 /// Real and imaginary part of the principal square root of z = x + iy: Re √z = √((|z| + x)/2) and
@@ -230,27 +234,48 @@ fn root(x: Dual, y: Dual) -> [Dual; 2] {
     [real, y / (real * 2.0)]
 }
 
-/// +1 left of a crack, −1 right of it. Its first and last segment, extended to infinity, part the
-/// plane in two; a ray from the point changes sides whenever it crosses.
+/// +1 left of a crack, −1 right of it. The crack and the tangents beyond its ends part the plane in
+/// two; a ray from the point changes sides whenever it crosses. It crosses an arc as often as the
+/// chord, and once more from between both.
 #[must_use]
 pub fn side(crack: &Crack, p: ExtendedPoint) -> f64 {
     let ray = [DoubleDouble::from(0.602_214_076), DoubleDouble::from(0.798_357_313)];
-    let last = crack.points.len() - 2;
-    let crosses = |(k, s): (usize, &[Vec2])| {
-        let from = minus(point(s[0], Vec2::ZERO), s[1]).map(|c| -c);
-        let to_start = minus(p, s[0]).map(|c| -c);
-        let denominator = cross(ray, from);
+    let crosses = |from: Vec2, way: ExtendedPoint, is_endless: bool| {
+        let to_start = minus(p, from).map(|c| -c);
+        let denominator = cross(ray, way);
         let (along_ray, along) =
-            (cross(to_start, from) / denominator, cross(to_start, ray) / denominator);
-        along_ray > 0.0 && (along >= 0.0 || k == 0) && (along < 1.0 || k == last)
+            (cross(to_start, way) / denominator, cross(to_start, ray) / denominator);
+        along_ray > 0.0 && along >= 0.0 && (along < 1.0 || is_endless)
     };
-    let crossings = crack.points.windows(2).enumerate().filter(|&s| crosses(s)).count();
-    let far = far_side(axis(crack, End::Start), axis(crack, End::Last), ray);
+    let of_edge = |edge: Edge| {
+        let chord = minus(point(edge.to, Vec2::ZERO), edge.from);
+        usize::from(crosses(edge.from, chord, false)) + usize::from(is_beside_chord(&edge, p))
+    };
+    let axes = [End::Start, End::Last].map(|end| (crack.end_point(end), axis(crack, end)));
+    let rays = axes.map(|(end, axis)| usize::from(crosses(end, axis, true)));
+    let crossings = crack.edges().map(of_edge).chain(rays).sum::<usize>();
+    let far = far_side(axes[0].1, axes[1].1, ray);
     if crossings.is_multiple_of(2) { far } else { -far }
 }
 
+/// True between an arc and its chord: in the circle, and on the arc's side of the chord.
+fn is_beside_chord(edge: &Edge, p: ExtendedPoint) -> bool {
+    if !edge.is_arc() {
+        return false;
+    }
+    let [dx, dy] = minus(point(edge.to, Vec2::ZERO), edge.from);
+    let (bulge, one) = (DoubleDouble::from(edge.bulge), DoubleDouble::from(1.0));
+    // from the first end to the centre
+    let height = (one - bulge * bulge) / (bulge * 4.0);
+    let center = [dx * 0.5 - dy * height, dy * 0.5 + dx * height];
+    let from_start = minus(p, edge.from);
+    let [x, y] = [from_start[0] - center[0], from_start[1] - center[1]];
+    let is_inside = x * x + y * y < center[0] * center[0] + center[1] * center[1];
+    is_inside && (cross([dx, dy], from_start) < 0.0) == (edge.bulge > 0.0)
+}
+
 /// 1 in the component of a tree of cuts, 0 outside: the areas of triangles of segments and the
-/// point tell the way.
+/// point tell the way, of arcs the angle at the point, whose sine and cosine are in proportion.
 ///
 /// # Panics
 /// If a cut or a segment is not there.
@@ -262,9 +287,13 @@ pub fn indicator(cuts: &[Cut], cracks: &[Crack], p: ExtendedPoint) -> f64 {
             return if part == CutBranch::Inside { 1.0 } else { 0.0 };
         };
         let Cut { segment, left, right } = cuts[k as usize];
-        let points = &cracks[segment.crack as usize].points[segment.segment as usize..];
-        let from = minus(point(points[1], Vec2::ZERO), points[0]);
-        part = if cross(from, minus(p, points[0])) >= 0.0 { left } else { right };
+        let Edge { from, to, bulge } =
+            cracks[segment.crack as usize].edge(segment.segment as usize);
+        let (chord, from, to) = (minus(point(to, Vec2::ZERO), from), minus(p, from), minus(p, to));
+        let (bulge, one) = (DoubleDouble::from(bulge), DoubleDouble::from(1.0));
+        let angle = (one - bulge * bulge) * cross(chord, from)
+            - bulge * 2.0 * (from[0] * to[0] + from[1] * to[1]);
+        part = if angle >= 0.0 { left } else { right };
     }
 }
 
@@ -331,7 +360,7 @@ mod tests {
     #[test]
     fn sides_by_crossings() {
         let points = [[-1.0, 1.0], [0.0, 0.0], [1.0, 1.0]].map(Vec2::from).to_vec();
-        let mut v = Crack { points, ends: [CrackEnd::Tip; 2] };
+        let mut v = Crack::polyline(points, [CrackEnd::Tip; 2]);
         for (p, expected) in
             [((0.0, 0.5), 1.0), ((0.0, -0.5), -1.0), ((-3.0, 0.0), -1.0), ((3.0, 4.0), 1.0)]
         {
@@ -340,6 +369,23 @@ mod tests {
             assert_eq!(side(&v, p), expected);
             v.points.reverse();
             assert_eq!(side(&v, p), -expected);
+        }
+    }
+
+    /// Beside arcs of up to half a turn, at both ends and in the middle: tangents at the ends of
+    /// longer ones meet, and what lies behind them has no side by crossings.
+    #[test]
+    fn sides_of_arcs_by_crossings() {
+        for bulge in [-1.0, -0.3, -1e-9, 1e-9, 0.3, 1.0] {
+            let points = [[-0.3, 0.1], [0.4, 0.2], [0.9, -0.3]].map(Vec2::from).to_vec();
+            let crack = Crack { points, bulges: vec![bulge, 0.4], ends: [CrackEnd::Tip; 2] };
+            for (edge, part) in crack.edges().flat_map(|edge| [0.1, 0.5, 0.97].map(|t| (edge, t))) {
+                let normal = edge.tangent(part).left();
+                for (step, expected) in [(1e-9, 1.0), (-1e-9, -1.0)] {
+                    let p = point(edge.at(part), normal * step);
+                    assert_eq!(side(&crack, p), expected, "{bulge} {part}");
+                }
+            }
         }
     }
 }

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use ppum::crack::{Crack, CrackEnd};
 use ppum::dataset::{Dataset, Eigenstrain, Material, StressState};
-use ppum::domain::Hole;
+use ppum::domain::{Hole, PolygonSide};
+use ppum::edge::Edge;
 use ppum::equation::{Elasticity, Equation};
 use ppum::expression::Expression;
 use ppum::formula::{Scope, Table};
@@ -92,6 +93,7 @@ pub fn coverings() -> Vec<DrawingCase> {
     for (seed, quantities) in [(1, &partition[..]), (2, SOME), (3, SOME)] {
         all.push(DrawingCase::new(&format!("random {seed}"), &Recipe::random(seed), quantities));
     }
+    all.push(DrawingCase::new("random with arcs", &Recipe::random(4).with_arcs(), SOME));
     all
 }
 
@@ -231,6 +233,8 @@ pub fn equations() -> Vec<DrawingCase> {
         DrawingCase::new("holes", &coarse, &["von-mises", "ux"]).with(|d| d.domain.holes = holes()),
         DrawingCase::new("outline", &coarse, &["von-mises", "ux"])
             .with(|d| d.domain.holes = outlined()),
+        DrawingCase::new("rims with arcs", &coarse, &["von-mises", "ux"])
+            .with(|d| d.domain.holes = rounded()),
     ]
 }
 
@@ -252,6 +256,26 @@ fn outlined() -> Vec<Hole> {
     let mut all = holes();
     all.push(Hole::outside(points.map(Vec2::from).to_vec()));
     all
+}
+
+/// A body with an outline of arcs and segments, a slot with round ends, and a hole of a large arc
+/// and a small one.
+fn rounded() -> Vec<Hole> {
+    let polygon = |points: &[[f64; 2]], bulges: &[f64], side| Hole::Polygon {
+        points: points.iter().copied().map(Vec2::from).collect(),
+        bulges: bulges.to_vec(),
+        side,
+    };
+    let outline = [[0.25, -0.25], [1.3, -0.2], [1.35, 0.5], [0.3, 0.6]];
+    vec![
+        polygon(&outline, &[0.0, 0.5, -0.2, 0.0], PolygonSide::Outside),
+        polygon(
+            &[[0.4, 0.4], [0.7, 0.4], [0.7, 0.48], [0.4, 0.48]],
+            &[0.0, 1.0, 0.0, 1.0],
+            PolygonSide::Inside,
+        ),
+        polygon(&[[1.1, -0.02], [1.2, 0.0]], &[2.5, -0.4], PolygonSide::Inside),
+    ]
 }
 
 /// Windows partly and wholly outside, of odd sizes, and inside one patch.
@@ -299,6 +323,31 @@ pub fn zooms() -> DrawingCase {
         .flat_map(|place| ZOOMS.map(|zoom| zoomed(&recipe, place(zoom), zoom)))
         .collect();
     DrawingCase::new("zooms", &recipe, SOME).with_windows(windows)
+}
+
+/// Zooms by the same factors to a tip on an arc, beside it, to the middle of the arc, to its joint
+/// with a segment of the same tangent, to a kink of two arcs, and to the rim of a hole.
+#[must_use]
+pub fn arc_zooms() -> DrawingCase {
+    let points = [[0.5713, 0.0931], [0.7642, 0.2217], [0.9831, 0.1973], [1.1837, 0.2831]];
+    let [a, b, c, d] = points.map(Vec2::from);
+    let arc = Edge::tangent_to(b, (b - a).unit(), c);
+    let last = Edge { from: c, to: d, bulge: 0.7 };
+    let bulges = vec![0.0, arc.bulge, last.bulge];
+    let cracks = vec![Crack { points: vec![a, b, c, d], bulges, ends: [CrackEnd::Tip; 2] }];
+    let recipe = Recipe { cracks, tip_level: 9, zone: 0.1, ..Recipe::default() };
+    let holes = rounded();
+    let rim = holes[0].edges().nth(1).map_or(a, |side| side.at(0.37));
+    let beside = |zoom: f64| d + vec2(0.71, 0.43) * (recipe.domain.size().x / zoom);
+    let places: [&dyn Fn(f64) -> Vec2; 6] =
+        [&|_| d, &beside, &|_| last.at(0.63), &|_| b, &|_| c, &|_| rim];
+    let windows = places
+        .iter()
+        .flat_map(|place| ZOOMS.map(|zoom| zoomed(&recipe, place(zoom), zoom)))
+        .collect();
+    DrawingCase::new("zooms to arcs", &recipe, SOME)
+        .with_windows(windows)
+        .with(|data| data.domain.holes = holes)
 }
 
 const ZOOMS: [f64; 5] = [1.0, 1e3, 1e6, 1e9, 1e12];

@@ -17,7 +17,8 @@ mod truth;
 mod window;
 
 pub use cases::{
-    DrawingCase, coverings, equations, functions, junction_zooms, junctions, wholes, zooms,
+    DrawingCase, arc_zooms, coverings, equations, functions, junction_zooms, junctions, wholes,
+    zooms,
 };
 pub use truth::{BAND, Differences, ExpectedValues, Truth};
 pub use window::Window;

@@ -237,12 +237,19 @@ fn band(field: &Field<'_>, window: &Window) -> Vec<bool> {
     window.offsets().map(&mut at).collect()
 }
 
+/// True near an edge, near all of the circle of an arc, and near the tangents at the ends.
 fn near_crack(crack: &LocalCrack, p: Vec2, near: f64) -> bool {
-    crack.segments().iter().any(|s| {
+    let vertices = crack.vertices();
+    let near_edge = crack.segments().iter().any(|s| {
         let along = s.tangent.dot(p);
-        let across = s.tangent.x * p.y - s.tangent.y * p.x + s.distance;
-        across.abs() < near && along > s.lo - near && along < s.hi + near
-    })
+        let across = s.tangent.cross(p) + s.distance;
+        let power = 2.0 * across - s.curvature * (along * along + across * across);
+        let distance = power / (1.0 + (1.0 - s.curvature * power).max(0.0).sqrt());
+        let is_beside = s.curvature != 0.0 || along > s.lo - near && along < s.hi + near;
+        distance.abs() < near && is_beside
+    });
+    let mut ends = vertices.first().into_iter().chain(vertices.last());
+    near_edge || ends.any(|end| end.tangents[0].cross(p - end.at).abs() < near)
 }
 
 fn near_border(b: &Rect, p: Vec2, near: f64) -> bool {

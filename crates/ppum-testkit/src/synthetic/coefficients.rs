@@ -5,9 +5,9 @@ use super::recipe::{Coefficients, Junction, Recipe};
 use crate::random::Random;
 use ppum::crack::{Crack, End, LocalCrack, Side};
 use ppum::dataset::{BoxPartition, FieldData, monomials};
+use ppum::edge::Edge;
 use ppum::function::{Function, FunctionKind, FunctionTable, GROUP, Slot};
 use ppum::jet::Jet;
-use ppum::line::Line;
 use ppum::polynomial::exponents;
 use ppum::vec2::{Rect, Vec2, vec2};
 
@@ -374,26 +374,16 @@ fn cuts_through(crack: &Crack, support: &Rect) -> bool {
         p.x > support.min.x && p.x < support.max.x && p.y > support.min.y && p.y < support.max.y
     };
     let tip_inside = crack.tips().any(|end: End| inside(crack.end_point(end)));
-    !tip_inside && crack.points.windows(2).any(|s| meets(s[0], s[1], support))
-}
-
-/// True if a segment has a part of positive length in an open box.
-fn meets(a: Vec2, b: Vec2, support: &Rect) -> bool {
-    let is_off = |a: f64, b: f64, min: f64, max: f64| a == b && (a <= min || a >= max);
-    let Rect { min, max } = *support;
-    let range = Line::through([a, b]).within(support, [0.0, 1.0]);
-    let is_beside = is_off(a.x, b.x, min.x, max.x) || is_off(a.y, b.y, min.y, max.y);
-    !is_beside && range.is_some_and(|[low, high]| low < high)
+    !tip_inside && crack.edges().any(|edge| !edge.within(support).is_empty())
 }
 
 /// The point of a crack nearest to `p`, and the left normal there.
 fn nearest(crack: &Crack, p: Vec2) -> (Vec2, Vec2) {
-    let on_segment = |s: &[Vec2]| {
-        let (tangent, length) = ((s[1] - s[0]).unit(), (s[1] - s[0]).length());
-        (s[0] + tangent * tangent.dot(p - s[0]).clamp(0.0, length), tangent.left())
+    let on_edge = |edge: Edge| {
+        let part = edge.closest_part(p);
+        (edge.at(part), edge.tangent(part).left())
     };
-    let points = crack.points.windows(2).map(on_segment);
     let closer =
         |a: &(Vec2, Vec2), b: &(Vec2, Vec2)| (a.0 - p).length().total_cmp(&(b.0 - p).length());
-    points.min_by(closer).expect("a crack has a segment")
+    crack.edges().map(on_edge).min_by(closer).expect("a crack has an edge")
 }

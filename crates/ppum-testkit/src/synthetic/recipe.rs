@@ -118,7 +118,7 @@ pub fn kinked() -> Crack {
 /// A crack through points.
 #[must_use]
 pub fn crack(points: &[[f64; 2]], ends: [CrackEnd; 2]) -> Crack {
-    Crack { points: points.iter().map(|&p| p.into()).collect(), ends }
+    Crack::polyline(points.iter().map(|&p| p.into()).collect(), ends)
 }
 
 impl Recipe {
@@ -155,6 +155,21 @@ impl Recipe {
             seed,
             ..Self::default()
         }
+    }
+
+    /// The recipe with arcs of random bulges in place of the first edge of each crack and of three
+    /// in four others.
+    #[must_use]
+    pub fn with_arcs(mut self) -> Self {
+        let mut random = Random(self.seed ^ 0xa7c5);
+        let mut bulge = |edge: usize| {
+            let is_arc = edge == 0 || random.below(4) > 0;
+            if is_arc { random.between(-0.4, 0.4) } else { 0.0 }
+        };
+        for crack in &mut self.cracks {
+            crack.bulges = (0..crack.points.len() - 1).map(&mut bulge).collect();
+        }
+        self
     }
 
     /// The partition of unity.

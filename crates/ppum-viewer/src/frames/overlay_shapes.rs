@@ -43,7 +43,7 @@ impl Deref for OverlayShapes {
 fn points(items: &[CanvasItem]) -> usize {
     let of = |item: &CanvasItem| match item {
         CanvasItem::Line { path, .. } | CanvasItem::Fill { outline: path, .. } => {
-            path.pieces.iter().map(Vec::len).sum()
+            path.polylines(1.0).map(|line| line.len()).sum()
         }
         CanvasItem::Inset { canvas, .. } => points(&canvas.items),
         _ => 1,
@@ -76,8 +76,10 @@ mod tests {
     /// Lines across a page, `count` of them, half let through.
     fn lines(count: usize) -> Layers {
         let piece = vec![vec2(0.0, 2.0), vec2(8.0, 2.0)];
-        let (path, pen) =
-            (CanvasPath { pieces: vec![piece; count] }, StrokeStyle::new([200, 0, 0, 128], 2.0));
+        let (path, pen) = (
+            CanvasPath { pieces: vec![piece; count], ..CanvasPath::default() },
+            StrokeStyle::new([200, 0, 0, 128], 2.0),
+        );
         Layers { items: vec![CanvasItem::Line { path, pen }], ..Layers::default() }
     }
 

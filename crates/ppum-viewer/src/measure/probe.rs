@@ -103,8 +103,8 @@ impl QuantityReader {
     /// The direction of the crack that a spot lies on.
     fn along(&self, spot: &Location) -> Option<Vec2> {
         let SegmentId { crack, segment } = segment_of(self.field.field(), spot)?;
-        let points = &self.field.field().step.cracks[crack as usize].points;
-        Some(points[segment as usize + 1] - points[segment as usize])
+        let edge = self.field.field().step.cracks[crack as usize].edge(segment as usize);
+        Some(edge.tangent_towards(spot.point()))
     }
 
     /// The spot itself, or the tip or the point of a crack that lies within reach of it.

@@ -6,7 +6,10 @@ use std::sync::Arc;
 use egui::{CursorIcon, Key, Modifiers, PointerButton, Response, Ui};
 use ppum::crack::{Crack, TipId, tips};
 use ppum::dataset::Dataset;
+use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2};
+use ppum_render::anchored_edge::AnchoredEdge;
+use ppum_render::view::View;
 use ppum_scene::profile::ProfileCurve;
 
 use super::ViewState;
@@ -318,7 +321,10 @@ impl CurvePainter<'_> {
 
 /// The crack nearest to a point.
 fn nearest_crack(cracks: &[Crack], spot: &Location) -> Option<usize> {
-    let distance = |crack: &Crack| ppum::segment::polyline_distance(&crack.points, spot.point());
+    let distance = |crack: &Crack| {
+        let distances = crack.edges().map(|edge| edge.distance(spot.point()));
+        distances.fold(f64::INFINITY, f64::min)
+    };
     let all = cracks.iter().map(distance).enumerate();
     all.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
 }
@@ -334,14 +340,16 @@ pub(crate) fn handles(along: &ProfileCurve, cracks: &[Crack]) -> Vec<(CurveHandl
             (CurveHandle::Radius, spot(center, [radius, 0.0])),
             (CurveHandle::Center, spot(center, [0.0; 2])),
         ],
-        ProfileCurve::Around { .. } => outline(along, cracks)
+        ProfileCurve::Around { .. } => outline(along, cracks, None)
             .first()
             .map(|first| (CurveHandle::Radius, *first))
             .into_iter()
             .collect(),
-        ProfileCurve::Ray { .. } => {
-            outline(along, cracks).last().map(|last| (CurveHandle::To, *last)).into_iter().collect()
-        }
+        ProfileCurve::Ray { .. } => outline(along, cracks, None)
+            .last()
+            .map(|last| (CurveHandle::To, *last))
+            .into_iter()
+            .collect(),
         ProfileCurve::Crack { .. } => Vec::new(),
     }
 }
@@ -349,8 +357,13 @@ pub(crate) fn handles(along: &ProfileCurve, cracks: &[Crack]) -> Vec<(CurveHandl
 /// Chords of a circle that is drawn.
 const CHORDS: usize = 180;
 
-/// A curve as points joined by lines; those around tips begin ahead of the tip.
-pub(crate) fn outline(along: &ProfileCurve, cracks: &[Crack]) -> Vec<Location> {
+/// A curve as points joined by lines; those around tips begin ahead of the tip. Arcs of cracks have
+/// more points where a view shows them.
+pub(crate) fn outline(
+    along: &ProfileCurve,
+    cracks: &[Crack],
+    view: Option<&View>,
+) -> Vec<Location> {
     let round = |center: Vec2, axis: Vec2, radius: f64| {
         let at = |k: usize| {
             let (sin, cos) = (k as f64 / CHORDS as f64 * std::f64::consts::TAU).sin_cos();
@@ -371,8 +384,9 @@ pub(crate) fn outline(along: &ProfileCurve, cracks: &[Crack]) -> Vec<Location> {
             round(center.into(), Vec2 { x: 1.0, y: 0.0 }, radius)
         }
         ProfileCurve::Crack { index } => {
-            let points = cracks.get(index).map(|crack| &crack.points[..]).unwrap_or_default();
-            points.iter().map(|&p| Location::new(p, Vec2::ZERO)).collect()
+            let Some(crack) = cracks.get(index) else { return Vec::new() };
+            let first = Location::new(crack.points[0], Vec2::ZERO);
+            std::iter::once(first).chain(crack.edges().flat_map(|e| behind(e, view))).collect()
         }
         ProfileCurve::Around { tip, radius } => match numbered(tip) {
             Some((at, axis, length)) => round(at, axis, radius.unwrap_or(0.01 * length)),
@@ -387,4 +401,22 @@ pub(crate) fn outline(along: &ProfileCurve, cracks: &[Crack]) -> Vec<Location> {
             None => Vec::new(),
         },
     }
+}
+
+/// The points of an edge behind its first one that lines join, more where a view shows an arc.
+fn behind(edge: Edge, view: Option<&View>) -> Vec<Location> {
+    let last = Location::new(edge.to, Vec2::ZERO);
+    if !edge.is_arc() {
+        return vec![last];
+    }
+    let anchor = view.map_or(edge.from, |view| view.center);
+    let local = AnchoredEdge::new(edge, anchor);
+    let seen = view.map_or_else(Vec::new, |view| local.near(2.0 * view.half().length()));
+    let divided = |[low, high]: [f64; 2]| {
+        (1..CHORDS).map(move |k| low + (high - low) * (k as f64 / CHORDS as f64))
+    };
+    let mut places: Vec<f64> = std::iter::once(local.range).chain(seen).flat_map(divided).collect();
+    places.sort_by(f64::total_cmp);
+    let between = places.into_iter().map(|s| Location::new(anchor, local.at(s)));
+    between.chain([last]).collect()
 }

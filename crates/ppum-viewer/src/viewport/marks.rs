@@ -33,7 +33,7 @@ impl ViewState {
             ring(&painter, sight, probed);
         }
         if let Some(along) = &pane.curve {
-            curve(&painter, sight, &outline(along, cracks));
+            curve(&painter, sight, &outline(along, cracks, Some(&sight.view)));
             for (_, spot) in handles(along, cracks) {
                 if let Some(at) = sight.position(&spot) {
                     painter.circle(at, 4.5, Color32::WHITE, Stroke::new(2.0, INK));
@@ -63,7 +63,7 @@ impl ViewState {
         }
         let text = self.tools.integral.words();
         let seen: Vec<Pos2> =
-            outline(along, cracks).iter().filter_map(|spot| sight.position(spot)).collect();
+            outline(along, cracks, None).iter().filter_map(|spot| sight.position(spot)).collect();
         let Some(top) = seen.into_iter().min_by(|a, b| a.y.total_cmp(&b.y)) else { return };
         beside(ui, sight.rect, top, &text);
     }

@@ -1,5 +1,6 @@
 //! The rules for a dataset's domain.
 
+use super::edges::check_edges;
 use super::errors::{CheckResult, Errors, check_box, check_number, check_points, require};
 use crate::domain::{Domain, Hole};
 
@@ -27,15 +28,15 @@ fn check_hole(hole: &Hole) -> CheckResult {
             check_number("radius", *radius)?;
             require(*radius > 0.0, "radius", || format!("{radius} is not positive"))
         }
-        Hole::Polygon { points, .. } => {
-            check_points("points", points)?;
-            require(points.len() >= 3, "", || {
-                format!("has {} points, a polygon needs three or more", points.len())
+        Hole::Polygon { points, bulges, .. } => {
+            let least = if bulges.iter().any(|bulge| *bulge != 0.0) { 2 } else { 3 };
+            require(points.len() >= least, "", || {
+                format!(
+                    "has {} points, a polygon needs three or more, or two between arcs",
+                    points.len()
+                )
             })?;
-            let double = hole.sides().position(|[a, b]| a == b);
-            require(double.is_none(), &format!("points[{}]", double.unwrap_or(0)), || {
-                "is equal to the next point; leave one out".into()
-            })
+            check_edges(points, bulges, true)
         }
     }
 }
@@ -56,11 +57,39 @@ mod tests {
             (circle(0.5, f64::INFINITY), "domain.holes[1].radius"),
             (circle(f64::NAN, 0.1), "domain.holes[1].center[0]"),
             (polygon(&[[0.0, 0.0], [1.0, 0.0]]), "domain.holes[1]"),
-            (polygon(&[[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]]), "domain.holes[1].points[2]"),
+            (polygon(&[[0.0, 0.0], [1.0, 0.0], [0.0, 0.0]]), "domain.holes[1].segment[2]"),
             (polygon(&[[0.0, 0.0], [1.0, f64::NAN], [0.0, 1.0]]), "domain.holes[1].points[1]"),
             (polygon(&vec![[0.0, 0.0]; MAX_RIMS]), "domain.holes"),
         ] {
             assert_eq!(place_after(|d| d.domain.holes = vec![circle(0.5, 0.25), hole]), place);
+        }
+    }
+
+    /// A polygon of two points has arcs, whose bulges are one for each point.
+    #[test]
+    fn holes_with_arcs() {
+        let hole = |points: &[[f64; 2]], bulges: &[f64]| Hole::Polygon {
+            points: points.iter().copied().map(Into::into).collect(),
+            bulges: bulges.to_vec(),
+            side: crate::domain::PolygonSide::Inside,
+        };
+        let (lens, triangle) = ([[0.2, 0.5], [0.4, 0.5]], [[0.2, 0.2], [0.4, 0.2], [0.3, 0.4]]);
+        let mut good = super::super::tests::dataset();
+        let fine =
+            [(&lens[..], &[1.0, 1.0][..]), (&lens, &[0.5, 0.0]), (&triangle, &[0.0, 9.0, -0.1])];
+        good.domain.holes = fine.map(|(points, bulges)| hole(points, bulges)).to_vec();
+        assert_eq!(good.check(), Ok(()));
+        for (points, bulges, place) in [
+            (&lens[..], &[0.0, 0.0][..], ""),
+            (&lens, &[0.5], ".bulges"),
+            (&lens, &[0.5, f64::NAN], ".bulges[1]"),
+            (&triangle, &[0.5, 0.0, -65.0], ".bulges[2]"),
+            (&[[0.2, 0.5]; 2], &[0.5, 0.5], ".segment[0]"),
+            // the same arc, there and back
+            (&lens, &[0.5, -0.5], ".segment[0]"),
+        ] {
+            let found = place_after(|d| d.domain.holes = vec![hole(points, bulges)]);
+            assert_eq!(found, format!("domain.holes[0]{place}"));
         }
     }
 }

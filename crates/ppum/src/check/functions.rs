@@ -1,24 +1,15 @@
 //! Cracks, and the functions that belong to them.
 
-use super::errors::{
-    CheckResult, check_all, check_index, check_names, check_number, check_points, require,
-};
+use super::edges::check_edges;
+use super::errors::{CheckResult, check_index, check_names, check_number, check_points, require};
 use crate::crack::{Crack, SegmentId};
 use crate::function::{Cut, CutBranch, Frame, Function, FunctionKind};
-use crate::vec2::Vec2;
 
 pub(super) fn check_crack(crack: &Crack) -> CheckResult {
-    check_points("points", &crack.points)?;
     require(crack.points.len() >= 2, "", || {
         format!("has {} points, a crack needs two or more", crack.points.len())
     })?;
-    let segments: Vec<Vec2> = crack.points.windows(2).map(|p| p[1] - p[0]).collect();
-    check_all(
-        "segment",
-        &segments,
-        |s| s.length() > 0.0 && s.unit().is_finite(),
-        |_| "its two points are equal; leave one out".into(),
-    )
+    check_edges(&crack.points, &crack.bulges, false)
 }
 
 pub(super) fn check_function(function: &Function, cracks: &[Crack]) -> CheckResult {

@@ -10,6 +10,7 @@
 
 use super::{Crack, End, Side};
 use crate::compensated::cross;
+use crate::edge::Edge;
 use crate::vec2::Vec2;
 use ppum_formula::elementary::Atan;
 use ppum_formula::real::Real;
@@ -18,37 +19,91 @@ use ppum_formula::real::Real;
 #[derive(Clone, Debug)]
 pub struct LocalCrack {
     segments: Vec<LocalSegment>,
+    /// The vertices of a crack with arcs; empty of a polyline.
+    vertices: Vec<LocalVertex>,
+    /// The lines on which a crack with arcs goes on beyond its ends: its segments, of arcs the
+    /// tangents; empty of a polyline.
+    rays: Vec<LocalSegment>,
 }
 
-/// One segment: coordinates of a point are `along` its line, from the anchor, and `distance` from
-/// it, positive on the left. The segment's ends are at `lo` and `hi` along it, each the small
+/// One edge: coordinates of a point are `along` its line, from the anchor, and `distance` from
+/// it, positive on the left. The ends of a segment are at `lo` and `hi` along it, each the small
 /// number it is when the anchor is near that end.
+///
+/// The line of an arc is the tangent of its circle at the point Q nearest to the anchor. With
+/// coordinates u and v = distance + normal·offset from Q a point is in the distance
+///
+/// ```text
+/// d = p/(1 + √(1 − κ p))        p = 2 v − κ (u² + v²)
+/// ```
+///
+/// from the circle, which is v of a segment, κ = 0.
 #[derive(Clone, Copy, Debug)]
 pub struct LocalSegment {
-    /// Unit vector along the segment.
+    /// Unit vector along the line.
     pub tangent: Vec2,
-    /// Unit vector to its left; zero if all points lie on it.
+    /// Unit vector to its left; zero if all points lie on the edge.
     normal: Vec2,
     /// Distance of the anchor from the line, positive on its left.
     pub distance: f64,
-    /// Begin of the segment, along it from the anchor; −∞ of a crack's first segment.
+    /// The curvature κ, positive of an edge that turns left; zero of a segment.
+    pub curvature: f64,
+    /// Begin of a segment, along it from the anchor; −∞ of a crack's first segment.
     pub lo: f64,
-    /// End of the segment; +∞ of a crack's last segment.
+    /// End of a segment; +∞ of a crack's last segment.
     pub hi: f64,
+    /// True of an arc of more than half a turn.
+    pub is_major: bool,
+}
+
+/// A vertex of a crack with arcs.
+#[derive(Clone, Copy, Debug)]
+pub struct LocalVertex {
+    /// The vertex minus the anchor.
+    pub at: Vec2,
+    /// Unit tangents of the edges before and behind; at an end of the crack that of its edge,
+    /// twice.
+    pub tangents: [Vec2; 2],
 }
 
 impl LocalSegment {
-    /// The segment from `a` to `b` seen from `anchor`.
-    pub(crate) fn new(a: Vec2, b: Vec2, anchor: Vec2) -> Self {
-        let (tangent, length) = ((b - a).unit(), (b - a).length());
-        let distance = cross(a, b, anchor) / length;
-        let (lo, hi) = (tangent.dot(a - anchor), tangent.dot(b - anchor));
-        Self { tangent, normal: tangent.left(), distance, lo, hi }
+    /// The edge seen from `anchor`.
+    pub(crate) fn new(edge: Edge, anchor: Vec2) -> Self {
+        let Edge { from: a, to: b, bulge } = edge;
+        let (tangent, distance) = if edge.is_arc() {
+            (edge.tangent_towards(anchor), edge.side(anchor))
+        } else {
+            ((b - a).unit(), cross(a, b, anchor) / (b - a).length())
+        };
+        let [lo, hi] = [a, b].map(|end| tangent.dot(end - anchor));
+        let (curvature, is_major) = (edge.curvature(), bulge.abs() > 1.0);
+        Self { tangent, normal: tangent.left(), distance, curvature, lo, hi, is_major }
     }
 
-    /// Returns the segment for points that lie on it, whose distance is zero.
+    /// The tangent at a tip seen from `anchor`, as a line that ends there.
+    fn at_tip(tip: Vec2, tangent: Vec2, anchor: Vec2) -> Self {
+        let distance = tangent.cross(anchor - tip);
+        let end = tangent.dot(tip - anchor);
+        let normal = tangent.left();
+        Self { tangent, normal, distance, curvature: 0.0, lo: end, hi: end, is_major: false }
+    }
+
+    /// Returns the edge for points that lie on it, whose distance is zero.
     pub(crate) fn touched(self) -> Self {
-        Self { normal: Vec2::ZERO, distance: 0.0, ..self }
+        Self { normal: Vec2::ZERO, distance: 0.0, curvature: 0.0, ..self }
+    }
+
+    /// Distance of a point from the line or the circle, positive on its left.
+    #[inline(always)]
+    pub(crate) fn curved_distance_of<R: Real>(&self, offset: [R; 2]) -> R {
+        let v = self.distance_of(offset);
+        if self.curvature == 0.0 {
+            return v;
+        }
+        let (u, kappa) = (self.along(offset), v.broadcast(self.curvature));
+        let (zero, one) = (v.broadcast(0.0), v.broadcast(1.0));
+        let p = v + v - kappa * u.mul_add(u, v * v);
+        p / (one + (one - kappa * p).max(zero).sqrt())
     }
 
     /// Distance of a point from the line, positive on its left.
@@ -79,37 +134,48 @@ impl LocalCrack {
     #[must_use]
     pub fn new(crack: &Crack, anchor: Vec2) -> Self {
         let mut segments: Vec<_> =
-            crack.points.windows(2).map(|s| LocalSegment::new(s[0], s[1], anchor)).collect();
+            crack.edges().map(|edge| LocalSegment::new(edge, anchor)).collect();
         if let Some(first) = segments.first_mut() {
             first.lo = f64::NEG_INFINITY;
         }
         if let Some(last) = segments.last_mut() {
             last.hi = f64::INFINITY;
         }
-        Self { segments }
+        if !crack.is_curved() {
+            return Self { segments, vertices: Vec::new(), rays: Vec::new() };
+        }
+        let rays = [End::Start, End::Last].map(|end| ray(crack, &segments, end, anchor)).to_vec();
+        Self { segments, vertices: vertices(crack, anchor), rays }
     }
 
-    /// The crack seen from `anchor` for points that lie on one of its segments: this one is the
+    /// The crack seen from `anchor` for points that lie on one of its edges: this one is the
     /// nearest to all of them, and its distance is zero.
     ///
     /// # Panics
-    /// If there is no such segment.
+    /// If there is no such edge.
     #[must_use]
     pub fn on(crack: &Crack, segment: u32, anchor: Vec2) -> Self {
-        Self { segments: vec![Self::new(crack, anchor).segments[segment as usize].touched()] }
+        let touched = LocalSegment::new(crack.edge(segment as usize), anchor).touched();
+        Self { segments: vec![touched], vertices: Vec::new(), rays: Vec::new() }
     }
 
-    /// The segments, in order: one at least.
+    /// The edges, in order: one at least.
     #[must_use]
     pub fn segments(&self) -> &[LocalSegment] {
         &self.segments
     }
 
+    /// The vertices of a crack with arcs; none of a polyline.
+    #[must_use]
+    pub fn vertices(&self) -> &[LocalVertex] {
+        &self.vertices
+    }
+
     /// +1 on the left of the crack, −1 on its right; `side` decides on the crack itself.
     ///
-    /// The first and the last segment are extended to infinity. The line of the nearest segment
-    /// decides; where its nearest point is a vertex (the sector behind a kink), that of the two
-    /// segments there with the larger line distance.
+    /// The first and the last edge are extended to infinity along their tangents. The line or
+    /// circle of the nearest edge decides; where its nearest point is a vertex (the sector behind a
+    /// kink), that of the two tangents there with the larger distance.
     #[inline(always)]
     pub fn side<R: Real>(&self, offset: [R; 2], side: Side) -> R {
         sign(self.nearest_distance(offset), side)
@@ -119,6 +185,9 @@ impl LocalCrack {
     /// that sector, so it does not matter which of the two rounding takes for the nearer one.
     #[inline(always)]
     fn nearest_distance<R: Real>(&self, offset: [R; 2]) -> R {
+        if !self.vertices.is_empty() {
+            return self.nearest_curved_distance(offset);
+        }
         let mut own = self.segments[0].distance_of(offset);
         let last = self.segments.len() - 1;
         if last == 0 {
@@ -141,6 +210,89 @@ impl LocalCrack {
     }
 }
 
+impl LocalCrack {
+    /// Returns the distance of a crack with arcs. An arc is the nearest within the angle between
+    /// the normals at its ends; elsewhere one of its vertices is, or the tangent beyond an end of
+    /// the crack.
+    #[inline(always)]
+    fn nearest_curved_distance<R: Real>(&self, offset: [R; 2]) -> R {
+        let (zero, far) = (offset[0].broadcast(0.0), offset[0].broadcast(f64::INFINITY));
+        let (mut nearest, mut least, mut k) = (zero, far, 0);
+        while k < self.segments.len() {
+            let (edge, ends) = (&self.segments[k], &self.vertices[k..=k + 1]);
+            let (after, _, to_start) = ends[0].seen(offset, 1);
+            let (beyond, _, to_end) = ends[1].seen(offset, 0);
+            let (before, start) = if k > 0 {
+                (to_start, ends[0].larger(offset))
+            } else {
+                let beside = self.rays[0].distance_of(offset);
+                (R::select(zero.gt(after), beside * beside, far), beside)
+            };
+            let (behind, end) = if k + 1 < self.segments.len() {
+                (to_end, ends[1].larger(offset))
+            } else {
+                let beside = self.rays[1].distance_of(offset);
+                (R::select(beyond.gt(zero), beside * beside, far), beside)
+            };
+            let own = edge.curved_distance_of(offset);
+            let depth = if edge.is_major { after.max(-beyond) } else { after.min(-beyond) };
+            let is_beside = depth.ge(zero);
+            let square = R::select(is_beside, own * own, before.min(behind));
+            let decides = R::select(is_beside, own, R::select(before.gt(behind), end, start));
+            nearest = R::select(least.gt(square), decides, nearest);
+            least = least.min(square);
+            k += 1;
+        }
+        nearest
+    }
+}
+
+/// The line of the edge at an end, or its tangent there.
+fn ray(crack: &Crack, segments: &[LocalSegment], end: End, anchor: Vec2) -> LocalSegment {
+    let (edge, direction) = match end {
+        End::Start => (segments[0], -1.0),
+        End::Last => (segments[segments.len() - 1], 1.0),
+    };
+    if edge.curvature == 0.0 {
+        return edge;
+    }
+    LocalSegment::at_tip(crack.end_point(end), crack.growth_direction(end) * direction, anchor)
+}
+
+fn vertices(crack: &Crack, anchor: Vec2) -> Vec<LocalVertex> {
+    let tangents: Vec<_> = crack.edges().map(|edge| edge.end_tangents()).collect();
+    let last = tangents.len() - 1;
+    let vertex = |(k, point): (usize, &Vec2)| {
+        let (before, after) = (tangents[k.saturating_sub(1)], tangents[k.min(last)]);
+        let [before, after] = match k {
+            0 => [after[0]; 2],
+            _ if k > last => [before[1]; 2],
+            _ => [before[1], after[0]],
+        };
+        LocalVertex { at: *point - anchor, tangents: [before, after] }
+    };
+    crack.points.iter().enumerate().map(vertex).collect()
+}
+
+impl LocalVertex {
+    /// Where a point lies along one of the tangents, how far beside it, positive on the left, and
+    /// the square of its distance from the vertex.
+    #[inline(always)]
+    fn seen<R: Real>(&self, [x, y]: [R; 2], tangent: usize) -> (R, R, R) {
+        let (dx, dy) = (x - x.broadcast(self.at.x), y - y.broadcast(self.at.y));
+        let (tx, ty) =
+            (x.broadcast(self.tangents[tangent].x), y.broadcast(self.tangents[tangent].y));
+        (tx.mul_add(dx, ty * dy), tx * dy - ty * dx, dx.mul_add(dx, dy * dy))
+    }
+
+    /// The distance from that tangent from which it is larger.
+    #[inline(always)]
+    fn larger<R: Real>(&self, offset: [R; 2]) -> R {
+        let [(_, before, _), (_, after, _)] = [0, 1].map(|tangent| self.seen(offset, tangent));
+        R::select(after.abs().gt(before.abs()), after, before)
+    }
+}
+
 /// +1 or −1 by a signed distance; zero counts as the given side.
 #[inline(always)]
 fn sign<R: Real>(distance: R, side: Side) -> R {
@@ -159,11 +311,11 @@ pub struct LocalTip {
     /// Unit direction of growth.
     pub axis: Vec2,
     crack: LocalCrack,
-    /// Index of the segment that ends at the tip.
+    /// Index of the edge that ends at the tip.
     pub segment: usize,
-    /// That segment.
+    /// That segment; of an arc the tangent at the tip.
     line: LocalSegment,
-    /// True of a crack of more than one segment.
+    /// True of a crack of more than one segment, or of an arc.
     bends: bool,
     /// +1 at the last vertex, −1 at the first, where the crack's left is the tip's right.
     pub orientation: f64,
@@ -189,32 +341,41 @@ impl LocalTip {
     #[must_use]
     pub fn new(crack: &Crack, end: End, anchor: Vec2) -> Self {
         let local = LocalCrack::new(crack, anchor);
-        let bends = local.segments.len() > 1;
+        let bends = local.segments.len() > 1 || crack.is_curved();
         let (segment, orientation) = match end {
             End::Start => (0, -1.0),
             End::Last => (local.segments.len() - 1, 1.0),
         };
-        let line = local.segments[segment];
+        let ray = local.rays.get(usize::from(end == End::Last));
+        let line = *ray.unwrap_or(&local.segments[segment]);
         let (from_tip, axis) = (anchor - crack.end_point(end), line.tangent * orientation);
         Self { from_tip, axis, crack: local, segment, line, bends, orientation }
     }
 
     /// The tip at `end` of `crack`, seen from `anchor`, for points that lie on one of the crack's
-    /// segments: there θ is that of the side which is asked for, ±π behind a straight crack's tip.
+    /// edges: there θ is that of the side which is asked for, ±π behind a straight crack's tip.
     ///
     /// # Panics
-    /// If there is no such segment.
+    /// If there is no such edge.
     #[must_use]
     pub fn on(crack: &Crack, segment: u32, end: End, anchor: Vec2) -> Self {
         let tip = Self::new(crack, end, anchor);
-        let line = if tip.segment == segment as usize { tip.line.touched() } else { tip.line };
+        let is_line =
+            tip.segment == segment as usize && tip.crack.segments[tip.segment].curvature == 0.0;
+        let line = if is_line { tip.line.touched() } else { tip.line };
         Self { crack: LocalCrack::on(crack, segment, anchor), line, ..tip }
+    }
+
+    /// Distance of the anchor from the crack's tangent at the tip, positive on its left.
+    #[must_use]
+    pub fn distance(&self) -> f64 {
+        self.line.distance
     }
 
     /// The point `anchor + offset` in the tip's frame.
     ///
-    /// In the region nearest to the tip's own segment the branch is +1 by construction: both signs
-    /// come from the same number.
+    /// In the region nearest to the tip's own segment, and ahead of a tip on an arc, the branch is
+    /// +1 by construction: both signs come from the same number.
     #[inline(always)]
     pub fn point<R: Real>(&self, offset: [R; 2], side: Side) -> TipPoint<R> {
         let one = offset[0].broadcast(1.0);
@@ -300,7 +461,7 @@ mod tests {
 
     fn crack(points: &[(f64, f64)]) -> Crack {
         let vertices = points.iter().map(|&(x, y)| vec2(x, y)).collect();
-        Crack { points: vertices, ends: [CrackEnd::Tip; 2] }
+        Crack::polyline(vertices, [CrackEnd::Tip; 2])
     }
 
     /// Points of an integer lattice small enough for the cross product to be exact.

@@ -66,8 +66,6 @@ warning_kinds! {
     NearInterface "near-interface",
     /// The factors at the radii of a tip differ.
     Spread "spread",
-    /// T is that of the segments of a crack that may be meant as a curve.
-    Curve "curve",
     /// A tip is close to the boundary, measured by the length of its crack.
     TipNearBorder "tip-near-border",
     /// A crack is as long as a few cells only.

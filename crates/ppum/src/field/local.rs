@@ -66,15 +66,15 @@ impl Field<'_> {
     #[must_use]
     pub fn on(&self, segment: SegmentId, anchor: Vec2) -> LocalField<'_> {
         let functions = self.functions.on(&self.step.cracks, segment, anchor);
-        let from = segment.segment as usize;
-        let points = &self.step.cracks[segment.crack as usize].points;
-        let ends = [points[from], points[from + 1]];
-        let line = self.domain.line_along(&ends);
+        let edge = self.step.cracks[segment.crack as usize].edge(segment.segment as usize);
+        let line = self.domain.line_of(edge);
         let local = LocalField::new(self, anchor, functions);
         let domain = local.domain.without_hole(line.and_then(|line| line.hole));
         let extent = self.domain.bounds.max_norm();
-        let above = (ends[1] - ends[0]).unit().left() * (ASIDE * extent);
-        LocalField { outer: line.map(|line| line.outer_side(ends)), above, domain, ..local }
+        let along = if edge.is_arc() { edge.tangent_towards(anchor) } else { edge.chord().unit() };
+        let above = along.left() * (ASIDE * extent);
+        let outer = line.map(|line| line.outer_side([edge.from, edge.to]));
+        LocalField { outer, above, domain, ..local }
     }
 }
 

@@ -1,11 +1,11 @@
 //! The cracks of a step as functions see them.
 
 use crate::crack::{Crack, LocalCrack, LocalSegment, LocalTip, SegmentId, TipId};
-use crate::segment::Segment;
+use crate::edge::Edge;
 use crate::vec2::Vec2;
 
-/// Distance of the ends of a segment from a line, in parts of its length, within which it lies on
-/// the line: ends meant to be there are rounded.
+/// Distance of the ends of an edge from a line or circle, in parts of its length, within which it
+/// lies there: ends meant to be there are rounded.
 const COLLINEAR: f64 = 1e-9;
 
 /// Cracks seen from an anchor.
@@ -34,22 +34,22 @@ impl AnchoredCracks<'_> {
         }
     }
 
-    /// The line of a segment, and whether all points lie on it along a segment that runs the
+    /// The line or circle of an edge, and whether all points lie on it along an edge that runs the
     /// other way.
     pub(super) fn line(&self, id: SegmentId) -> (LocalSegment, bool) {
-        let [a, b] = self.ends(id);
-        let line = LocalSegment::new(a, b, self.anchor);
-        match self.on.map(|on| self.ends(on)) {
-            Some(on) if is_collinear([a, b], on) => {
-                (line.touched(), (on[1] - on[0]).dot(b - a) < 0.0)
+        let edge = self.edge(id);
+        let line = LocalSegment::new(edge, self.anchor);
+        match self.on.map(|on| self.edge(on)) {
+            Some(on) if is_along(&edge, &on) => {
+                let tangent = edge.tangent_towards(on.middle());
+                (line.touched(), tangent.dot(on.chord()) < 0.0)
             }
             _ => (line, false),
         }
     }
 
-    fn ends(&self, id: SegmentId) -> Segment {
-        let (points, k) = (&self.cracks[id.crack as usize].points, id.segment as usize);
-        [points[k], points[k + 1]]
+    fn edge(&self, id: SegmentId) -> Edge {
+        self.cracks[id.crack as usize].edge(id.segment as usize)
     }
 
     /// The segment that all points lie on, if it is one of this crack.
@@ -58,8 +58,8 @@ impl AnchoredCracks<'_> {
     }
 }
 
-/// True if the segment `on` lies on the line of another one.
-fn is_collinear([a, b]: Segment, on: Segment) -> bool {
-    let (along, reach) = ((b - a).unit(), COLLINEAR * (on[1] - on[0]).length());
-    on.iter().all(|&p| along.cross(p - a).abs() <= reach)
+/// True if the edge `on` lies on the line or circle of another one.
+fn is_along(edge: &Edge, on: &Edge) -> bool {
+    let reach = COLLINEAR * on.length();
+    [on.from, on.middle(), on.to].iter().all(|&p| edge.side(p).abs() <= reach)
 }

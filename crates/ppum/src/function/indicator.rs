@@ -3,7 +3,7 @@
 //! Cracks that meet cut a patch into more parts than their sides tell apart: behind a branch, or
 //! beyond a crack's end on another one, the side of a crack jumps where the field does not. The
 //! indicator function of a component jumps on the component's own faces only. It is a tree of cuts,
-//! each by the straight line of one segment of a crack:
+//! each by the line, or the circle, of one edge of a crack:
 //!
 //! ```text
 //!              segment 0 of crack 0
@@ -17,7 +17,7 @@ use super::anchored::AnchoredCracks;
 use crate::crack::{LocalSegment, SegmentId, Side};
 use ppum_formula::real::Real;
 
-/// One cut of a component's tree, by the whole line of a segment.
+/// One cut of a component's tree, by the whole line or circle of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cut {
     /// The segment.
@@ -114,7 +114,7 @@ impl LocalCut {
     /// Number of the part that a point lies in.
     #[inline(always)]
     fn next<R: Real>(&self, offset: [R; 2], side: Side) -> R {
-        let distance = self.line.distance_of(offset);
+        let distance = self.line.curved_distance_of(offset);
         let (zero, left, right) = (
             distance.broadcast(0.0),
             distance.broadcast(self.left),

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use crate::crack::Crack;
 use crate::vec2::{Vec2, vec2};
 
 /// Reflections at lines parallel to the axes, and the sign with which they repeat a field.
@@ -65,6 +66,17 @@ impl Reflection {
     pub fn point(&self, p: Vec2) -> Vec2 {
         let beyond = |line: Option<f64>, at: f64| line.map_or(at, |line| 2.0 * line - at);
         vec2(beyond(self.lines[0], p.x), beyond(self.lines[1], p.y))
+    }
+
+    /// The image of a crack, with its direction; one reflection turns arcs the other way.
+    #[must_use]
+    pub fn crack(&self, crack: &Crack) -> Crack {
+        let sign: f64 = self.axes().into_iter().product();
+        Crack {
+            points: crack.points.iter().map(|p| self.point(*p)).collect(),
+            bulges: crack.bulges.iter().map(|bulge| sign * bulge).collect(),
+            ends: crack.ends,
+        }
     }
 
     /// The vector S v.

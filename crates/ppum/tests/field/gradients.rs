@@ -145,7 +145,7 @@ fn opening(tip: Vec2, d: Vec2) -> Dataset {
     let domain = Rect::around(tip, vec2(1.0, 1.0));
     let partition = Cover::uniform(domain, 3).expect("a cover");
     let partition = partition.partition(1.3, WeightFunction::Quadratic).expect("a partition");
-    let crack = Crack { points: vec![tip - d * 0.7, tip], ends: [CrackEnd::Tip; 2] };
+    let crack = Crack::polyline(vec![tip - d * 0.7, tip], [CrackEnd::Tip; 2]);
     let frame = Frame::Tip(TipId { crack: 0, end: End::Last });
     let mut displacement = FieldData::new("displacement", &["ux", "uy"]);
     (0..64).for_each(|_| displacement.push_patch(&[(0, 0)]));

@@ -265,10 +265,10 @@ fn tip_field(
     let mut dataset = elements.dataset(vec![v, field("psi", &[psi]), field("phi", &[phi])]);
     let mut step = dataset.steps.remove(0);
     let direction = vec2(1.0, 0.0);
-    step = step.with_crack(Crack {
-        points: vec![vec2(0.25, 0.125) - direction, vec2(0.25, 0.125)],
-        ends: [CrackEnd::Mouth, CrackEnd::Tip],
-    });
+    step = step.with_crack(Crack::polyline(
+        vec![vec2(0.25, 0.125) - direction, vec2(0.25, 0.125)],
+        [CrackEnd::Mouth, CrackEnd::Tip],
+    ));
     for text in WESTERGAARD {
         step = step.with_function(text, FunctionKind::formula(text, frame));
     }

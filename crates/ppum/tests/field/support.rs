@@ -1,10 +1,9 @@
 //! Shared by the tests: where a field is not smooth, scales, and comparisons.
 
-use ppum::crack::Side;
+use ppum::crack::{Crack, Side};
 use ppum::dataset::{Dataset, Step};
 use ppum::field::{Field, LocalField};
 use ppum::jet::Jet;
-use ppum::segment::polyline_distance;
 use ppum::vec2::Vec2;
 
 /// The field of a synthetic dataset.
@@ -83,11 +82,12 @@ pub(crate) fn distance_to_kinks(step: &Step, p: Vec2) -> f64 {
 
 /// Distance from `p` to the nearest crack.
 pub(crate) fn distance_to_cracks(step: &Step, p: Vec2) -> f64 {
-    step.cracks.iter().map(|c| polyline_distance(&c.points, p)).fold(f64::INFINITY, f64::min)
+    let edges = step.cracks.iter().flat_map(Crack::edges);
+    edges.map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min)
 }
 
 /// True if the segment from `p` to `q` meets a crack, or comes closer than `margin` to one.
 pub(crate) fn meets_crack(step: &Step, p: Vec2, q: Vec2, margin: f64) -> bool {
     let near = (q - p).length() + margin;
-    step.cracks.iter().any(|crack| polyline_distance(&crack.points, p) <= near)
+    distance_to_cracks(step, p) <= near
 }

@@ -2,12 +2,13 @@
 
 use pdf_writer::types::{LineCapStyle, LineJoinStyle, TextRenderingMode};
 use pdf_writer::{Content, Name, Ref, Str};
+use ppum::edge::Edge;
 use ppum::vec2::Vec2;
 use ppum_render::image::{Image, Rgba};
 
 use super::font::{self, Font};
 use super::{File, image};
-use crate::canvas::{Canvas, CanvasItem, CanvasPath, StrokeStyle, TextItem};
+use crate::canvas::{Canvas, CanvasItem, CanvasPath, StrokeStyle, TextItem, bezier_curves};
 use crate::text;
 
 /// Resources that operators refer to.
@@ -147,7 +148,26 @@ impl<'f> PdfWriter<'f> {
             };
             is_drawn = true;
         }
+        for curve in path.finite_curves() {
+            self.content.move_to(curve[0].from.x as f32, curve[0].from.y as f32);
+            curve.iter().for_each(|edge| self.edge(edge));
+            if is_closed {
+                self.content.close_path();
+            }
+            is_drawn = true;
+        }
         is_drawn
+    }
+
+    fn edge(&mut self, edge: &Edge) {
+        if !edge.is_arc() {
+            self.content.line_to(edge.to.x as f32, edge.to.y as f32);
+            return;
+        }
+        for points in bezier_curves(edge) {
+            let [a, b, to] = points.map(|p| [p.x as f32, p.y as f32]);
+            self.content.cubic_to(a[0], a[1], b[0], b[1], to[0], to[1]);
+        }
     }
 
     /// The colour and opacity of what follows.

@@ -1,5 +1,6 @@
 //! The rules of FORMAT.md, each broken by a file whose checksum is right.
 
+mod arcs;
 mod broken;
 mod edit;
 

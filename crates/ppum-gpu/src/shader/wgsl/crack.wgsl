@@ -1,9 +1,11 @@
 // Cracks seen from the view's centre: the twin of LocalCrack in ppum::crack.
 
-// Where the segments of a crack are in the view's data, and how many.
-struct Crack { first: u32, count: u32 }
+// Where the edges of a crack are in the view's data, and how many; if some are arcs, its vertices
+// follow.
+struct Crack { first: u32, count: u32, is_curved: bool }
 
-// The signed distance from the line of the nearest segment, and which segment that is.
+// The signed distance from the line of the nearest segment, and which segment that is; of a crack
+// with arcs 0 if it is the line that goes on beyond the start, 1 beyond the end, 2 any other.
 struct Nearest { distance: f32, segment: u32 }
 
 // +1 on the left of the crack, -1 on its right, +1 on it.
@@ -28,6 +30,9 @@ fn crack_nearest_segment(crack: Crack, offset: vec2<f32>) -> Nearest {
     var nearest = Nearest(crack_line_distance(crack, 0u, offset), 0u);
     if !HAS_KINKS {
         return nearest;
+    }
+    if HAS_ARCS && crack.is_curved {
+        return crack_nearest_edge(crack, offset);
     }
     var closest = vec2<f32>(0.0, 0.0);
     for (var k = 0u; k < crack.count; k++) {
@@ -69,4 +74,92 @@ fn crack_vector(crack: Crack, k: u32, offset: vec2<f32>) -> vec2<f32> {
     let along = dot(load_view(at), offset);
     let ends = load_view(at + 2u);
     return vec2<f32>(along - clamp(along, ends.x, ends.y), crack_line_distance(crack, k, offset));
+}
+
+// Distance from the line or the circle of an edge, positive on its left.
+fn crack_edge_distance(crack: Crack, k: u32, offset: vec2<f32>) -> f32 {
+    let v = crack_line_distance(crack, k, offset);
+    let at = crack.first + SEGMENT_PAIRS * k;
+    let curvature = load_view(at + 1u).y;
+    if !HAS_ARCS || curvature == 0.0 {
+        return v;
+    }
+    let u = dot(load_view(at), offset);
+    let p = v + v - curvature * (u * u + v * v);
+    return p / (1.0 + sqrt(max(1.0 - curvature * p, 0.0)));
+}
+
+// A vertex seen from a point: how far along the tangent of the edge behind it (0) or before it (1)
+// the point lies, how far beside it, and how far away.
+struct Vertex { along: f32, beside: f32, distance: f32 }
+
+fn crack_vertex(crack: Crack, k: u32, tangent: u32, offset: vec2<f32>) -> Vertex {
+    let at = crack.first + SEGMENT_PAIRS * crack.count + VERTEX_PAIRS * k;
+    let way = offset - load_view(at);
+    let t = load_view(at + 1u + tangent);
+    let scale = crack_scale(abs(way));
+    return Vertex(dot(t, way), t.x * way.y - t.y * way.x, length(way * scale) / scale);
+}
+
+// The larger of the distances from both tangents of a vertex.
+fn crack_corner(crack: Crack, k: u32, offset: vec2<f32>) -> f32 {
+    let before = crack_vertex(crack, k, 0u, offset).beside;
+    let after = crack_vertex(crack, k, 1u, offset).beside;
+    return select(before, after, abs(after) > abs(before));
+}
+
+// The distance from the line on which a crack with arcs goes on beyond an end: that of its segment
+// there, or the tangent of the arc.
+fn crack_ray_distance(crack: Crack, end: u32, beside: f32, offset: vec2<f32>) -> f32 {
+    let k = end * (crack.count - 1u);
+    let curvature = load_view(crack.first + SEGMENT_PAIRS * k + 1u).y;
+    if curvature == 0.0 {
+        return crack_line_distance(crack, k, offset);
+    }
+    return beside;
+}
+
+// The nearest edge of a crack with arcs, see LocalCrack::nearest_curved_distance.
+fn crack_nearest_edge(crack: Crack, offset: vec2<f32>) -> Nearest {
+    var nearest = Nearest(0.0, 2u);
+    var closest = CRACK_FAR;
+    for (var k = 0u; k < crack.count; k++) {
+        let at = crack.first + SEGMENT_PAIRS * k;
+        let start = crack_vertex(crack, k, 1u, offset);
+        let end = crack_vertex(crack, k + 1u, 0u, offset);
+        let is_first = k == 0u;
+        let is_last = k + 1u == crack.count;
+        let along = vec2<f32>(start.along, -end.along);
+        let is_major = load_view(at + 2u).x != 0.0;
+        let depth = select(min(along.x, along.y), max(along.x, along.y), is_major);
+        var own = Nearest(crack_edge_distance(crack, k, offset), 2u);
+        var distance = abs(own.distance);
+        if load_view(at + 1u).y == 0.0 {
+            own.segment = select(select(2u, 1u, is_last), 0u, is_first);
+        }
+        if depth < 0.0 {
+            var before = start.distance;
+            var behind = end.distance;
+            if is_first {
+                before = select(CRACK_FAR, abs(start.beside), start.along < 0.0);
+            }
+            if is_last {
+                behind = select(CRACK_FAR, abs(end.beside), end.along > 0.0);
+            }
+            distance = min(before, behind);
+            let vertex = select(k, k + 1u, before > behind);
+            if vertex == 0u {
+                own = Nearest(crack_ray_distance(crack, 0u, start.beside, offset), 0u);
+            } else if vertex == crack.count {
+                own = Nearest(crack_ray_distance(crack, 1u, end.beside, offset), 1u);
+            } else {
+                own = Nearest(crack_corner(crack, vertex, offset), 2u);
+            }
+        }
+        if distance < closest {
+            closest = distance;
+            nearest = own;
+        }
+    }
+    return nearest;
 }

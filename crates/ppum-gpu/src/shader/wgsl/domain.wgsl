@@ -28,8 +28,14 @@ fn hole_circle(at: u32, offset: vec2<f32>) -> bool {
     return excess + dot(load_view(at + 1u) + half_curvature * offset, offset) < 0.0;
 }
 
+// The distance from the circle of an arc, but for terms of second order, positive on its left.
+fn hole_arc(at: u32, half_curvature: f32, offset: vec2<f32>) -> f32 {
+    return load_view(at + 1u).x + dot(load_view(at) - half_curvature * offset, offset);
+}
+
 // A ray from the point to the right crosses an odd number of sides, an even one of the outline, and
-// the point is on none.
+// the point is on none. Points between an arc and its chord are on the other side than the ray
+// says.
 fn hole_polygon(at: u32, sides: u32, outside: bool, offset: vec2<f32>) -> bool {
     var inside = outside;
     for (var k = 0u; k < sides; k++) {
@@ -39,13 +45,22 @@ fn hole_polygon(at: u32, sides: u32, outside: bool, offset: vec2<f32>) -> bool {
         let direction = load_view(side + 2u);
         // distance from the side's line, positive on its left
         let left = load_view(side + 3u).x + (direction.x * offset.y - direction.y * offset.x);
-        let within = all(offset >= min(a, b)) & all(offset <= max(a, b));
-        if (left == 0.0) & within {
+        let up = b.y > offset.y;
+        var parts = (up != (a.y > offset.y)) & (up == (left > 0.0));
+        let half_curvature = load_view(side + 3u).y;
+        if HAS_ARCS && half_curvature != 0.0 {
+            let value = hole_arc(side + 4u, half_curvature, offset);
+            // points of the chord are with those on its right, and if it is level with those above
+            let on_right = (left < 0.0) | ((left == 0.0) & !((a.y == b.y) & (a.x < b.x)));
+            let beside = on_right == (half_curvature > 0.0);
+            if (value == 0.0) & (beside | all(offset == a) | all(offset == b)) {
+                return false;
+            }
+            parts = parts != (beside & ((value > 0.0) == (half_curvature > 0.0)));
+        } else if (left == 0.0) & all(offset >= min(a, b)) & all(offset <= max(a, b)) {
             return false;
         }
-        let up = b.y > offset.y;
-        let crossed = (up != (a.y > offset.y)) & (up == (left > 0.0));
-        inside = inside != crossed;
+        inside = inside != parts;
     }
     return inside;
 }

@@ -32,5 +32,5 @@ fn crack_at(k: u32) -> Crack {
 }
 
 fn crack_from(pair: vec2<f32>) -> Crack {
-    return Crack(u32(pair.x), u32(pair.y));
+    return Crack(u32(pair.x), u32(abs(pair.y)), pair.y < 0.0);
 }

@@ -1,8 +1,9 @@
 // Points in the frames of functions: the twins of TipPoint and LocalTip in ppum::crack.
 
 // A tip seen from the view's centre: centre minus tip, the direction of growth; the distance of the
-// centre from the line of the segment it ends, and +1 at the last vertex of its crack, -1 at the
-// first; which crack and segment these are.
+// centre from the line of the segment it ends, or from the tangent of the arc, and +1 at the last
+// vertex of its crack, -1 at the first; which crack and segment these are, by the numbers that
+// crack_nearest_segment has for them.
 struct Tip {
     from_tip: vec2<f32>,
     axis: vec2<f32>,

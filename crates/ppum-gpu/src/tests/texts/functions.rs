@@ -35,6 +35,7 @@ fn view(step: &Step, frames: &[GroupFrame], order: usize) -> String {
         const view = View({}u);
         const ORDER = {order}u;
         const HAS_KINKS = true;
+        const HAS_ARCS = true;
         const LANE_PAIRS = 1u;
         alias Lanes = vec2<f32>;
         const WORDS = array<u32, {count}>({bits});
@@ -77,11 +78,12 @@ fn shader(
     (module(&parts), text)
 }
 
-/// Kinked and straight ones.
+/// A kinked one, and an arc.
 fn cracks() -> Vec<Crack> {
+    let arc = crack(&[[0.7, 0.5], [1.1, 0.45]], [CrackEnd::Tip; 2]);
     vec![
         crack(&[[0.5, 0.1], [0.8, 0.17], [1.0, 0.3]], [CrackEnd::Tip; 2]),
-        crack(&[[0.7, 0.5], [1.1, 0.45]], [CrackEnd::Tip; 2]),
+        Crack { bulges: vec![0.3], ..arc },
     ]
 }
 
@@ -235,6 +237,7 @@ fn kernels_are_shared() {
 fn random_recipes_are_valid() {
     for seed in 0..4 {
         let recipe = Recipe::random(seed);
+        let recipe = if seed < 2 { recipe } else { recipe.with_arcs() };
         let functions = recipe.functions();
         for order in 0..=1 {
             shader(&functions, &FunctionGroups::new(&functions), &recipe.cracks, &[], order);

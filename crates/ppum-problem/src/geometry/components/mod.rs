@@ -1,26 +1,29 @@
 //! The connected components of what cracks leave of a box.
 //!
-//! The box is cut by the lines of segments, one after the other, each within the part of the box
-//! that the segment lies in (a binary space partition): no line is drawn farther than the segments
-//! behind it ask for, so n segments that do not cross leave about n + 1 convex parts. Two parts are
-//! joined where their common side is not covered by cracks and does not lie in holes. The tree of
-//! the cuts, with what is joined taken as one, tells the component of any point of the box, which
-//! is what [`FunctionKind::Component`](ppum::function::FunctionKind::Component) evaluates.
+//! The box is cut by the lines and circles of edges, one after the other, each within the part of
+//! the box that the edge lies in (a binary space partition): no line is drawn farther than the
+//! edges behind it ask for, so n edges that do not cross leave about n + 1 parts. Parts cut by
+//! circles may consist of several, which count as one: the side of an arc does not tell them apart.
+//! Two parts are joined where their common side is not covered by cracks and does not lie in holes.
+//! The tree of the cuts, with what is joined taken as one, tells the component of any point of the
+//! box, which is what [`FunctionKind::Component`](ppum::function::FunctionKind::Component)
+//! evaluates.
 //!
 //! Ends of cracks within the box need no rule: the parts beside a line are joined beyond the end.
 
 mod coverage;
+mod curve;
 mod region;
 mod tree;
 
 use ppum::crack::SegmentId;
 use ppum::domain::Hole;
+use ppum::edge::Edge;
 use ppum::function::Cut;
-use ppum::segment::Segment;
 use ppum::vec2::Rect;
 
 use coverage::CutSides;
-use region::{ConvexRegion, SegmentPiece};
+use region::{Region, SegmentPiece};
 use tree::{ComponentNode, CutTree};
 
 /// Thickness of parts that are rounding, in sizes of the box; the same as quadrature has.
@@ -57,16 +60,15 @@ impl Components {
     /// Takes time in proportion to the square of the number of segments in the box.
     pub(crate) fn new(
         open: &Rect,
-        segments: impl Iterator<Item = (SegmentId, Segment)>,
+        segments: impl Iterator<Item = (SegmentId, Edge)>,
         holes: &[&Hole],
         gap: f64,
     ) -> Self {
         let reach = open.min.length().max(open.max.length());
         let thinnest = (THINNEST * open.size().length()).max(ROUNDING * reach);
-        let pieces =
-            segments.filter_map(|(id, ends)| SegmentPiece::inside(id, ends, open, thinnest));
+        let pieces = segments.flat_map(|(id, edge)| SegmentPiece::inside(id, edge, open, thinnest));
         let mut building = TreeBuilder::new(thinnest);
-        let region = ConvexRegion::of_box(open);
+        let region = Region::of_box(open);
         building.part(region, pieces.collect());
         building.join(open, holes, gap)
     }
@@ -93,7 +95,7 @@ impl Components {
 struct TreeBuilder {
     tree: CutTree,
     /// The parts at the leaves.
-    leaves: Vec<ConvexRegion>,
+    leaves: Vec<Region>,
     /// The sides of each cut.
     sides: Vec<CutSides>,
     thinnest: f64,
@@ -105,10 +107,9 @@ impl TreeBuilder {
     }
 
     /// Cuts a part of the box by the pieces in it; returns its node.
-    fn part(&mut self, region: ConvexRegion, mut pieces: Vec<SegmentPiece>) -> usize {
+    fn part(&mut self, region: Region, mut pieces: Vec<SegmentPiece>) -> usize {
         while let Some(chosen) = choose(&pieces, self.thinnest) {
-            let line = pieces[chosen].line;
-            if region.is_split_by(&line, self.thinnest) {
+            if region.is_split_by(&pieces[chosen], self.thinnest) {
                 return self.cut(region, pieces, chosen);
             }
             // it runs along a side of the region
@@ -119,22 +120,23 @@ impl TreeBuilder {
         self.tree.push(ComponentNode::Leaf(self.leaves.len() - 1))
     }
 
-    fn cut(&mut self, region: ConvexRegion, pieces: Vec<SegmentPiece>, chosen: usize) -> usize {
-        let SegmentPiece { id, line, ends } = pieces[chosen];
+    fn cut(&mut self, region: Region, pieces: Vec<SegmentPiece>, chosen: usize) -> usize {
+        let SegmentPiece { id, curve, .. } = pieces[chosen];
         let number = self.sides.len();
-        self.sides.push(CutSides::new(line));
+        self.sides.push(CutSides::new(curve));
         let node = self.tree.push(ComponentNode::Cut { segment: id, left: 0, right: 0 });
         let (mut left, mut right) = (Vec::new(), Vec::new());
         self.sides[number].cover(&pieces[chosen]);
         for (_, piece) in pieces.iter().enumerate().filter(|(k, _)| *k != chosen) {
-            let parts = piece.split(&line, self.thinnest);
+            let parts = piece.split(&curve, self.thinnest);
             if parts.iter().all(Option::is_none) {
                 self.sides[number].cover(piece);
             }
-            left.extend(parts[0]);
-            right.extend(parts[1]);
+            for (is_left, part) in parts.into_iter().flatten() {
+                if is_left { left.push(part) } else { right.push(part) }
+            }
         }
-        let [on_left, on_right] = region.split(&line, ends, number, self.thinnest);
+        let [on_left, on_right] = region.split(&pieces[chosen], number, self.thinnest);
         let left = self.part(on_left, left);
         let right = self.part(on_right, right);
         self.tree.set(node, ComponentNode::Cut { segment: id, left, right });
@@ -144,8 +146,8 @@ impl TreeBuilder {
     /// Joins the parts that no crack parts.
     fn join(mut self, open: &Rect, holes: &[&Hole], gap: f64) -> Components {
         for (leaf, region) in self.leaves.iter().enumerate() {
-            for (cut, ends) in region.sides() {
-                self.sides[cut].add(leaf, ends, region.center());
+            for (cut, side) in region.sides() {
+                self.sides[cut].add(leaf, &side);
             }
         }
         let mut joined: Vec<usize> = (0..self.leaves.len()).collect();
@@ -202,13 +204,11 @@ fn root(joined: &[usize], mut part: usize) -> usize {
 /// Pieces among which the next one to cut by is chosen.
 const CANDIDATES: usize = 8;
 
-/// The piece whose line cuts the fewest others.
+/// The piece whose line or circle cuts the fewest others.
 fn choose(pieces: &[SegmentPiece], thinnest: f64) -> Option<usize> {
     let step = pieces.len().div_ceil(CANDIDATES).max(1);
     let cuts = |&k: &usize| {
-        let cut = |piece: &&SegmentPiece| {
-            piece.split(&pieces[k].line, thinnest).iter().all(Option::is_some)
-        };
+        let cut = |piece: &&SegmentPiece| piece.is_split_by(&pieces[k].curve, thinnest);
         pieces.iter().filter(cut).count()
     };
     (0..pieces.len()).step_by(step).min_by_key(cuts)

@@ -1,5 +1,6 @@
 use ppum::crack::{Crack, CrackEnd, SegmentId, Side};
-use ppum::domain::Hole;
+use ppum::domain::{Domain, Hole};
+use ppum::edge::Edge;
 use ppum::function::{Function, FunctionKind, FunctionTable, GROUP};
 use ppum::jet::Jet;
 use ppum::segment;
@@ -7,6 +8,7 @@ use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_testkit::random::Random;
 
 use super::Components;
+use crate::geometry::Jumps;
 
 const UNIT: Rect = Rect { min: vec2(0.0, 0.0), max: vec2(1.0, 1.0) };
 
@@ -15,15 +17,15 @@ const GAP: f64 = 1e-9;
 fn cracks(lines: &[&[[f64; 2]]]) -> Vec<Crack> {
     let crack = |line: &&[[f64; 2]]| {
         let points = line.iter().copied().map(Vec2::from).collect();
-        Crack { points, ends: [CrackEnd::Tip; 2] }
+        Crack::polyline(points, [CrackEnd::Tip; 2])
     };
     lines.iter().map(crack).collect()
 }
 
 fn components(cracks: &[Crack], holes: &[&Hole]) -> Components {
     let of_crack = |(crack, c): (u32, &Crack)| {
-        let segments: Vec<_> = c.points.windows(2).map(|s| [s[0], s[1]]).collect();
-        (0..).zip(segments).map(move |(segment, ends)| (SegmentId { crack, segment }, ends))
+        let edges: Vec<_> = c.edges().collect();
+        (0..).zip(edges).map(move |(segment, edge)| (SegmentId { crack, segment }, edge))
     };
     Components::new(&UNIT, (0..).zip(cracks).flat_map(of_crack), holes, GAP)
 }
@@ -184,6 +186,98 @@ fn components_are_what_ways_lead_to() {
 fn crosses([a, b]: [Vec2; 2], [p, q]: [Vec2; 2]) -> bool {
     let side = |a: Vec2, b: Vec2, p: Vec2| (b - a).cross(p - a) > 0.0;
     side(a, b, p) != side(a, b, q) && side(p, q, a) != side(p, q, b)
+}
+
+/// Random networks of arcs and segments cut a box like polylines that follow them; where the side
+/// of an arc does not tell two parts beyond it apart they may be one.
+#[test]
+fn arcs_cut_like_polylines() {
+    let mut random = Random(18);
+    let (mut merged, mut cut) = (0, 0);
+    for round in 0..200 {
+        let n = 1 + random.below(4);
+        let mut curved = |k: usize| {
+            let mut point = || vec2(random.between(-0.3, 1.3), random.between(-0.3, 1.3));
+            let points: Vec<Vec2> = (0..2 + k % 2).map(|_| point()).collect();
+            let bulges =
+                points[1..].iter().map(|p| if p.x > 1.0 { 0.0 } else { 0.25 * (p.y - 0.3) });
+            Crack { bulges: bulges.collect(), points, ..Crack::default() }
+        };
+        let arcs: Vec<Crack> = (0..n).map(&mut curved).collect();
+        let flat = |crack: &Crack| {
+            let points = crack.edges().flat_map(|edge| edge.flattened(2e-5)).collect::<Vec<_>>();
+            let mut points = points;
+            points.dedup();
+            Crack::from(points)
+        };
+        let lines: Vec<Crack> = arcs.iter().map(flat).collect();
+        let [arcs_cut, lines_cut] = [&arcs, &lines].map(|cracks| components(cracks, &[]));
+        let maps = (ComponentMap::new(&arcs, &arcs_cut), ComponentMap::new(&lines, &lines_cut));
+        let mut pairs = std::collections::BTreeSet::new();
+        for _ in 0..400 {
+            let p = random.point(&UNIT);
+            if arcs.iter().all(|crack| crack.distance(p) > 1e-3) {
+                pairs.insert((maps.0.at(p), maps.1.at(p)));
+            }
+        }
+        let is_finer = pairs.iter().any(|a| pairs.iter().any(|b| a.1 == b.1 && a.0 != b.0));
+        assert!(!is_finer, "round {round}: {arcs:?} {pairs:?}");
+        cut += usize::from(lines_cut.count() > 1);
+        merged += usize::from(arcs_cut.count() != lines_cut.count());
+    }
+    assert!(cut > 80 && merged < cut / 5, "{merged} of {cut}");
+}
+
+/// Arcs that end on others, up to rounding, and whole circles leave no way.
+#[test]
+fn arcs_that_meet() {
+    let mut random = Random(20);
+    for _ in 0..500 {
+        let through = [vec2(-1.0, random.between(0.2, 0.8)), vec2(2.0, random.between(0.2, 0.8))];
+        let crack =
+            |points: Vec<Vec2>, bulges: Vec<f64>| Crack { points, bulges, ..Crack::default() };
+        let [bulge, other] = [(); 2].map(|()| random.between(-0.1, 0.1));
+        let arc = Edge { from: through[0], to: through[1], bulge };
+        let at = arc.at(random.between(0.4, 0.6));
+        let miss = vec2(0.0, random.pick(&[0.0, 1e-17, -1e-14, 1e-11, 4e-10]));
+        let up = crack(vec![at + miss, vec2(at.x + 0.1, 3.0)], vec![other]);
+        let down = crack(vec![vec2(at.x - 0.1, -3.0), at - miss], vec![other]);
+        let cracks = [crack(through.to_vec(), vec![bulge]), up, down];
+        assert_eq!(components(&cracks[..1], &[]).count(), 2, "{cracks:?}");
+        assert_eq!(components(&cracks[..2], &[]).count(), 3, "{cracks:?}");
+        assert_eq!(components(&cracks, &[]).count(), 4, "{cracks:?}");
+        let reversed = cracks.map(|crack| crack.reversed());
+        assert_eq!(components(&reversed, &[]).count(), 4, "{reversed:?}");
+        let [a, b] = [vec2(0.5, 0.4), vec2(0.5, random.between(0.6, 0.8))];
+        let circle = [crack(vec![a, b, a], vec![1.0, 1.0])];
+        assert_eq!(components(&circle, &[]).count(), 2);
+        let lens = [crack(vec![a, b], vec![1.0]), crack(vec![a, b], vec![-0.4])];
+        assert_eq!(components(&lens, &[]).count(), 2);
+        let hole = Hole::Circle { center: vec2(0.5, 0.5), radius: 0.15 };
+        // bent to one side: a part that only a hole divides, between two lines or circles, is one
+        let way = random.pick(&[-1.0, 1.0]);
+        let arms = [[-1.0, 0.36], [0.64, 2.0]].map(|[from, to]| {
+            crack(vec![vec2(from, 0.5), vec2(to, 0.5)], vec![way * random.between(0.0, 0.02)])
+        });
+        assert_eq!(components(&arms[..1], &[&hole]).count(), 1);
+        assert_eq!(components(&arms, &[&hole]).count(), 2);
+    }
+}
+
+/// A crack whose segment goes on smoothly in an arc up to a hole has its side there.
+#[test]
+fn smooth_joints_have_sides() {
+    let bounds = Rect::new(vec2(-2.0, -2.0), vec2(2.0, 2.0));
+    let hole = Hole::Circle { center: vec2(0.8, 0.95), radius: 0.16 };
+    let domain = Domain { bounds, holes: vec![hole] };
+    let of = |points: Vec<Vec2>, bulges: Vec<f64>| {
+        let cracks = crate::cracks([Crack { points, bulges, ..Crack::default() }], &domain);
+        assert_eq!(cracks[0].ends, [CrackEnd::Tip, CrackEnd::Mouth]);
+        Jumps::new(&cracks, &domain, GAP).of(&UNIT)
+    };
+    let (at, end, bulge) = (vec2(0.5, 0.5), vec2(0.8, 0.8), (std::f64::consts::PI / 8.0).tan());
+    let smooth = of(vec![vec2(-1.0, 0.5), at, end], vec![0.0, bulge]);
+    assert_eq!(smooth, [FunctionKind::Side { crack: 0 }]);
 }
 
 /// Beside the faces, from 1e-3 to 1e-15 away: the component jumps where two components meet and

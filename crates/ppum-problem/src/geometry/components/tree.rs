@@ -10,9 +10,9 @@ pub(super) struct CutTree(Vec<ComponentNode>);
 /// A node of the tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum ComponentNode {
-    /// A cut by the line of a segment, and the nodes that follow on its left and right.
+    /// A cut by the line or circle of an edge, and the nodes that follow on its left and right.
     Cut { segment: SegmentId, left: usize, right: usize },
-    /// A convex part of the box, by its number.
+    /// A part of the box, by its number.
     Leaf(usize),
 }
 

@@ -116,7 +116,7 @@ impl<'d> Torn<'d> {
                 let Some(segment) = kind.crack else { continue };
                 let ends = [k, (k + 1) % 3];
                 let [a, b] = ends.map(|k| vertices[triangle.corners[k] as usize]);
-                let side = Some(self.side(segment, b - a));
+                let side = Some(self.side(segment, [a, b]));
                 ends.iter().for_each(|end| sides[sectors.root(3 * t + end)] = side);
             }
         }

@@ -99,7 +99,8 @@ impl BodyImage<'_> {
         let offset = self.reflection.vector(found.offset);
         let on = match found.on {
             ExtremumSite::Face(segment, side) => {
-                ExtremumSite::Face(segment, self.side(segment, side))
+                let at = self.reflection.point(center + offset);
+                ExtremumSite::Face(segment, self.side(segment, side, at))
             }
             ExtremumSite::Border if self.is_on_line(center + offset) => ExtremumSite::Inside,
             on => on,
@@ -107,10 +108,10 @@ impl BodyImage<'_> {
         Extremum { offset, on, ..found }
     }
 
-    /// The side of the reflected crack that lies as the given one does to the crack.
-    fn side(&self, SegmentId { crack, segment }: SegmentId, side: Side) -> Side {
-        let points = &self.field.step.cracks[crack as usize].points[segment as usize..];
-        let normal = (points[1] - points[0]).left();
+    /// The side of the reflected crack that lies as the given one does to the crack at a point.
+    fn side(&self, SegmentId { crack, segment }: SegmentId, side: Side, at: Vec2) -> Side {
+        let edge = self.field.step.cracks[crack as usize].edge(segment as usize);
+        let normal = edge.tangent_towards(at).left();
         match (self.reflection.vector(normal).dot(normal) < 0.0, side) {
             (false, side) => side,
             (true, Side::Above) => Side::Below,

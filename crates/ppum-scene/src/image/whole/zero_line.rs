@@ -5,6 +5,7 @@
 //! or pieces of one where errors of the solution have both signs.
 
 use ppum::crack::Side;
+use ppum::edge::Edge;
 use ppum::field::{Field, LocalField};
 use ppum::quantity::{Quantity, Reflection, ValueChange};
 use ppum::vec2::{Rect, Vec2, vec2};
@@ -200,12 +201,12 @@ impl SymmetryLine<'_> {
         let at = self.view.center + p;
         let size = self.field.domain.bounds.size();
         let reach = ON_LINE * size.x.max(size.y);
-        let is_on = |ends: &[Vec2]| {
-            let is_along = ends.iter().all(|&end| self.distance(end - self.view.center) <= reach);
-            let [a, b] = [ends[0], ends[1]];
-            is_along && (at - a).dot(at - b) < 0.0
+        let is_on = |edge: Edge| {
+            let is_near = |end: Vec2| self.distance(end - self.view.center) <= reach;
+            let is_along = !edge.is_arc() && is_near(edge.from) && is_near(edge.to);
+            is_along && (at - edge.from).dot(at - edge.to) < 0.0
         };
         let mut cracks = self.field.step.cracks.iter();
-        cracks.any(|crack| crack.points.windows(2).any(is_on))
+        cracks.any(|crack| crack.edges().any(is_on))
     }
 }

@@ -30,8 +30,16 @@ struct DomainFacts {
 #[serde(tag = "kind", rename_all = "kebab-case")]
 enum HoleFacts {
     Circle { center: [f64; 2], radius: f64 },
-    Polygon { points: Vec<[f64; 2]> },
-    Outside { points: Vec<[f64; 2]> },
+    Polygon(EdgeFacts),
+    Outside(EdgeFacts),
+}
+
+/// The edges of a crack or a rim: vertices, and the bulges behind them unless all are segments.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+struct EdgeFacts {
+    points: Vec<[f64; 2]>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    bulges: Vec<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -63,27 +71,66 @@ enum Constant {
 /// A crack.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CrackFacts {
-    points: Vec<[f64; 2]>,
+    #[serde(flatten)]
+    edges: EdgeFacts,
     ends: [&'static str; 2],
 }
 
-fn arrays(points: &[Vec2]) -> Vec<[f64; 2]> {
-    points.iter().copied().map(Vec2::into).collect()
-}
-
-/// Corners of rims that a line has at most.
+/// Corners of rims, and vertices of cracks with arcs, that a line has at most.
 const CORNERS: usize = 16;
 
-fn rim(points: &[[f64; 2]], places: &LocationText) -> String {
-    match points.len() {
-        0..=CORNERS => path(points, places),
-        n => format!("{} … ({n} corners)", path(&points[..3], places)),
+impl EdgeFacts {
+    fn new(points: &[Vec2], bulges: &[f64]) -> Self {
+        let is_curved = bulges.iter().any(|bulge| *bulge != 0.0);
+        let bulges = if is_curved { bulges.to_vec() } else { Vec::new() };
+        Self { points: points.iter().copied().map(Vec2::into).collect(), bulges }
     }
-}
 
-fn path(points: &[[f64; 2]], places: &LocationText) -> String {
-    let points: Vec<_> = points.iter().map(|&p| places.show(p.into())).collect();
-    points.join(" – ")
+    /// The corners of a rim; of many only the first ones.
+    fn rim(&self, places: &LocationText) -> String {
+        match self.points.len() {
+            n @ 0..=CORNERS => self.path(n, places) + &self.edge(n.saturating_sub(1)),
+            n => format!("{} … ({n} corners{})", self.path(3, places), self.arcs()),
+        }
+    }
+
+    /// The vertices of a crack; of many between arcs only the first ones and the last one.
+    fn crack(&self, places: &LocationText) -> String {
+        match self.points.len() {
+            n if n > CORNERS && !self.bulges.is_empty() => {
+                let last = places.show(self.points[n - 1].into());
+                format!("{} … {last} ({n} vertices{})", self.path(3, places), self.arcs())
+            }
+            n => self.path(n, places),
+        }
+    }
+
+    /// The first vertices with what joins them: `(0, 0) – (1, 0) – arc of 90° – (2, 1)`.
+    fn path(&self, count: usize, places: &LocationText) -> String {
+        let mut text = String::new();
+        for (k, &point) in self.points.iter().take(count).enumerate() {
+            let join = if k > 0 { self.edge(k - 1) + " – " } else { String::new() };
+            text += &(join + &places.show(point.into()));
+        }
+        text
+    }
+
+    /// The sweep of the edge behind a vertex, positive where it turns left; nothing of a segment.
+    fn edge(&self, k: usize) -> String {
+        match self.bulges.get(k) {
+            Some(&bulge) if bulge != 0.0 => {
+                format!(" – arc of {}°", trimmed((4.0 * bulge.atan()).to_degrees()))
+            }
+            _ => String::new(),
+        }
+    }
+
+    fn arcs(&self) -> String {
+        match self.bulges.iter().filter(|bulge| **bulge != 0.0).count() {
+            0 => String::new(),
+            n => format!(", {n} arcs"),
+        }
+    }
 }
 
 impl CommonFacts {
@@ -123,11 +170,11 @@ impl HoleFacts {
             domain::Hole::Circle { center, radius } => {
                 Self::Circle { center: (*center).into(), radius: *radius }
             }
-            domain::Hole::Polygon { points, side: PolygonSide::Inside } => {
-                Self::Polygon { points: arrays(points) }
+            domain::Hole::Polygon { points, bulges, side: PolygonSide::Inside } => {
+                Self::Polygon(EdgeFacts::new(points, bulges))
             }
-            domain::Hole::Polygon { points, side: PolygonSide::Outside } => {
-                Self::Outside { points: arrays(points) }
+            domain::Hole::Polygon { points, bulges, side: PolygonSide::Outside } => {
+                Self::Outside(EdgeFacts::new(points, bulges))
             }
         }
     }
@@ -138,8 +185,8 @@ impl HoleFacts {
                 let center = places.show((*center).into());
                 format!("circle around {center}, radius {}", trimmed(*radius))
             }
-            Self::Polygon { points } => format!("polygon {}", rim(points, places)),
-            Self::Outside { points } => format!("outside of {}", rim(points, places)),
+            Self::Polygon(edges) => format!("polygon {}", edges.rim(places)),
+            Self::Outside(edges) => format!("outside of {}", edges.rim(places)),
         }
     }
 }
@@ -211,13 +258,40 @@ impl CrackFacts {
             CrackEnd::Mouth => "mouth",
             CrackEnd::Junction => "junction",
         });
-        Self { points: arrays(&crack.points), ends }
+        Self { edges: EdgeFacts::new(&crack.points, &crack.bulges), ends }
     }
 
     /// Its vertices between its ends: `mouth (0, 0) – (1, 0) tip`.
     #[must_use]
     pub fn line(&self, places: &LocationText) -> String {
         let [start, end] = self.ends;
-        format!("{start} {} {end}", path(&self.points, places))
+        format!("{start} {} {end}", self.edges.crack(places))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use ppum::vec2::{Rect, vec2};
+
+    /// Arcs say by how much they turn; long curves have only ends and the number of arcs.
+    #[test]
+    fn arcs_are_told() {
+        let (a, b) = (vec2(0.0, 0.0), vec2(1.0, 0.0));
+        let places = LocationText::new(&Rect::new(a, vec2(1.0, 1.0)), &[]);
+        let points = vec![a, b, vec2(1.0, 1.0)];
+        let quarter = std::f64::consts::FRAC_PI_8.tan();
+        let crack = crack::Crack { points, bulges: vec![-quarter, 0.0], ..Default::default() };
+        let told = CrackFacts::new(&crack).line(&places);
+        assert_eq!(told, "tip (0, 0) – arc of -90° – (1, 0) – (1, 1) tip");
+        let side = PolygonSide::Inside;
+        let half = domain::Hole::Polygon { points: vec![a, b], bulges: vec![0.0, 1.0], side };
+        assert_eq!(HoleFacts::new(&half).line(&places), "polygon (0, 0) – (1, 0) – arc of 180°");
+        let points = (0..40).map(|k| vec2(f64::from(k), 0.0)).collect();
+        let long = crack::Crack { points, bulges: vec![0.1; 39], ..Default::default() };
+        let told = CrackFacts::new(&long).line(&places);
+        assert!(told.ends_with("… (39, 0) (40 vertices, 39 arcs) tip"), "{told}");
+        let json = serde_json::to_string(&CrackFacts::new(&crack)).unwrap();
+        assert!(json.contains("\"bulges\":[-0.41"), "{json}");
     }
 }

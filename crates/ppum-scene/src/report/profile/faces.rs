@@ -43,12 +43,13 @@ pub(super) fn table(
 
 /// True of a crack on an edge of the box, of which one face is in the body.
 fn is_on_edge(field: &Field<'_>, crack: usize) -> bool {
-    let (bounds, points) = (&field.domain.bounds, &field.step.cracks[crack].points);
-    let is_along = |line: &dyn Fn(&Vec2) -> bool| points.iter().all(line);
-    is_along(&|p| p.x == bounds.min.x)
-        || is_along(&|p| p.x == bounds.max.x)
-        || is_along(&|p| p.y == bounds.min.y)
-        || is_along(&|p| p.y == bounds.max.y)
+    let (bounds, crack) = (&field.domain.bounds, &field.step.cracks[crack]);
+    let is_along = |line: &dyn Fn(&Vec2) -> bool| crack.points.iter().all(line);
+    !crack.is_curved()
+        && (is_along(&|p| p.x == bounds.min.x)
+            || is_along(&|p| p.x == bounds.max.x)
+            || is_along(&|p| p.y == bounds.min.y)
+            || is_along(&|p| p.y == bounds.max.y))
 }
 
 fn columns(field: &Field<'_>, quantities: &[(String, Quantity)]) -> Vec<Column> {

@@ -4,28 +4,27 @@
 //! does not hold the other, so restraints, loads and free rigid-body modes are counted piece by
 //! piece.
 //!
-//! The boundary, the rims of holes and the cracks are edges of a constrained Delaunay
-//! triangulation; triangles that meet across an edge that is none of these belong to one piece.
-//! Predicates are exact, so a crack that ends on the boundary cuts it, however the cells lie. A
-//! point on a face of a crack belongs to the triangle on that side of the edge that it lies on.
+//! The boundary, the rims of holes and the cracks, arcs by their chords, are edges of a
+//! constrained Delaunay triangulation; triangles that meet across an edge that is none of these
+//! belong to one piece. Predicates are exact, so a crack that ends on the boundary cuts it, however
+//! the cells lie. A point on a face of a crack belongs to the triangle on that side of the edge.
 
 use crate::law::RigidModes;
 use crate::quadrature::{CrackFace, EdgeRule};
+use chords::{ChordParts, INWARD, beyond_chord};
 use ppum::crack::{Crack, CrackEnd, End, SegmentId, Side};
-use ppum::domain::{Domain, Hole};
+use ppum::domain::Domain;
+use ppum::edge::Edge;
 use ppum::equation::Equation;
 use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
-use ppum_problem::geometry::is_on_rim;
+use ppum_problem::geometry::{BoxList, is_on_rim};
 use spade::handles::{FaceHandle, FixedVertexHandle, InnerTag};
 use spade::{ConstrainedDelaunayTriangulation, InsertionError, Point2, PositionInTriangulation};
 use spade::{Triangulation as _, mitigate_underflow};
 
 /// Parts of the box of less than this area are rounding.
 const LEAST_AREA: f64 = 1e-12;
-
-/// Distance by which points of the boundary are moved to be inside, in sizes of the box.
-const INWARD: f64 = 1e-9;
 
 /// Points in units of a size that is about 1.
 pub(crate) type SegmentMesh = ConstrainedDelaunayTriangulation<Point2<f64>>;
@@ -46,18 +45,19 @@ struct PieceMap {
     mesh: SegmentMesh,
     /// The piece of each triangle; none in a hole.
     piece_of: Vec<Option<usize>>,
-    /// For each segment of each crack, the ends of the edges along it, in the direction of the
-    /// crack.
+    /// For each edge of each crack, the ends of the edges of triangles along it, in its direction.
     along: EdgesAlong,
+    /// The parts of arcs that edges of triangles stand for.
+    arcs: BoxList<Edge>,
 }
 
-/// For each segment of each crack, ends of edges.
+/// For each edge of each crack, ends of edges of triangles.
 type EdgesAlong = Vec<Vec<Vec<[FixedVertexHandle; 2]>>>;
 
 /// One connected component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BodyPiece {
-    /// Area, rims of round holes replaced by polygons.
+    /// Area, arcs replaced by chords.
     pub(crate) area: f64,
     /// Centroid; it need not lie in the piece.
     pub(crate) centroid: Vec2,
@@ -77,17 +77,17 @@ impl BodyPieces {
             return all_of_it();
         }
         let gap_edges = gap_edges(cracks, &bounds);
-        let points = |crack: &Crack| match is_on_rim(crack, &domain.holes) {
+        let edges = |crack: &Crack| match is_on_rim(crack, &domain.holes) {
             true => Vec::new(),
-            false => into_holes(crack, &bounds),
+            false => into_holes(crack, &bounds).edges().collect(),
         };
-        let cracks: Vec<_> = cracks.iter().map(points).collect();
-        let domain = rims::with_polygons(domain, &cracks);
+        let cracks: Vec<Vec<Edge>> = cracks.iter().map(edges).collect();
+        let parts = ChordParts::new(domain, &cracks);
         // A triangulation fails on coordinates that are not finite only, which no problem has.
-        let Ok((mesh, along)) = triangulate(&domain, &cracks, &gap_edges) else {
+        let Ok((mesh, along)) = triangulate(&bounds, &parts, &gap_edges) else {
             return all_of_it();
         };
-        let found = Self::of_mesh(&domain, mesh, along);
+        let found = Self::of_mesh(&parts.with_polygons(domain), mesh, along, parts.arcs());
         if domain.holes.is_empty() && found.all.len() == 1 { all_of_it() } else { found }
     }
 
@@ -102,23 +102,23 @@ impl BodyPieces {
         }
     }
 
-    fn of_mesh(domain: &Domain, mesh: SegmentMesh, along: EdgesAlong) -> Self {
-        let bounds = domain.bounds;
-        let inside = |face: PieceTriangle<'_>| domain.contains(from_unit(&bounds, face.center()));
-        let material: Vec<bool> = mesh.inner_faces().map(inside).collect();
-        let (mut piece_of, mut seen) = (vec![None; material.len()], vec![false; material.len()]);
+    /// All triangles of a component are material, or lie in holes.
+    fn of_mesh(domain: &Domain, mesh: SegmentMesh, along: EdgesAlong, arcs: BoxList<Edge>) -> Self {
+        let (bounds, count) = (domain.bounds, mesh.num_inner_faces());
+        let least = LEAST_AREA * bounds.size().x * bounds.size().y;
+        let (mut piece_of, mut seen) = (vec![None; count], vec![false; count]);
         let mut all = Vec::new();
         for face in mesh.inner_faces() {
-            if material[index(&face)] && !seen[index(&face)] {
-                let found = flood(face, &material, &mut seen);
+            if !seen[index(&face)] {
+                let found = flood(face, &mut seen);
                 let piece = BodyPiece::of_faces(&bounds, &found);
-                if piece.area > LEAST_AREA * bounds.size().x * bounds.size().y {
+                if piece.area > least && domain.contains(piece.inside) {
                     found.iter().for_each(|face| piece_of[index(face)] = Some(all.len()));
                     all.push(piece);
                 }
             }
         }
-        Self { bounds, all, map: Some(PieceMap { mesh, piece_of, along }) }
+        Self { bounds, all, map: Some(PieceMap { mesh, piece_of, along, arcs }) }
     }
 
     /// The pieces; at least one if anything is left of the box.
@@ -129,7 +129,8 @@ impl BodyPieces {
     /// The number of the piece that holds a point of the body, which must not lie on a crack. A
     /// point that rounding has put outside belongs to the piece next to it.
     pub(crate) fn of(&self, p: Vec2) -> usize {
-        let Some(PieceMap { mesh, piece_of, .. }) = self.map() else { return 0 };
+        let Some(PieceMap { mesh, piece_of, arcs, .. }) = self.map() else { return 0 };
+        let p = beyond_chord(arcs, p, INWARD * self.bounds.size().length());
         let face = match mesh.locate(to_unit(&self.bounds, p)) {
             PositionInTriangulation::OnFace(face) => Some(mesh.face(face)),
             PositionInTriangulation::OnEdge(edge)
@@ -171,7 +172,7 @@ impl BodyPieces {
 
     /// The piece that a face of a crack belongs to at a point of it.
     fn beside(&self, face: CrackFace, p: Vec2) -> usize {
-        let Some(PieceMap { mesh, piece_of, along }) = self.map() else { return 0 };
+        let Some(PieceMap { mesh, piece_of, along, .. }) = self.map() else { return 0 };
         let SegmentId { crack, segment } = face.segment;
         let p = to_unit(&self.bounds, p);
         let way =
@@ -190,21 +191,25 @@ impl BodyPieces {
 pub(super) struct SharedEdge {
     pub(super) ends: [Vec2; 2],
     pub(super) pieces: [usize; 2],
+    /// The number of the crack's edge that it is a part of.
+    pub(super) of: usize,
 }
 
 impl BodyPieces {
     /// The edges along a crack that different pieces share, in its direction.
     pub(super) fn shared_edges(&self, crack: usize) -> Vec<SharedEdge> {
-        let Some(PieceMap { mesh, piece_of, along }) = self.map() else { return Vec::new() };
-        let shared = |&[from, to]: &[FixedVertexHandle; 2]| {
+        let Some(PieceMap { mesh, piece_of, along, .. }) = self.map() else { return Vec::new() };
+        let shared = |(of, &[from, to]): (usize, &[FixedVertexHandle; 2])| {
             let edge = mesh.get_edge_from_neighbors(from, to)?;
             let [above, below] = [edge, edge.rev()]
                 .map(|edge| edge.face().as_inner().and_then(|triangle| piece_of[index(&triangle)]));
             let ends = [from, to].map(|v| from_unit(&self.bounds, mesh.vertex(v).position()));
             let pieces = [above?, below?];
-            (pieces[0] != pieces[1]).then_some(SharedEdge { ends, pieces })
+            (pieces[0] != pieces[1]).then_some(SharedEdge { ends, pieces, of })
         };
-        along[crack].iter().flatten().filter_map(shared).collect()
+        let chains = along[crack].iter().enumerate();
+        let all = chains.flat_map(|(of, chain)| chain.iter().map(move |ends| (of, ends)));
+        all.filter_map(shared).collect()
     }
 }
 
@@ -228,8 +233,8 @@ impl BodyPiece {
     }
 }
 
-/// The points of a crack, its mouths on rims moved into their holes by more than rounding.
-fn into_holes(crack: &Crack, bounds: &Rect) -> Vec<Vec2> {
+/// A crack with its mouths on rims moved into their holes by more than rounding.
+fn into_holes(crack: &Crack, bounds: &Rect) -> Crack {
     let on_boundary = |p: Vec2| {
         p.x == bounds.min.x || p.x == bounds.max.x || p.y == bounds.min.y || p.y == bounds.max.y
     };
@@ -241,7 +246,7 @@ fn into_holes(crack: &Crack, bounds: &Rect) -> Vec<Vec2> {
             points[at] = points[at] + farther;
         }
     }
-    points
+    Crack { points, ..crack.clone() }
 }
 
 /// Returns edges that close the gaps of rounding between ends of cracks and the cracks that they
@@ -254,7 +259,8 @@ fn gap_edges(cracks: &[Crack], bounds: &Rect) -> Vec<[Vec2; 2]> {
         for (end, _) in ends.filter(|(_, kind)| *kind == CrackEnd::Junction) {
             let p = crack.end_point(end);
             let others = cracks.iter().enumerate().filter(|(other, _)| *other != k);
-            let places = others.flat_map(|(_, other)| other.points.windows(2)).map(|s| foot(s, p));
+            let foot = |edge: Edge| edge.at(edge.closest_part(p));
+            let places = others.flat_map(|(_, other)| other.edges()).map(foot);
             let near = places.filter(|q| (*q - p).length() <= 4.0 * far);
             for q in near {
                 let gap = q - p;
@@ -268,33 +274,29 @@ fn gap_edges(cracks: &[Crack], bounds: &Rect) -> Vec<[Vec2; 2]> {
     found
 }
 
-/// The point of a segment nearest to a point; exactly an end where that is nearest.
-fn foot(segment: &[Vec2], p: Vec2) -> Vec2 {
-    let (a, d) = (segment[0], segment[1] - segment[0]);
-    match (d.dot(p - a) / d.dot(d)).clamp(0.0, 1.0) {
-        1.0 => segment[1],
-        place => a + d * place,
-    }
-}
-
-/// The triangulation of the box in units of its sides, so that its boundary stays straight. Holes
-/// are polygons. Where the cracks lie is asked last: nothing divides their edges any more.
+/// The triangulation of the box in units of its sides, so that its boundary stays straight. Where
+/// the cracks lie is asked last: nothing divides their edges any more.
 fn triangulate(
-    domain: &Domain,
-    cracks: &[Vec<Vec2>],
+    bounds: &Rect,
+    parts: &ChordParts,
     gap_edges: &[[Vec2; 2]],
 ) -> Result<(SegmentMesh, EdgesAlong), InsertionError> {
-    let (mut mesh, bounds) = (SegmentMesh::new(), &domain.bounds);
-    let rims = domain.holes.iter().flat_map(Hole::sides);
-    let of_cracks = cracks.iter().flat_map(|crack| crack.windows(2)).map(|s| [s[0], s[1]]);
+    let mut mesh = SegmentMesh::new();
+    let chord = |part: &Edge| [part.from, part.to];
+    let rims = parts.rims.iter().flatten().map(chord);
+    let of_cracks = parts.cracks.iter().flatten().flatten().map(chord);
     let all = bounds.sides().into_iter().chain(rims).chain(of_cracks);
     for segment in all.chain(gap_edges.iter().copied()) {
         add_edges(&mut mesh, bounds, segment)?;
     }
     let mut along = Vec::new();
-    for crack in cracks {
-        let segments = crack.windows(2).map(|s| add_edges(&mut mesh, bounds, [s[0], s[1]]));
-        along.push(segments.collect::<Result<_, _>>()?);
+    for crack in &parts.cracks {
+        let mut of_crack = Vec::new();
+        for edge in crack {
+            let chains = edge.iter().map(|part| add_edges(&mut mesh, bounds, chord(part)));
+            of_crack.push(chains.collect::<Result<Vec<_>, _>>()?.concat());
+        }
+        along.push(of_crack);
     }
     Ok((mesh, along))
 }
@@ -315,18 +317,13 @@ fn distance([a, b]: [Point2<f64>; 2], p: Point2<f64>) -> f64 {
 }
 
 /// The faces that are connected with one, ascending.
-fn flood<'m>(
-    start: PieceTriangle<'m>,
-    material: &[bool],
-    seen: &mut [bool],
-) -> Vec<PieceTriangle<'m>> {
+fn flood<'m>(start: PieceTriangle<'m>, seen: &mut [bool]) -> Vec<PieceTriangle<'m>> {
     let (mut found, mut next) = (vec![start], 0);
     seen[index(&start)] = true;
     while let Some(&face) = found.get(next) {
         for edge in face.adjacent_edges() {
             let other = edge.rev().face().as_inner().filter(|_| !edge.is_constraint_edge());
-            if let Some(other) = other.filter(|other| material[index(other)] && !seen[index(other)])
-            {
+            if let Some(other) = other.filter(|other| !seen[index(other)]) {
                 seen[index(&other)] = true;
                 found.push(other);
             }
@@ -375,7 +372,7 @@ fn from_unit(bounds: &Rect, p: Point2<f64>) -> Vec2 {
     bounds.min + vec2(p.x * bounds.size().x, p.y * bounds.size().y)
 }
 
+mod chords;
 pub(crate) mod crossing;
-mod rims;
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,8 @@
 use super::*;
 use ppum::domain::Hole;
 use ppum_problem::crack;
+use std::collections::BTreeSet;
+use std::f64::consts::PI;
 
 fn bounds() -> Rect {
     Rect::new(vec2(-1.0, -1.0), vec2(1.0, 1.0))
@@ -12,16 +14,15 @@ fn domain(holes: &[Vec<Vec2>]) -> Domain {
 }
 
 fn mouths(domain: &Domain, cracks: &[&[[f64; 2]]]) -> BodyPieces {
-    let along = |points: &&[[f64; 2]]| Crack {
-        points: points.iter().copied().map(Vec2::from).collect(),
-        ends: [CrackEnd::Mouth; 2],
+    let along = |points: &&[[f64; 2]]| {
+        Crack::polyline(points.iter().copied().map(Vec2::from).collect(), [CrackEnd::Mouth; 2])
     };
     BodyPieces::new(domain, &cracks.iter().map(along).collect::<Vec<_>>())
 }
 
 fn pieces(holes: &[Vec<Vec2>], cracks: &[&[[f64; 2]]]) -> BodyPieces {
     let along = |points: &&[[f64; 2]]| {
-        crack(points.iter().copied().map(Vec2::from).collect(), &bounds().into())
+        crack(points.iter().copied().map(Vec2::from).collect::<Vec<_>>(), &bounds().into())
     };
     BodyPieces::new(&domain(holes), &cracks.iter().map(along).collect::<Vec<_>>())
 }
@@ -171,7 +172,7 @@ fn cracks_that_meet() {
             }
         };
         let cracks = ppum_problem::cracks(
-            lines.into_iter().map(|line| line.into_iter().map(Vec2::from).collect()),
+            lines.into_iter().map(|line| line.into_iter().map(Vec2::from).collect::<Vec<_>>()),
             &bounds().into(),
         );
         let found = BodyPieces::new(&domain(&[]), &cracks);
@@ -221,4 +222,91 @@ fn pieces_of_a_box_are_its_components() {
         }
         assert_eq!(known.len(), numbers.len(), "round {round}: {known:?} {lines:?}");
     }
+}
+
+/// A circle of `count` arcs from an angle on, as cracks of two halves that meet each other.
+fn circle(center: Vec2, radius: f64, from: f64, count: usize) -> Vec<Crack> {
+    let half = |k: usize| {
+        let start = from + PI * k as f64;
+        let arc = Edge::around(center, radius, [start, start + PI]);
+        let at = |k: usize| k as f64 / count as f64;
+        let parts: Vec<Edge> = (0..count).map(|k| arc.part([at(k), at(k + 1)])).collect();
+        Crack { ends: [CrackEnd::Junction; 2], ..Crack::along(&parts) }
+    };
+    vec![half(0), half(1)]
+}
+
+/// A closed circle cuts a disc out: points beside it, between arcs and chords, belong to the piece
+/// that they lie in, whatever its arcs are and however near another circle or a round hole is.
+#[test]
+fn discs_are_cut_out() {
+    let mut random = ppum_testkit::random::Random(18);
+    for round in 0..40 {
+        let center = vec2(random.between(-0.3, 0.3), random.between(-0.3, 0.3));
+        let (radius, from) = (random.between(0.1, 0.4), random.between(0.0, 6.0));
+        let gap = 10f64.powf(random.between(-5.0, -1.0));
+        let mut cracks = circle(center, radius, from, 1 + round % 7);
+        cracks.extend(circle(center, radius + gap, from + 1.0, 1 + round % 3));
+        let hole = Hole::Circle { center, radius: radius - gap.min(0.5 * radius) };
+        let around = Domain { bounds: bounds(), holes: Vec::new() };
+        let found = BodyPieces::new(&around, &cracks);
+        assert_eq!(found.all().len(), 3, "{round} {gap:e}");
+        let area = found.all()[found.of(center)].area;
+        assert!((area / (PI * radius * radius) - 1.0).abs() < 0.03, "{area}");
+        let holed = BodyPieces::new(&Domain { bounds: bounds(), holes: vec![hole] }, &cracks);
+        assert_eq!(holed.all().len(), 3, "{round} {gap:e}");
+        for _ in 0..100 {
+            let way = random.direction();
+            let at = |r: f64| found.of(center + way * r);
+            let near = 0.01 * gap;
+            let rings = [radius - near, radius + near, radius + gap - near, radius + gap + near];
+            let [inner, ring, same, outer] = rings.map(at);
+            assert!(inner == found.of(center) && ring == same, "{round} {gap:e} {way:?}");
+            assert!(outer == found.of(vec2(0.99, 0.99)) && outer != ring && ring != inner);
+            let face = |k: usize| {
+                let (crack, p) = (&cracks[k], center + way * radius);
+                let edge = (0..crack.points.len() - 1).find(|e| crack.edge(*e).distance(p) < 1e-9);
+                edge.map(|segment| SegmentId { crack: k as u32, segment: segment as u32 })
+            };
+            let segment = face(0).or(face(1)).expect("a face");
+            let beside = |side| found.beside(CrackFace { segment, side }, center + way * radius);
+            assert_eq!([Side::Above, Side::Below].map(beside), [inner, ring]);
+        }
+    }
+}
+
+/// Arcs cut as polylines of many of their chords do.
+#[test]
+fn random_arcs_cut_as_their_chords_do() {
+    let mut random = ppum_testkit::random::Random(19);
+    let mut several = 0;
+    for round in 0..60 {
+        let mut point = || vec2(random.between(-0.9, 0.9), random.between(-0.9, 0.9));
+        let ends: Vec<[Vec2; 2]> = (0..4).map(|_| [point(), point()]).collect();
+        let edge = |[from, to]: [Vec2; 2]| {
+            let bulge = (0.25 * random.between(-4.0, 4.0)).tan();
+            Edge { from, to, bulge }
+        };
+        let edges: Vec<Edge> = ends.into_iter().map(edge).collect();
+        let crack = |edge: &Edge| Crack::along(&[*edge]);
+        let chords = |edge: &Edge| Crack::polyline(edge.flattened(1e-5), [CrackEnd::Tip; 2]);
+        let pieces = |cracks: Vec<Crack>| BodyPieces::new(&domain(&[]), &cracks);
+        let arcs = pieces(edges.iter().map(crack).collect());
+        let lines = pieces(edges.iter().map(chords).collect());
+        // of the large pieces of one the places lie in different pieces of the other
+        let missed = |one: &BodyPieces, other: &BodyPieces| {
+            let large: Vec<_> = one.all().iter().filter(|piece| piece.area > 1e-3).collect();
+            let of: BTreeSet<_> = large.iter().map(|piece| other.of(piece.inside)).collect();
+            large.len() - of.len()
+        };
+        assert_eq!([missed(&arcs, &lines), missed(&lines, &arcs)], [0; 2], "{round} {edges:?}");
+        several += usize::from(arcs.all().len() > 1);
+        for _ in 0..100 {
+            let pair = [(); 2].map(|()| vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0)));
+            let near = |p: &Vec2| edges.iter().any(|edge| edge.distance(*p) < 1e-4);
+            let same = |found: &BodyPieces| found.of(pair[0]) == found.of(pair[1]);
+            assert!(pair.iter().any(near) || same(&arcs) == same(&lines), "{round} {pair:?}");
+        }
+    }
+    assert!(several > 10, "{several}");
 }

@@ -3,6 +3,7 @@
 use super::adapt::{IntegrandDemand, refined};
 use super::chart::CellChart;
 use super::curve::{ChartWindow, cut_all};
+use super::local_curve::LocalCurve;
 use super::piece::SmoothPiece;
 use super::*;
 use std::f64::consts::PI;
@@ -170,7 +171,8 @@ fn error(n: usize, bisections: u32) -> f64 {
     let (c, r) = (vec2(-0.3, -0.4), 1.1);
     let [KinkLine::Curve(level), _] = circles(c, r) else { unreachable!() };
     let square = CellChart::Quadrilateral(UNIT.corners());
-    let (mut windows, _) = cut_all(vec![ChartWindow::whole(square)], &[level.as_ref()], Vec2::ZERO);
+    let (mut windows, _) =
+        cut_all(vec![ChartWindow::whole(square)], &[LocalCurve::Level(level.as_ref(), Vec2::ZERO)]);
     for _ in 0..bisections {
         windows = windows.iter().flat_map(|w| w.halves(1)).flat_map(|w| w.halves(0)).collect();
     }
@@ -281,7 +283,8 @@ fn strips_are_divided_where_a_curve_bends() {
     let level = curve(bend);
     let KinkLine::Curve(level) = &level else { unreachable!() };
     let square = CellChart::Quadrilateral(UNIT.corners());
-    let (windows, cut) = cut_all(vec![ChartWindow::whole(square)], &[level.as_ref()], Vec2::ZERO);
+    let (windows, cut) =
+        cut_all(vec![ChartWindow::whole(square)], &[LocalCurve::Level(level.as_ref(), Vec2::ZERO)]);
     assert!(cut);
     let left = std::cell::Cell::new(100);
     let demand = IntegrandDemand {
@@ -318,8 +321,9 @@ fn curves_that_coincide_are_one() {
         };
         let (squares, turned): (&LevelFunction, &LevelFunction) = (&squares, &turned);
         let whole = || vec![ChartWindow::whole(CellChart::Quadrilateral(UNIT.corners()))];
-        let (once, _) = cut_all(whole(), &[squares], Vec2::ZERO);
-        let (twice, _) = cut_all(whole(), &[squares, turned], Vec2::ZERO);
+        let seen = |level| LocalCurve::Level(level, Vec2::ZERO);
+        let (once, _) = cut_all(whole(), &[seen(squares)]);
+        let (twice, _) = cut_all(whole(), &[squares, turned].map(seen));
         assert_eq!(once.len(), twice.len(), "{center:?} {radius}");
     }
 }

@@ -2,9 +2,20 @@
 
 use super::*;
 use ppum::crack::{SegmentId, Side};
+use ppum::edge::Edge;
 
 fn edges(case: &GeometryCase, orders: Orders, ends: [Vec2; 2], normal: Vec2) -> Vec<EdgeRule> {
     edges_of(case.geometry(), orders, ends, normal)
+}
+
+fn edge(
+    quadrature: &Quadrature<'_>,
+    cell: CoveredCell<'_>,
+    ends: [Vec2; 2],
+    normal: Vec2,
+) -> Vec<EdgeRule> {
+    let edge = Edge::segment(ends);
+    quadrature.edge(cell, edge, edge.chord().left().dot(normal).signum())
 }
 
 fn edges_of(
@@ -15,7 +26,7 @@ fn edges_of(
 ) -> Vec<EdgeRule> {
     let quadrature = Quadrature::new(geometry, orders);
     let cell = |c: &Rect| {
-        quadrature.edge(covered(c, &covering_patches(geometry.partition, c)), ends, normal)
+        edge(&quadrature, covered(c, &covering_patches(geometry.partition, c)), ends, normal)
     };
     geometry.partition.cell.iter().flat_map(cell).collect()
 }
@@ -278,7 +289,7 @@ fn shortest_parts_have_the_patches_of_their_cells() {
         let normal = (ends[1] - ends[0]).unit().left();
         for (k, cell) in (0..).zip(cells) {
             let covering_patches = covering_patches(&case.partition, cell);
-            for rule in quadrature.edge(covered(cell, &covering_patches), ends, normal) {
+            for rule in edge(&quadrature, covered(cell, &covering_patches), ends, normal) {
                 assert!(rule.patches.contains(&k), "{ends:?} in {cell:?}: {:?}", rule.patches);
             }
         }

@@ -21,8 +21,7 @@ fn with_holes(case: &GeometryCase, holes: &[Hole]) -> (Vec<CellRule>, Vec<EdgeRu
         || geometry.partition.cell.iter().map(|c| (c, covering_patches(geometry.partition, c)));
     let areas = cells().flat_map(|(c, patches)| quadrature.cell(covered(c, &patches))).collect();
     let rim = |(c, patches): (&Rect, Vec<u32>)| {
-        holes
-            .iter()
+        (0..holes.len())
             .flat_map(|hole| quadrature.rim(covered(c, &patches), hole, |_| true))
             .collect::<Vec<_>>()
     };

@@ -1,5 +1,6 @@
 //! Rules on whole covers against closed forms.
 
+mod arcs;
 mod cells;
 mod curves;
 mod edges;
@@ -81,7 +82,7 @@ fn covering_patches(partition: &BoxPartition, cell: &Rect) -> Vec<u32> {
 }
 
 fn crack(points: &[Vec2]) -> Crack {
-    Crack { points: points.to_vec(), ends: [CrackEnd::Tip, CrackEnd::Tip] }
+    Crack::polyline(points.to_vec(), [CrackEnd::Tip, CrackEnd::Tip])
 }
 
 /// A step's geometry with one list of singular points for all patches.

@@ -2,7 +2,6 @@
 
 use super::interface::{Interface, Interfaces};
 use crate::quadrature::{may_meet, zero};
-use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::inside;
 
@@ -66,8 +65,7 @@ impl Interfaces<'_> {
     }
 
     fn is_on_crack(&self, p: Vec2, beside: f64) -> bool {
-        let segments = self.cracks.iter().flat_map(|crack| crack.points.windows(2));
-        segments.into_iter().any(|s| segment::distance([s[0], s[1]], p) <= beside)
+        self.cracks.iter().any(|crack| crack.distance(p) <= beside)
     }
 }
 

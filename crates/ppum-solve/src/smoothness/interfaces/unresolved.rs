@@ -3,7 +3,6 @@
 use super::interface::Interfaces;
 use super::point::InterfacePoint;
 use ppum::crack::{Crack, End};
-use ppum::segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::inside;
 
@@ -136,9 +135,9 @@ fn at_crack<'p>(
         return Some(crack.end_point(end));
     }
     let meets = |point: &&InterfacePoint| {
-        crack.points.windows(2).any(|s| {
-            segment::distance([s[0], s[1]], point.at) < touch
-                && (s[1] - s[0]).unit().dot(point.normal).abs() > ASLANT
+        crack.edges().any(|edge| {
+            edge.distance(point.at) < touch
+                && edge.tangent_towards(point.at).dot(point.normal).abs() > ASLANT
         })
     };
     places.find(meets).map(|point| point.at)

@@ -21,11 +21,12 @@ use ppum::border::touch;
 use ppum::crack::{Crack, End, SegmentId, TipId, tips};
 use ppum::dataset::BoxPartition;
 use ppum::domain::Hole;
+use ppum::edge::Edge;
 use ppum::expression::Expression;
 use ppum::function::{Cut, Frame, Function, FunctionKind, Role, WESTERGAARD};
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::{
-    BoxList, Jumps, around, distance, exceeds, inside, length_inside, segment_inside, wider,
+    BoxList, Jumps, around, distance, edge_inside, exceeds, inside, length_inside, wider,
 };
 use ppum_problem::{Enrichment, EnrichmentRegion, LocalEnrichment, Problem, Site};
 
@@ -93,7 +94,10 @@ enum Degree {
     Holding(Vec2, u8),
     /// That of so many terms of Williams' series, or as many as the patch's smooth polynomials
     /// ask for.
-    Series(Option<usize>),
+    Series {
+        terms: Option<usize>,
+        is_on_arc: bool,
+    },
 }
 
 /// Frame and extent of the functions of an enrichment, which may have several of these zones.
@@ -179,7 +183,12 @@ impl<'p> Enrichments<'p> {
     /// Gives the functions of the tips, so far the only instances, the degree of Williams' series
     /// of some number of terms.
     fn take_series(&mut self, terms: Option<usize>) {
-        self.instances.iter_mut().for_each(|new| new.degree = Degree::Series(terms));
+        let cracks = self.problem.cracks();
+        for Instance { tip, degree, .. } in &mut self.instances {
+            let is_on_arc =
+                tip.is_some_and(|id| cracks[id.crack as usize].edge_to(id.end).is_arc());
+            *degree = Degree::Series { terms, is_on_arc };
+        }
     }
 
     /// Gives the patches of a partition in the rooms of corners that turn inwards the functions
@@ -282,8 +291,13 @@ impl<'p> Enrichments<'p> {
 
 /// Number of terms of Williams' series beside polynomials of a degree. Measured at orders 1 to 8
 /// (docs/decisions/0016): fewer limit the rate at which errors fall, more gain nothing.
-fn terms(degree: usize) -> usize {
-    degree.clamp(FEWEST_TERMS, ENOUGH_TERMS)
+///
+/// Cut off after N terms, the series of a tip on an arc leaves tractions of the order κ^N r^(N − ½)
+/// on the faces, which change K itself, so that it has one term more; what is left out of the
+/// series of a straight crack leaves none (docs/decisions/0048-arcs.md).
+fn terms(degree: usize, is_on_arc: bool) -> usize {
+    let more = usize::from(is_on_arc);
+    (degree + more).clamp(FEWEST_TERMS, ENOUGH_TERMS + more)
 }
 
 const FEWEST_TERMS: usize = 3;
@@ -298,7 +312,9 @@ impl Degree {
             Self::Fixed(degree) => degree,
             Self::Holding(p, inside) if patch.holds(p) => inside,
             Self::Holding(..) => 0,
-            Self::Series(given) => (given.unwrap_or(terms(degree.into())) - 1) as u8,
+            Self::Series { terms: given, is_on_arc } => {
+                (given.unwrap_or(terms(degree.into(), is_on_arc)) - 1) as u8
+            }
         }
     }
 }
@@ -319,7 +335,7 @@ impl Patches {
             Patches::All | Patches::Listed(_) | Patches::Where(_) => everywhere,
             Patches::Near(ZoneCore::Point(p), radius) => wider(&around(&[*p]), *radius),
             Patches::Near(ZoneCore::Segment(ends), radius) => wider(&around(ends), *radius),
-            Patches::Behind(tip, _) => around(&problem.cracks()[tip.crack as usize].points),
+            Patches::Behind(tip, _) => problem.cracks()[tip.crack as usize].bounds(),
         }
     }
 }
@@ -426,8 +442,9 @@ impl<'p> EnrichmentPatch<'p> {
                 self.holds(*p) || self.is_near(*p, *radius)
             }
             Patches::Near(ZoneCore::Segment([a, b]), radius) => {
-                segment_inside(*a, *b, &self.support) > self.shortest
-                    || distance([*a, *b], &self.support) < *radius
+                let segment = Edge::segment([*a, *b]);
+                edge_inside(segment, &self.support) > self.shortest
+                    || distance(segment, &self.support) < *radius
             }
             Patches::Behind(tip, radius) => {
                 let crack = &self.cracks[tip.crack as usize];

@@ -16,9 +16,9 @@ fn clipped_lengths_and_distances() {
         (vec2(-1.0, 0.5), vec2(1.0, 3.0), 0.0, 1.5 / 10.25f64.sqrt()),
         (vec2(5.0, 4.0), vec2(6.0, 9.0), 0.0, 18f64.sqrt()),
     ] {
-        assert!((segment_inside(a, b, &open) - length).abs() < 1e-15, "{a:?} {b:?}");
-        assert!((distance([a, b], &open) - apart).abs() < 1e-15, "{a:?} {b:?}");
-        assert!((distance([b, a], &open) - apart).abs() < 1e-15, "{a:?} {b:?}");
+        assert!((edge_inside(Edge::segment([a, b]), &open) - length).abs() < 1e-15, "{a:?} {b:?}");
+        assert!((distance(Edge::segment([a, b]), &open) - apart).abs() < 1e-15, "{a:?} {b:?}");
+        assert!((distance(Edge::segment([b, a]), &open) - apart).abs() < 1e-15, "{a:?} {b:?}");
     }
 }
 

@@ -1,0 +1,129 @@
+//! Edges of cracks and rims: the lines that stand for them in a square.
+//!
+//! A segment of a polyline cuts by its whole line. Chords of an arc would cut slivers off each
+//! other that are no thicker than they are from the arc; so each cuts only between the normals at
+//! its ends, and so do the segments of cracks with arcs.
+
+use std::f64::consts::TAU;
+
+use ppum::edge::Edge;
+use ppum::vec2::{Rect, Vec2, vec2};
+
+use super::cut::{AnchoredPolygon, PolygonCut};
+use super::{contains, turns};
+use crate::anchored_edge::AnchoredEdge;
+
+/// Fewest lines that stand for a whole circle.
+const LEAST: f64 = 12.0;
+
+/// Largest distance of a line from its arc, in parts of the square's side.
+const SAGITTA: f64 = 3e-4;
+
+/// An edge that cuts squares: a segment by its own line, an arc by chords or tangents of its parts.
+#[derive(Debug)]
+pub(super) struct EdgeLine {
+    edge: AnchoredEdge,
+    /// The side of a rim on which the body is, +1 on its left and −1 on its right; 0 of a crack.
+    body: f64,
+    /// True if lines end where their parts do.
+    is_bounded: bool,
+}
+
+/// A line that stands for a part of an edge in a square.
+#[derive(Debug)]
+pub(super) struct EdgeCut {
+    line: PolygonCut,
+    /// The normals at its ends, between which it cuts; none if it cuts everywhere.
+    normals: Option<[PolygonCut; 2]>,
+}
+
+impl EdgeLine {
+    pub(super) fn of_crack(edge: Edge, is_curved: bool, anchor: Vec2) -> Self {
+        Self { edge: AnchoredEdge::new(edge, anchor), body: 0.0, is_bounded: is_curved }
+    }
+
+    pub(super) fn of_rim(edge: Edge, body: f64, anchor: Vec2) -> Self {
+        Self { edge: AnchoredEdge::new(edge, anchor), body, is_bounded: edge.is_arc() }
+    }
+
+    pub(super) fn is_arc(&self) -> bool {
+        self.edge.curvature != 0.0
+    }
+
+    /// The cuts in a square. They depend on its size, not on its place.
+    pub(super) fn cuts(&self, square: &Rect) -> Vec<EdgeCut> {
+        let (cuts, size) =
+            (self.parts(square).into_iter().map(|part| self.cut(part)), square.size());
+        // what an arc meets its line may miss
+        let reach = if self.edge.curvature == 0.0 { 0.0 } else { SAGITTA * size.x.min(size.y) };
+        let near = Rect::new(square.min - vec2(reach, reach), square.max + vec2(reach, reach));
+        cuts.filter(|cut| cut.line.meets(&near)).collect()
+    }
+
+    /// The parts that lines stand for, beside a square.
+    fn parts(&self, square: &Rect) -> Vec<[f64; 2]> {
+        let kappa = self.edge.curvature.abs();
+        if kappa == 0.0 {
+            return vec![self.edge.range];
+        }
+        let size = square.size();
+        // a chord of a turn ψ is r (1 − cos ψ/2) ≈ r ψ²/8 away from the arc
+        let turn = (8.0 * SAGITTA * size.x.min(size.y) * kappa).sqrt().min(TAU / LEAST);
+        let step = turn / kappa;
+        let parts = self.near(square).into_iter().flat_map(|[low, high]| {
+            let steps = (low / step).floor() as i64..(high / step).ceil() as i64;
+            steps.map(move |k| [k as f64 * step, (k + 1) as f64 * step])
+        });
+        let [first, last] = self.edge.range;
+        let parts = parts.map(|[low, high]| [low.max(first), high.min(last)]);
+        parts.filter(|[low, high]| low < high).collect()
+    }
+
+    /// The places beside a square: between those of its corners, or all if the centre of the circle
+    /// lies in it.
+    fn near(&self, square: &Rect) -> Vec<[f64; 2]> {
+        let (corners, curvature) = (square.corners(), self.edge.curvature);
+        let center = self.edge.tangent.left() * (1.0 / curvature - self.edge.distance);
+        if contains(&corners, center) {
+            return vec![self.edge.range];
+        }
+        let angles = corners.map(|corner| curvature * self.edge.place(corner));
+        let [low, high] = turns(&angles).map(|turn| (angles[0] + turn) / curvature);
+        self.edge.common([low.min(high), low.max(high)])
+    }
+
+    /// The cut of a part: along the chord of a crack's, along a line that does not leave the body
+    /// of a rim's, which is a tangent where the body is outside of the circle.
+    fn cut(&self, [low, high]: [f64; 2]) -> EdgeCut {
+        let AnchoredEdge { tangent, distance, curvature, .. } = self.edge;
+        let normal = |s: f64| PolygonCut::through(self.edge.at(s), self.edge.tangent_at(s).left());
+        let normals = self.is_bounded.then(|| [low, high].map(normal));
+        if curvature == 0.0 {
+            return EdgeCut { line: PolygonCut::along(tangent, distance, [low, high]), normals };
+        }
+        // half of the part's turn, and the height of the arc over its chord
+        let (turn, middle) = (0.5 * curvature * (high - low), 0.5 * (low + high));
+        let (tangent, sagitta) =
+            (self.edge.tangent_at(middle), turn.sin() * (0.5 * turn).tan() / curvature);
+        let is_tangent = self.body * curvature < 0.0;
+        let shift = if is_tangent { 0.0 } else { sagitta };
+        let reach = (if is_tangent { turn.tan() } else { turn.sin() }) / curvature;
+        let at = self.edge.at(middle) + tangent.left() * shift;
+        let along = tangent.dot(at);
+        let line = PolygonCut::along(tangent, -tangent.cross(at), [along - reach, along + reach]);
+        EdgeCut { line: line.with_sagitta(sagitta.abs()), normals }
+    }
+}
+
+impl EdgeCut {
+    /// The parts of a polygon; those thinner than `least` are left out.
+    pub(super) fn split(&self, polygon: AnchoredPolygon, least: f64) -> Vec<AnchoredPolygon> {
+        let Some([first, last]) = &self.normals else {
+            return polygon.split(&self.line, least).into_iter().flatten().collect();
+        };
+        let [ahead, before] = polygon.split(first, least);
+        let [beyond, beside] = ahead.map_or([None, None], |ahead| ahead.split(last, least));
+        let halves = beside.map_or([None, None], |beside| beside.split(&self.line, least));
+        [before, beyond].into_iter().chain(halves).flatten().collect()
+    }
+}
