@@ -1,6 +1,6 @@
 //! Outline, holes and cracks from curves: chains that close, and how they lie in each other.
 
-use ppum::domain::{Hole, PolygonSide};
+use ppum::domain::Hole;
 use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2};
 
@@ -50,16 +50,11 @@ impl ClosedCurve {
     fn new(chain: CurveChain) -> Self {
         let edges = chain.edges();
         let origin = edges[0].from;
-        let beside = |edge: &Edge| {
-            0.5 * (edge.from - origin).cross(edge.to - origin) + edge.area_beside_chord()
-        };
-        let area: f64 = edges.iter().map(beside).sum();
+        let area: f64 = edges.iter().map(|edge| edge.area_from(origin)).sum();
         if area < 0.0 {
             return Self::new(chain.reversed());
         }
-        let points = edges.iter().map(|edge| edge.from).collect();
-        let bulges = edges.iter().map(|edge| edge.bulge).collect();
-        let inside = Hole::Polygon { points, bulges, side: PolygonSide::Inside };
+        let inside = Hole::enclosed(&edges);
         Self { chain, edges, inside, area }
     }
 

@@ -2,10 +2,11 @@
 
 use ppum::arc_spline::arc_spline;
 use ppum::segment;
+use ppum::smooth_curve::MOST_ARCS;
 use ppum::vec2::Vec2;
 
 use crate::affine::PlaneMap;
-use crate::curve::{MOST_ARCS, PlaneCurve};
+use crate::curve::PlaneCurve;
 
 /// Points by span of the polyline that stands for a curve with a cusp.
 const BY_SPAN: usize = 64;

@@ -1,19 +1,12 @@
 //! Curves of a drawing that the problem file knows: polylines, arcs of ellipses, splines, chains of
 //! arcs.
 
-use ppum::arc_spline::arc_spline;
 use ppum::edge::Edge;
+use ppum::smooth_curve::SmoothCurve;
 use ppum::spline::Spline;
 use ppum::vec2::{Vec2, vec2};
 
 use crate::affine::PlaneMap;
-
-/// Largest distance of arcs from the ellipse or spline for which they are taken, in parts of its
-/// size.
-const TOLERANCE: f64 = 1e-9;
-
-/// Most arcs of one curve.
-pub(crate) const MOST_ARCS: usize = 1 << 14;
 
 /// A curve from its begin to its end.
 #[derive(Clone, Debug, PartialEq)]
@@ -105,28 +98,15 @@ impl EllipseArc {
         a == b
     }
 
-    /// The two arcs of a circle, or arcs that follow the ellipse.
+    /// The arcs of a circle, or arcs that follow the ellipse.
     fn edges(&self) -> Vec<Edge> {
-        let EllipseAxes { axes: [a, b], .. } = self.axes();
-        if a == b {
-            let arc = |half: Self| {
-                let [from, to] = half.range.map(|t| half.point(t));
-                let sweep = half.axes().range;
-                Edge { from, to, bulge: (0.25 * (sweep[1] - sweep[0])).tan() }
-            };
-            return self.halves().map(arc).to_vec();
-        }
-        let way = (self.range[1] - self.range[0]).signum();
-        let at = |t: f64| {
-            let (sin, cos) = t.sin_cos();
-            let slope = self.radii[1] * cos - self.radii[0] * sin;
-            [self.point(t), slope.unit() * way]
-        };
-        let arcs = arc_spline(at, self.range, TOLERANCE * a.max(b), MOST_ARCS);
+        let (EllipseAxes { axes, angle, range: [from, to] }, center) = (self.axes(), self.center);
+        let curve = SmoothCurve::Ellipse { center, axes: axes.into(), angle, from, to };
         // with a cusp it is an error of the problem file
         let [from, to] = self.range;
         let chord = |k: u32| self.point(from + (to - from) * (f64::from(k) / 64.0));
-        arcs.unwrap_or_else(|_| segments(&(0..=64).map(chord).collect::<Vec<_>>()))
+        let chords = |_| segments(&(0..=64).map(chord).collect::<Vec<_>>());
+        curve.edges().unwrap_or_else(chords)
     }
 
     /// Its halves.
@@ -204,16 +184,9 @@ impl PlaneCurve {
             Self::Polyline(points) => segments(points),
             Self::Arc(arc) => arc.edges(),
             Self::Spline(points) => {
-                let spline = Spline::open(points);
-                let at = |t: f64| {
-                    let [at, slope, _] = spline.at(t);
-                    [at, slope.unit()]
-                };
-                let size = points.iter().map(|p| (*p - points[0]).length()).fold(0.0, f64::max);
-                let range = [0.0, spline.spans() as f64];
-                let arcs = arc_spline(at, range, TOLERANCE * size, MOST_ARCS);
+                let curve = SmoothCurve::Spline(Spline::open(points));
                 // with a cusp it is an error of the problem file
-                arcs.unwrap_or_else(|_| segments(points))
+                curve.edges().unwrap_or_else(|_| segments(points))
             }
             Self::Edges(edges) => edges.clone(),
         }

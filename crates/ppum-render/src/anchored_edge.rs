@@ -1,21 +1,18 @@
 //! Edges of cracks and rims seen from an anchor.
 
 use ppum::domain::{Hole, LocalRim};
-use ppum::edge::Edge;
+use ppum::edge::{Edge, EdgeFrame};
 use ppum::vec2::{Rect, Vec2, vec2};
 use std::f64::consts::{PI, TAU};
 
 /// A segment or an arc seen from an anchor, in the frame of the point Q of its line or circle that
-/// is nearest to the anchor. Places on it are lengths s from Q: nothing cancels near the anchor, so
-/// an arc in a view 10⁻¹² of its radius wide has no noise.
+/// is nearest to the anchor.
 #[derive(Clone, Copy, Debug)]
 pub struct AnchoredEdge {
-    /// Unit tangent at Q.
-    pub tangent: Vec2,
-    /// Distance of the anchor from the line or circle, positive on its left.
+    /// Its line or circle.
+    pub frame: EdgeFrame,
+    /// Distance of the anchor from that, positive on its left.
     pub distance: f64,
-    /// The curvature κ, positive of an edge that turns left.
-    pub curvature: f64,
     /// The places of its ends.
     pub range: [f64; 2],
 }
@@ -24,11 +21,9 @@ impl AnchoredEdge {
     /// The edge seen from `anchor`.
     #[must_use]
     pub fn new(edge: Edge, anchor: Vec2) -> Self {
-        let tangent =
-            if edge.is_arc() { edge.tangent_towards(anchor) } else { edge.chord().unit() };
-        let (distance, curvature) = (edge.side(anchor), edge.curvature());
-        let mut local = Self { tangent, distance, curvature, range: [0.0; 2] };
-        let [low, high] = [edge.from, edge.to].map(|end| local.place(end - anchor));
+        let (frame, distance) = (EdgeFrame::nearest(&edge, anchor), edge.side(anchor));
+        let mut local = Self { frame, distance, range: [0.0; 2] };
+        let [low, high] = [edge.from, edge.to].map(|end| local.frame.place(end - anchor));
         let turn = local.turn();
         // places are known up to whole turns: the one of the end nearer to Q keeps its digits
         local.range = if high - low >= edge.length() - 0.5 * turn || !edge.is_arc() {
@@ -41,69 +36,45 @@ impl AnchoredEdge {
         local
     }
 
-    /// The rim of a round hole, with the hole on its left; none of a polygon.
+    /// The halves of a round hole's rim before and behind Q, with the hole on their left; nothing of
+    /// a polygon.
     #[must_use]
-    pub fn circle(hole: &Hole, anchor: Vec2) -> Option<Self> {
+    pub fn halves(hole: &Hole, anchor: Vec2) -> Vec<Self> {
         let local = hole.at(anchor);
         let (Hole::Circle { radius, .. }, LocalRim::Circle { d, excess }) = (hole, local.rim())
         else {
-            return None;
+            return Vec::new();
         };
         let far = d.length();
         let outward = if far > 0.0 { *d / far } else { vec2(1.0, 0.0) };
-        Some(Self {
-            tangent: outward.left(),
-            distance: -excess / (far + radius),
-            curvature: 1.0 / radius,
-            range: [-PI * radius, PI * radius],
-        })
+        let distance = -excess / (far + radius);
+        let (foot, tangent) = (outward * distance, outward.left());
+        let frame = EdgeFrame { foot, tangent, curvature: 1.0 / radius };
+        let half = |range| Self { frame, distance, range };
+        vec![half([-PI * radius, 0.0]), half([0.0, PI * radius])]
+    }
+
+    /// The parts of a rim that have a length, each in a box; both halves of a circle in its own.
+    pub(crate) fn rim(hole: &Hole, anchor: Vec2) -> impl Iterator<Item = (Rect, Self)> + '_ {
+        let halves = Self::halves(hole, anchor).into_iter().map(|half| (hole.bounds(), half));
+        let edges = hole.edges().filter(|edge| edge.chord().length() > 0.0);
+        halves.chain(edges.map(move |edge| (edge.bounds(), Self::new(edge, anchor))))
     }
 
     /// The length of the whole circle; infinite of a segment.
     fn turn(&self) -> f64 {
-        TAU / self.curvature.abs()
-    }
-
-    /// The offset of the point at a place from the anchor.
-    #[must_use]
-    pub fn at(&self, s: f64) -> Vec2 {
-        let (normal, kappa) = (self.tangent.left(), self.curvature);
-        if kappa == 0.0 {
-            return normal * -self.distance + self.tangent * s;
-        }
-        let half = (0.5 * kappa * s).sin();
-        // the height above the tangent first: it is as small as the distance near the anchor
-        normal * (2.0 * half * half / kappa - self.distance)
-            + self.tangent * ((kappa * s).sin() / kappa)
-    }
-
-    /// The unit tangent at a place.
-    #[must_use]
-    pub fn tangent_at(&self, s: f64) -> Vec2 {
-        let (sin, cos) = (self.curvature * s).sin_cos();
-        self.tangent * cos + self.tangent.left() * sin
-    }
-
-    /// The place at which the line or circle is nearest to an offset, within half a turn of Q.
-    #[must_use]
-    pub fn place(&self, offset: Vec2) -> f64 {
-        let along = self.tangent.dot(offset);
-        if self.curvature == 0.0 {
-            return along;
-        }
-        let across = 1.0 - self.curvature * (self.distance + self.tangent.cross(offset));
-        (self.curvature * along).atan2(across) / self.curvature
+        TAU / self.frame.curvature.abs()
     }
 
     /// The place of the edge that is nearest to an offset's point.
     #[must_use]
     pub fn closest(&self, offset: Vec2) -> f64 {
-        let (place, [low, high]) = (self.place(offset), self.range);
-        if self.curvature == 0.0 {
+        let (place, [low, high]) = (self.frame.place(offset), self.range);
+        if self.frame.curvature == 0.0 {
             return place.clamp(low, high);
         }
         let turned = [place, place - self.turn(), place + self.turn()];
-        let far = |s: f64| (self.at(s) - offset).length();
+        let far = |s: f64| (self.frame.at(s) - offset).length();
         let nearer = if far(low) <= far(high) { low } else { high };
         turned.into_iter().find(|s| low <= *s && *s <= high).unwrap_or(nearer)
     }
@@ -111,26 +82,23 @@ impl AnchoredEdge {
     /// Distance of an offset's point from the line or circle, positive on its left.
     #[must_use]
     pub fn side(&self, offset: Vec2) -> f64 {
-        let v = self.distance + self.tangent.cross(offset);
-        if self.curvature == 0.0 {
-            return v;
+        if self.frame.curvature == 0.0 {
+            return self.distance + self.frame.tangent.cross(offset);
         }
-        let (u, kappa) = (self.tangent.dot(offset), self.curvature);
-        let power = 2.0 * v - kappa * (u * u + v * v);
-        power / (1.0 + (1.0 - kappa * power).max(0.0).sqrt())
+        self.frame.side(offset)
     }
 
     /// The part between two places as an edge of offsets from the anchor.
     #[must_use]
     pub fn part(&self, [low, high]: [f64; 2]) -> Edge {
-        let bulge = (0.25 * self.curvature * (high - low)).tan();
-        Edge { from: self.at(low), to: self.at(high), bulge }
+        let bulge = (0.25 * self.frame.curvature * (high - low)).tan();
+        Edge { from: self.frame.at(low), to: self.frame.at(high), bulge }
     }
 
     /// The places of the edge among a range of places on the line or circle, turned by whole turns.
     #[must_use]
     pub fn common(&self, [low, high]: [f64; 2]) -> Vec<[f64; 2]> {
-        let turns = if self.curvature == 0.0 { vec![0.0] } else { vec![-1.0, 0.0, 1.0] };
+        let turns = if self.frame.curvature == 0.0 { vec![0.0] } else { vec![-1.0, 0.0, 1.0] };
         let moved = |k: f64| {
             let by = if k == 0.0 { 0.0 } else { k * self.turn() };
             [(low + by).max(self.range[0]), (high + by).min(self.range[1])]
@@ -144,7 +112,7 @@ impl AnchoredEdge {
         if self.distance.abs() > reach {
             return Vec::new();
         }
-        let half = 0.5 * self.curvature.abs() * reach;
+        let half = 0.5 * self.frame.curvature.abs() * reach;
         if half >= 1.0 {
             return vec![self.range];
         }
@@ -192,13 +160,13 @@ mod tests {
             assert!((high - low - edge.length()).abs() < 1e-12 * size, "{edge:?} {anchor:?}");
             for t in [0.0, 0.1, 0.4, 0.7, 1.0] {
                 let s = low + (high - low) * t;
-                let far = (local.at(s) + anchor - edge.at(t)).length();
+                let far = (local.frame.at(s) + anchor - edge.at(t)).length();
                 assert!(far < 1e-12 * size, "{edge:?} {anchor:?} {t} {far}");
-                assert!((local.tangent_at(s) - edge.tangent(t)).length() < 1e-11, "{edge:?}");
+                assert!((local.frame.tangent_at(s) - edge.tangent(t)).length() < 1e-11, "{edge:?}");
             }
             let p = vec2(random.between(-2.0, 2.0), random.between(-2.0, 2.0));
             assert!((local.side(p - anchor) - edge.side(p)).abs() < 1e-11 * size, "{edge:?} {p:?}");
-            let closest = (local.at(local.closest(p - anchor)) + anchor - p).length();
+            let closest = (local.frame.at(local.closest(p - anchor)) + anchor - p).length();
             assert!((closest - edge.distance(p)).abs() < 1e-11 * size, "{edge:?} {p:?}");
         }
     }
@@ -231,20 +199,29 @@ mod tests {
         let tangent = edge.end_tangents()[0];
         for s in [1e-15, 3e-14, 1e-12] {
             let parabola = tangent * s + tangent.left() * (0.5 * edge.curvature() * s * s);
-            assert!((local.at(s) - parabola).length() < 1e-14 * s, "{s}");
+            assert!((local.frame.at(s) - parabola).length() < 1e-14 * s, "{s}");
         }
         let middle = AnchoredEdge::new(edge, edge.middle());
-        let bend = middle.at(1e-6) + middle.at(-1e-6) - middle.at(0.0) * 2.0;
+        let bend = middle.frame.at(1e-6) + middle.frame.at(-1e-6) - middle.frame.at(0.0) * 2.0;
         assert!((bend.length() / (edge.curvature() * 1e-12) - 1.0).abs() < 1e-3);
     }
 
     #[test]
     fn a_round_rim_has_the_hole_on_its_left() {
         let (center, radius) = (vec2(0.2, 0.1), 0.7);
-        let rim = AnchoredEdge::circle(&Hole::Circle { center, radius }, vec2(1.0, 1.0)).unwrap();
+        let halves = AnchoredEdge::halves(&Hole::Circle { center, radius }, vec2(1.0, 1.0));
         for s in [-1.0, 0.0, 2.0] {
-            assert!(((rim.at(s) + vec2(1.0, 1.0) - center).length() - radius).abs() < 1e-15);
+            let at = halves[usize::from(s > 0.0)].frame.at(s) + vec2(1.0, 1.0);
+            assert!(((at - center).length() - radius).abs() < 1e-15);
         }
-        assert!((rim.side(center - vec2(1.0, 1.0)) - radius).abs() < 1e-15);
+        for half in &halves {
+            let inner = center + vec2(0.2, 0.1) - vec2(1.0, 1.0);
+            assert!((half.side(inner) - (radius - vec2(0.2, 0.1).length())).abs() < 1e-15);
+        }
+        assert!(
+            (halves[0].frame.at(halves[0].range[0]) - halves[1].frame.at(halves[1].range[1]))
+                .length()
+                < 1e-15
+        );
     }
 }

@@ -81,7 +81,7 @@ fn isolines_end_on_arcs() {
         let pixel = view.pixel_size();
         let edges: Vec<_> = crack.edges().map(|e| AnchoredEdge::new(e, view.center)).collect();
         let away = |p: Vec2| {
-            let of = |e: &AnchoredEdge| (e.at(e.closest(p)) - p).length();
+            let of = |e: &AnchoredEdge| (e.frame.at(e.closest(p)) - p).length();
             edges.iter().map(of).fold(f64::INFINITY, f64::min) / pixel
         };
         let to_border = |p: Vec2| {
@@ -95,7 +95,7 @@ fn isolines_end_on_arcs() {
             for pair in line.points.windows(2) {
                 let crosses = edges.iter().any(|edge| {
                     let [a, b] = [pair[0], pair[1]].map(|p| edge.side(p));
-                    let at = edge.place(pair[0] + (pair[1] - pair[0]) * (a / (a - b)));
+                    let at = edge.frame.place(pair[0] + (pair[1] - pair[0]) * (a / (a - b)));
                     let is_apart = a.abs().min(b.abs()) > 0.02 * pixel;
                     a * b < 0.0 && is_apart && !edge.common([at, at.next_up()]).is_empty()
                 });

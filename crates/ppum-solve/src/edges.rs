@@ -1,9 +1,8 @@
-//! The edges of rims and cracks, and where they join without a corner.
+//! Joints of edges of rims and cracks without a corner.
 
 use ppum::crack::Crack;
-use ppum::domain::Hole;
 use ppum::edge::Edge;
-use ppum::vec2::{Vec2, vec2};
+use ppum::vec2::Vec2;
 
 /// Angle between tangents at a joint with an arc up to which it is no corner. Points of files are
 /// meant to 10⁻⁹ of a body, so the tangents of arcs of a thousandth of it to 10⁻⁶. A corner of the
@@ -23,22 +22,12 @@ pub(crate) fn kinks(crack: &Crack) -> impl Iterator<Item = Vec2> + '_ {
     (1..crack.points.len() - 1).filter(is_kink).map(|k| crack.points[k])
 }
 
-/// The edges of a rim, each from where the one before ends; a circle is two half turns.
-pub(crate) fn rim_edges(hole: &Hole) -> Vec<Edge> {
-    match *hole {
-        Hole::Circle { center, radius } => {
-            let [right, left] = [radius, -radius].map(|x| center + vec2(x, 0.0));
-            [[right, left], [left, right]].map(|[from, to]| Edge { from, to, bulge: 1.0 }).to_vec()
-        }
-        Hole::Polygon { .. } => hole.edges().collect(),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use ppum::crack::CrackEnd;
-    use ppum::vec2::Rect;
+    use ppum::domain::Hole;
+    use ppum::vec2::{Rect, vec2};
     use ppum_testkit::random::Random;
     use std::f64::consts::TAU;
 
@@ -75,7 +64,7 @@ mod tests {
 
     #[test]
     fn circles_are_two_arcs() {
-        let edges = rim_edges(&Hole::Circle { center: vec2(0.3, 0.1), radius: 0.4 });
+        let edges = Hole::Circle { center: vec2(0.3, 0.1), radius: 0.4 }.rim_edges();
         let length: f64 = edges.iter().map(Edge::length).sum();
         assert!((length - 0.4 * TAU).abs() < 1e-14);
         assert!(is_smooth(&edges[0], &edges[1]) && is_smooth(&edges[1], &edges[0]));

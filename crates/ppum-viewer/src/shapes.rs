@@ -59,7 +59,7 @@ pub fn draw_lines(painter: &egui::Painter, placed: ImagePlacement, items: &[Canv
     for item in items {
         if let CanvasItem::Line { path, pen } = item {
             let pieces = path.polylines(placed.smooth()).filter(is_long).collect();
-            lines(painter, placed, &CanvasPath { pieces, ..CanvasPath::default() }, pen);
+            lines(painter, placed, &CanvasPath::of_pieces(pieces), pen);
         }
     }
 }
@@ -278,10 +278,7 @@ mod tests {
                 let (sin, cos) = (std::f64::consts::TAU * k as f64 / count as f64).sin_cos();
                 corner + vec2(cos, flat * sin) * size
             };
-            let outline = CanvasPath {
-                pieces: vec![(0..count).map(point).collect()],
-                ..CanvasPath::default()
-            };
+            let outline = CanvasPath::of_pieces(vec![(0..count).map(point).collect()]);
             let mut pen = StrokeStyle::new([0, 0, 0, 255], 1.5);
             pen.dashes = (random.below(2) == 0).then_some([4.0, 2.0]);
             let path = outline.clone();
@@ -306,11 +303,9 @@ mod tests {
     #[test]
     fn lines_are_no_wider_where_a_picture_is_enlarged_and_signs_are_left_out() {
         let line = |length: f64| vec![vec2(3.0, 5.0), vec2(3.0 + length, 5.0)];
-        let path = CanvasPath { pieces: vec![line(400.0), line(10.0)], ..CanvasPath::default() };
-        let head = CanvasPath {
-            pieces: vec![vec![vec2(0.0, 0.0), vec2(8.0, 0.0), vec2(4.0, 8.0)]],
-            ..CanvasPath::default()
-        };
+        let path = CanvasPath::of_pieces(vec![line(400.0), line(10.0)]);
+        let head =
+            CanvasPath::of_pieces(vec![vec![vec2(0.0, 0.0), vec2(8.0, 0.0), vec2(4.0, 8.0)]]);
         let items = [
             CanvasItem::Line { path, pen: StrokeStyle::new([0, 0, 0, 255], 1.5) },
             CanvasItem::Fill { outline: head, color: [0, 0, 0, 255] },

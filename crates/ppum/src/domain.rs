@@ -102,6 +102,14 @@ impl Hole {
         Self::Polygon { points, bulges: Vec::new(), side: PolygonSide::Outside }
     }
 
+    /// The inside of a closed chain of edges.
+    #[must_use]
+    pub fn enclosed(edges: &[Edge]) -> Self {
+        let points = edges.iter().map(|edge| edge.from).collect();
+        let bulges = edges.iter().map(|edge| edge.bulge).collect();
+        Self::Polygon { points, bulges, side: PolygonSide::Inside }
+    }
+
     /// True if it is the outside of an outline, and not bounded.
     #[must_use]
     pub fn is_outside(&self) -> bool {
@@ -171,6 +179,19 @@ impl Hole {
         self.sides().zip(bulges).map(|([from, to], bulge)| Edge { from, to, bulge })
     }
 
+    /// The edges of the rim, each from where the one before ends; a circle is two half turns.
+    #[must_use]
+    pub fn rim_edges(&self) -> Vec<Edge> {
+        match *self {
+            Self::Circle { center, radius } => {
+                let [right, left] = [radius, -radius].map(|x| center + vec2(x, 0.0));
+                let half = |from, to| Edge { from, to, bulge: 1.0 };
+                vec![half(right, left), half(left, right)]
+            }
+            Self::Polygon { .. } => self.edges().collect(),
+        }
+    }
+
     /// The chords of the sides of a polygon, in order; nothing for a circle.
     pub fn sides(&self) -> impl Iterator<Item = [Vec2; 2]> + '_ {
         let points: &[Vec2] = match self {
@@ -184,10 +205,7 @@ impl Hole {
     #[must_use]
     pub fn orientation(&self) -> f64 {
         let origin = self.rim_bounds().min;
-        let area = |edge: Edge| {
-            0.5 * (edge.from - origin).cross(edge.to - origin) + edge.area_beside_chord()
-        };
-        let area: f64 = self.edges().map(area).sum();
+        let area: f64 = self.edges().map(|edge| edge.area_from(origin)).sum();
         if (area < 0.0) == self.is_outside() { 1.0 } else { -1.0 }
     }
 

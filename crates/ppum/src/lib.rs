@@ -161,6 +161,7 @@ pub mod replace;
 pub mod sample;
 pub mod segment;
 pub mod sides;
+pub mod smooth_curve;
 pub mod spline;
 pub mod text;
 pub mod vec2;

@@ -99,19 +99,6 @@ impl Line {
     }
 }
 
-/// The two points that circles with these centres and radii share, the same twice where they touch;
-/// none if they do not meet.
-#[must_use]
-pub fn circles_meet((c, r): (Vec2, f64), (other, reach): (Vec2, f64)) -> Option<[Vec2; 2]> {
-    let way = other - c;
-    let distance = way.length();
-    let along = 0.5 * (distance + (r - reach) * (r + reach) / distance);
-    let across = way.unit().left() * ((r - along) * (r + along)).sqrt();
-    let foot = c + way.unit() * along;
-    let points = [foot + across, foot - across];
-    points.iter().all(|p| p.is_finite()).then_some(points)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -178,28 +165,5 @@ mod tests {
             .unwrap();
         assert!((a - vec2(-1.0, -0.5)).length() + (b - vec2(0.0, 0.5)).length() < 1e-15);
         assert_eq!(line([f64::NAN, 0.0], [1.0, 1.0]).clipped(&bounds, [0.0, 1.0]), None);
-    }
-
-    /// Points that circles share lie on both; there are two where neither holds the other and they
-    /// are near enough, and one where they touch.
-    #[test]
-    fn points_of_circles_lie_on_both() {
-        let mut random = Random(10);
-        let mut found = 0;
-        for _ in 0..1000 {
-            let [a, b] =
-                [(); 2].map(|()| vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0)));
-            let [r, s] = [(); 2].map(|()| random.between(0.0, 1.0));
-            let apart = (b - a).length();
-            let points = circles_meet((a, r), (b, s));
-            assert_eq!(points.is_some(), apart < r + s && apart > (r - s).abs());
-            for p in points.into_iter().flatten() {
-                assert!(((p - a).length() - r).abs() < 1e-7 && ((p - b).length() - s).abs() < 1e-7);
-                found += 1;
-            }
-        }
-        assert!(found > 500, "{found} points");
-        let touching = circles_meet((Vec2::ZERO, 1.0), (vec2(1.5, 0.0), 0.5));
-        assert_eq!(touching, Some([vec2(1.0, 0.0); 2]));
     }
 }

@@ -142,7 +142,7 @@ impl SolveArgs {
         writeln!(out, "{of_what}{estimate}")?;
         let arcs = problem.arcs();
         if arcs > 0 {
-            writeln!(out, "curves of {arcs} arcs")?;
+            writeln!(out, "curves of {arcs} arc{}", if arcs == 1 { "" } else { "s" })?;
         }
         problem.notes.iter().try_for_each(|note| writeln!(out, "note: {note}"))?;
         Ok(())

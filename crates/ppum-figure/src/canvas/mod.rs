@@ -272,7 +272,13 @@ impl CanvasPath {
     /// One line through points.
     #[must_use]
     pub fn through(points: Vec<Vec2>) -> Self {
-        Self { pieces: vec![points], ..Self::default() }
+        Self::of_pieces(vec![points])
+    }
+
+    /// Straight lines through points.
+    #[must_use]
+    pub fn of_pieces(pieces: Vec<Vec<Vec2>>) -> Self {
+        Self { pieces, curves: Vec::new() }
     }
 
     /// Adds a segment or an arc, to the end of the last one if it begins there.
@@ -328,10 +334,9 @@ impl CanvasPath {
             points
         };
         let turned_curve = |curve: &Vec<Edge>| {
-            let area = |e: &Edge| 0.5 * e.from.cross(e.to) + e.area_beside_chord();
-            let is_turned = curve.iter().map(area).sum::<f64>() < 0.0;
+            let area: f64 = curve.iter().map(|edge| edge.area_from(Vec2::ZERO)).sum();
             let reversed = curve.iter().rev().map(Edge::reversed);
-            if is_turned { reversed.collect() } else { curve.clone() }
+            if area < 0.0 { reversed.collect() } else { curve.clone() }
         };
         Self {
             pieces: self.pieces.iter().map(turned).collect(),
@@ -374,18 +379,14 @@ const UNSEEN: f64 = 1e-4;
 /// their end: a segment is one.
 fn bezier_curves(edge: &Edge) -> Vec<[Vec2; 3]> {
     // a cubic is (φ/(π/2))⁶ · 2.73e-4 r away from an arc of a sweep φ
-    let sweep = edge.sweep().abs() / std::f64::consts::FRAC_PI_2;
     let radius = edge.curvature().abs().recip();
-    let count =
-        if edge.is_arc() { sweep * (2.73e-4 * radius / UNSEEN).powf(1.0 / 6.0) } else { 1.0 };
-    let count = count.ceil().max(1.0);
-    let part = |k: f64| {
-        let part = edge.part([k / count, (k + 1.0) / count]);
+    let turn = std::f64::consts::FRAC_PI_2 * (UNSEEN / (2.73e-4 * radius)).powf(1.0 / 6.0);
+    let part = |part: Edge| {
         let ([start, end], chord) = (part.end_tangents(), part.chord().length());
         let handle = (1.0 + part.bulge * part.bulge) * chord / 3.0;
         [part.from + start * handle, part.to - end * handle, part.to]
     };
-    (0..count as u32).map(|k| part(f64::from(k))).collect()
+    edge.divided(turn).map(part).collect()
 }
 
 impl StrokeStyle {

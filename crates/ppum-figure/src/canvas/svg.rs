@@ -170,13 +170,11 @@ fn command(edge: &Edge) -> String {
         return bezier_curves(edge).into_iter().map(curve).collect();
     }
     // an end is known to a thousandth: of a nearly whole circle that is not enough
-    let count = (edge.sweep().abs() / std::f64::consts::PI).ceil();
-    let arc = |k: f64| {
-        let part = edge.part([k / count, (k + 1.0) / count]);
+    let arc = |part: Edge| {
         let (radius, is_left) = (part.curvature().abs().recip(), u8::from(part.bulge > 0.0));
         format!("A{0} {0} 0 0 {is_left} {1}", number(radius), place(part.to))
     };
-    (0..count as u32).map(|k| arc(f64::from(k))).collect()
+    edge.divided(std::f64::consts::PI).map(arc).collect()
 }
 
 /// Bulges below this are those of arcs whose radius is many times their chord.

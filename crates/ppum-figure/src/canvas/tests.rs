@@ -32,10 +32,8 @@ pub(super) fn page() -> Canvas {
     let mut lines =
         CanvasPath::through(vec![vec2(20.0, 160.0), vec2(120.0, 110.0), vec2(200.0, 165.0)]);
     lines.line(vec2(60.0, 100.0), vec2(150.0, 170.0));
-    let dots = CanvasPath {
-        pieces: vec![vec![vec2(30.0, 110.0)], vec![], vec![vec2(f64::NAN, 1.0)]],
-        ..CanvasPath::default()
-    };
+    let dots =
+        CanvasPath::of_pieces(vec![vec![vec2(30.0, 110.0)], vec![], vec![vec2(f64::NAN, 1.0)]]);
     let text = |text: &str, at| TextItem::new(text, 14.0, at, [38, 38, 42, 255]);
     let halo = Some(Halo { color: [255, 230, 0, 200], width: 2.0 });
     page.items = vec![

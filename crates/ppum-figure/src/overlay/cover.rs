@@ -94,10 +94,7 @@ pub fn enrichments(field: &Field<'_>) -> Vec<EnrichmentClass> {
 #[must_use]
 pub fn points(view: &View, scale: f64, partition: &BoxPartition) -> Vec<CanvasItem> {
     let seen = partition.points.iter().filter(|&&p| is_near(view, Rect::new(p, p)));
-    let path = CanvasPath {
-        pieces: seen.map(|&p| vec![view.pixel(p)]).collect(),
-        ..CanvasPath::default()
-    };
+    let path = CanvasPath::of_pieces(seen.map(|&p| vec![view.pixel(p)]).collect());
     let pen = StrokeStyle::new(POINT, 2.0 * POINT_RADIUS * scale).with_halo(SEAM, scale);
     vec![CanvasItem::Line { path, pen }]
 }

@@ -90,7 +90,7 @@ pub fn carried(view: &DeformedView<'_>, lines: &[Isoline]) -> Vec<Isoline> {
 fn line(view: &DeformedView<'_>, paths: Paths, pen: StrokeStyle) -> CanvasItem {
     let seen = &view.view;
     let pieces = paths.iter().flat_map(|path| visible_runs(seen, path)).collect();
-    CanvasItem::Line { path: CanvasPath { pieces, ..CanvasPath::default() }, pen }
+    CanvasItem::Line { path: CanvasPath::of_pieces(pieces), pen }
 }
 
 /// Runs of a path that come near the image, in pixels.

@@ -114,10 +114,7 @@ impl Room {
 /// wanted, where there is room.
 #[must_use]
 pub fn isolines(view: &View, scale: f64, lines: &[Isoline], room: Option<Room>) -> Vec<CanvasItem> {
-    let path = CanvasPath {
-        pieces: lines.iter().map(|line| points(view, line)).collect(),
-        ..CanvasPath::default()
-    };
+    let path = CanvasPath::of_pieces(lines.iter().map(|line| points(view, line)).collect());
     let pen = StrokeStyle::new(LINE, WIDTH * scale).with_halo(SEAM, 0.7 * scale);
     let mut items = vec![CanvasItem::Line { path: path.clone(), pen }];
     if let Some(mut room) = room {

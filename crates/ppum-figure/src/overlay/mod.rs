@@ -56,10 +56,7 @@ pub fn cracks(view: &View, scale: f64, cracks: &[Crack]) -> Vec<CanvasItem> {
         add_edges(&mut lines, view, crack.edges(), crack.is_curved());
     }
     let ends = tips(cracks).map(|tip| cracks[tip.crack as usize].end_point(tip.end));
-    let dots = CanvasPath {
-        pieces: ends.map(|end| vec![view.pixel(end)]).collect(),
-        ..CanvasPath::default()
-    };
+    let dots = CanvasPath::of_pieces(ends.map(|end| vec![view.pixel(end)]).collect());
     let pen =
         |width: f64| StrokeStyle::new(CRACK, width * scale).with_halo(SEAM, SEAM_WIDTH * scale);
     // seams below all lines

@@ -30,13 +30,13 @@ pub(super) fn visible_edges(view: &View, edge: Edge) -> Vec<Edge> {
 
 /// The parts of a circle, as [`visible_edges`] gives them.
 pub(super) fn circle(view: &View, center: Vec2, radius: f64) -> Vec<Edge> {
-    let rim = AnchoredEdge::circle(&Hole::Circle { center, radius }, view.center);
-    rim.map_or_else(Vec::new, |rim| arcs(view, &rim))
+    let halves = AnchoredEdge::halves(&Hole::Circle { center, radius }, view.center);
+    halves.iter().flat_map(|half| arcs(view, half)).collect()
 }
 
 fn arcs(view: &View, edge: &AnchoredEdge) -> Vec<Edge> {
     let halved = |[low, high]: [f64; 2]| {
-        let count = (edge.curvature.abs() * (high - low) / PI).ceil().max(1.0);
+        let count = (edge.frame.curvature.abs() * (high - low) / PI).ceil().max(1.0);
         let place = move |k: f64| low + (high - low) * (k / count);
         (0..count as u32).map(f64::from).map(move |k| [place(k), place(k + 1.0)])
     };

@@ -165,15 +165,12 @@ fn bars_of(curve: &PlotCurve, [k, count]: [usize; 2], frame: &PlotFrame) -> Canv
 fn drawn(curve: &PlotCurve, pen: StrokeStyle, frame: &PlotFrame) -> (Vec<CanvasItem>, CanvasPath) {
     let pieces = curve.points.split(|p| !frame.has_place(*p)).filter(|piece| !piece.is_empty());
     let positions = |piece: &[[f64; 2]]| thinned(piece.iter().map(|&p| frame.position(p)));
-    let path = CanvasPath { pieces: pieces.map(positions).collect(), ..CanvasPath::default() };
+    let path = CanvasPath::of_pieces(pieces.map(positions).collect());
     let mut items = vec![CanvasItem::Line { path: path.clone(), pen }];
     if curve.look == CurveStyle::Dotted {
         let dots = path.pieces.iter().flatten().map(|&p| vec![p]).collect();
         let pen = StrokeStyle::new(pen.color, 2.0 * DOT * frame.scale);
-        items.push(CanvasItem::Line {
-            path: CanvasPath { pieces: dots, ..CanvasPath::default() },
-            pen,
-        });
+        items.push(CanvasItem::Line { path: CanvasPath::of_pieces(dots), pen });
     }
     (items, path)
 }

@@ -52,7 +52,7 @@ impl<'a> Interaction<'a> {
 /// Points that see a tip from one anchor.
 pub(super) struct PointBlock<'b> {
     tip: &'b Interaction<'b>,
-    local_tip: LocalTip,
+    local_tip: LocalTip<'b>,
     anchor: Vec2,
     offsets: &'b [Vec2],
     /// None where all points are alike, and no force acts.

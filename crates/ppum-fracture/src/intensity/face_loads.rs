@@ -47,7 +47,7 @@ const BALANCED: f64 = 1e-5;
 type FaceInterval = ([f64; 2], Modes);
 
 /// A part of the crack, and the tip as seen from it.
-type SegmentAtTip<'s> = (&'s PathSegment, &'s LocalTip);
+type SegmentAtTip<'s> = (&'s PathSegment, &'s LocalTip<'s>);
 
 /// The faces of a crack behind one tip, in the discs around it.
 pub(super) struct TipFaces<'a> {

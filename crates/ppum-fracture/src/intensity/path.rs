@@ -78,12 +78,12 @@ impl TipPath {
     }
 
     /// The tip as seen from an anchor.
-    pub(super) fn at(&self, anchor: Vec2) -> LocalTip {
+    pub(super) fn at(&self, anchor: Vec2) -> LocalTip<'_> {
         LocalTip::new(&self.crack, self.tip.end, anchor)
     }
 
     /// Returns the tip as seen from an anchor, for points that lie on a part of the path.
-    pub(super) fn on(&self, part: &PathSegment, anchor: Vec2) -> LocalTip {
+    pub(super) fn on(&self, part: &PathSegment, anchor: Vec2) -> LocalTip<'_> {
         LocalTip::on(&self.crack, part.local, self.tip.end, anchor)
     }
 

@@ -4,7 +4,7 @@
 //! view 10⁻¹² of the domain wide has no noise in single precision either. The shaders read it
 //! in `shader/wgsl/{geometry,crack,indicator,domain}.wgsl`.
 
-use ppum::crack::{End, LocalCrack, LocalTip, LocalVertex, SegmentId, TipId};
+use ppum::crack::{Crack, EdgeGroup, End, LocalCrack, LocalTip, LocalVertex, SegmentId, TipId};
 use ppum::dataset::Step;
 use ppum::domain::{Domain, Hole, LocalRim, LocalSide, PolygonSide};
 use ppum::function::{Cut, CutBranch, FunctionKind};
@@ -20,6 +20,8 @@ const FRAME: usize = 4;
 const SEGMENT: usize = 3;
 /// Pairs of a vertex of a crack with arcs: its place, the tangents before and behind it.
 const VERTEX: usize = 3;
+/// Pairs of a group of edges of a crack with arcs: its centre; its radius and the edge behind it.
+const GROUP: usize = 2;
 /// Pairs of a cut of an indicator: first pair of its segment; what follows on the left, on
 /// the right.
 const CUT: usize = 2;
@@ -88,6 +90,7 @@ pub(crate) fn constants() -> String {
         ("GEOMETRY_PAIRS", FRAME),
         ("SEGMENT_PAIRS", SEGMENT),
         ("VERTEX_PAIRS", VERTEX),
+        ("EDGE_GROUP_PAIRS", GROUP),
         ("CUT_PAIRS", CUT),
         ("HOLE_CIRCLE_PAIRS", CIRCLE),
         ("HOLE_SIDE_PAIRS", SIDE),
@@ -101,7 +104,7 @@ pub(crate) fn constants() -> String {
 struct Directory<'a> {
     center: Vec2,
     step: &'a Step,
-    cracks: Vec<LocalCrack>,
+    cracks: Vec<LocalCrack<'a>>,
     /// First edge and number of edges, negative if some are arcs.
     entries: Vec<Vec2>,
     /// Pair at which the cuts begin.
@@ -115,13 +118,13 @@ impl<'a> Directory<'a> {
         let cracks: Vec<_> =
             step.cracks.iter().map(|crack| LocalCrack::new(crack, center)).collect();
         let mut next = at + cracks.len();
-        let entry = |crack: &LocalCrack| {
-            let (first, count, vertices) = (next, crack.segments().len(), crack.vertices().len());
-            next += SEGMENT * count + VERTEX * vertices;
-            let sign = if vertices > 0 { -1.0 } else { 1.0 };
-            vec2(first as f64, sign * count as f64)
+        let entry = |(crack, local): (&Crack, &LocalCrack<'_>)| {
+            let (first, count, is_curved) = (next, crack.points.len() - 1, crack.is_curved());
+            let vertices = if is_curved { VERTEX * crack.points.len() } else { 0 };
+            next += SEGMENT * count + vertices + GROUP * local.groups().len();
+            vec2(first as f64, if is_curved { -1.0 } else { 1.0 } * count as f64)
         };
-        let entries = cracks.iter().map(entry).collect();
+        let entries = step.cracks.iter().zip(&cracks).map(entry).collect();
         Self { center, step, cracks, entries, first_cut: next, cuts: Vec::new() }
     }
 
@@ -139,7 +142,7 @@ impl<'a> Directory<'a> {
                 let crack = crack as usize;
                 let tip = LocalTip::new(&self.step.cracks[crack], end, self.center);
                 // of a crack with arcs the lines beyond its ends have the numbers 0 and 1
-                let is_curved = !self.cracks[crack].vertices().is_empty();
+                let is_curved = self.step.cracks[crack].is_curved();
                 let number = if is_curved { usize::from(end == End::Last) } else { tip.segment };
                 let at_end = vec2(crack as f64, number as f64);
                 [tip.from_tip, tip.axis, vec2(tip.distance(), tip.orientation), at_end]
@@ -162,15 +165,20 @@ impl<'a> Directory<'a> {
     }
 }
 
-fn segments(crack: &LocalCrack) -> impl Iterator<Item = Vec2> + '_ {
+/// The edges of a crack, and of one with arcs the vertices and groups of edges.
+fn segments(crack: &LocalCrack<'_>) -> Vec<Vec2> {
+    let vertices = crack.vertices();
     let edge = |s: &ppum::crack::LocalSegment| {
         let ends = vec2(s.lo.max(-FAR), s.hi.min(FAR));
         let major = vec2(if s.is_major { 1.0 } else { 0.0 }, 0.0);
-        let last = if crack.vertices().is_empty() { ends } else { major };
+        let last = if vertices.is_empty() { ends } else { major };
         [s.tangent, vec2(s.distance, s.curvature), last]
     };
     let vertex = |v: &LocalVertex| [v.at, v.tangents[0], v.tangents[1]];
-    crack.segments().iter().flat_map(edge).chain(crack.vertices().iter().flat_map(vertex))
+    let group = |g: &EdgeGroup| [g.center, vec2(g.radius.min(FAR), g.edges.end as f64)];
+    let edges = crack.segments();
+    let both = edges.iter().flat_map(edge).chain(vertices.iter().flat_map(vertex));
+    both.chain(crack.groups().iter().flat_map(group)).collect()
 }
 
 /// A circle divided by 2r and the lines of a polygon by their lengths: numbers of the size

@@ -373,7 +373,7 @@ fn curved(points: &[[f64; 2]], bulges: &[f64]) -> Crack {
 
 /// Straight, kinked at a sharp and a blunt angle, a zigzag, and one in an odd place; an arc of a
 /// quarter and one of three quarters of a turn, arcs and a segment with common tangents, and arcs
-/// with kinks between them and a segment at the start.
+/// with kinks between them and a segment at the start; and a wave of more arcs than a group has.
 fn cracks() -> Vec<Crack> {
     let quarter = std::f64::consts::FRAC_PI_8.tan();
     vec![
@@ -386,7 +386,19 @@ fn cracks() -> Vec<Crack> {
         curved(&[[0.1, 0.2], [0.45, 0.3]], &[-2.414]),
         curved(&[[-0.5, 0.0], [0.0, 0.5], [0.5, 0.0], [0.5, -0.5]], &[-quarter, -quarter, 0.0]),
         curved(&[[-0.9, 0.1], [-0.5, 0.3], [-0.1, -0.2], [0.4, 0.3]], &[0.0, 0.7, -1.2]),
+        wave(90),
     ]
+}
+
+/// Arcs of some 45°, to the left and to the right, along two turns of a spiral.
+fn wave(count: u32) -> Crack {
+    let point = |k: u32| {
+        let turn = f64::from(k) / f64::from(count);
+        let (sin, cos) = (4.0 * std::f64::consts::PI * turn).sin_cos();
+        [(0.3 + 0.5 * turn) * cos, (0.3 + 0.5 * turn) * sin]
+    };
+    let bulges: Vec<f64> = (0..count).map(|k| if k % 2 == 0 { 0.2 } else { -0.2 }).collect();
+    curved(&(0..=count).map(point).collect::<Vec<_>>(), &bulges)
 }
 
 fn step(cracks: Vec<Crack>) -> Step {
@@ -531,7 +543,7 @@ fn indicators_of_components() {
             // count where they decide
             let far: Vec<f64> = lines
                 .iter()
-                .flat_map(|c| c.segments().iter().map(|s| s.distance.abs()))
+                .flat_map(|c| c.segments().into_owned().into_iter().map(|s| s.distance.abs()))
                 .filter(|&d| d > 1e-15)
                 .collect();
             let round = lines.iter().filter(|line| !line.vertices().is_empty());

@@ -6,7 +6,6 @@ use ppum::border::{BorderLine, touch};
 use ppum::crack::Crack;
 use ppum::domain::{Domain, Hole};
 use ppum::edge::Edge;
-use ppum::line::Line;
 use ppum::text::{exact, trimmed};
 use ppum::vec2::{Rect, Vec2};
 
@@ -222,7 +221,14 @@ impl Course<'_> {
 
     /// No crossing with itself.
     fn meets_itself(&self) -> Option<KeyError> {
-        let edges: Vec<Edge> = self.course.edges().collect();
+        let (edges, last) = (self.course.edges().collect::<Vec<_>>(), self.points.len() - 1);
+        if last > 1 && (self.points[last] - self.points[0]).length() <= self.touch {
+            let message = format!(
+                "the crack is closed: both of its ends are at {}; give it as two cracks whose ends meet",
+                shown(self.points[0])
+            );
+            return Some(self.error_at(last, message));
+        }
         let Ok(touching) = self_touch(&edges, false, self.touch) else {
             return Some(self.error(TooDense::message("parts of the crack")));
         };
@@ -263,15 +269,10 @@ pub(crate) fn bad_bulges(bulges: &[f64], edges: usize) -> Option<(String, String
 
 /// Where two edges meet: where they cross, else the end of one that is the nearest to the other.
 pub(crate) fn place(s: Edge, t: Edge) -> Vec2 {
-    let crossings: Vec<Vec2> = if s.is_arc() || t.is_arc() {
-        s.meets(&t).into_iter().map(|[part, _]| s.at(part)).collect()
-    } else {
-        let line = Line::through([s.from, s.to]);
-        line.meets(&Line::through([t.from, t.to])).map(|[at, _]| line.at(at)).into_iter().collect()
-    };
+    let crossings = s.meets_curve(&t).into_iter().map(|part| s.at(part));
     let of = |edge: Edge, p: Vec2| (edge.distance(p), p);
     let ends = [of(t, s.from), of(t, s.to), of(s, t.from), of(s, t.to)];
-    let crosses = crossings.into_iter().map(|p| (s.distance(p).max(t.distance(p)), p));
+    let crosses = crossings.map(|p| (s.distance(p).max(t.distance(p)), p));
     let all = ends.into_iter().chain(crosses);
     all.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(s.from, |(_, p)| p)
 }

@@ -152,9 +152,7 @@ pub(crate) fn is_outside(domain: &Domain, p: Vec2, touch: f64) -> bool {
 
 /// True if a point lies on a circle or on an arc of a rim.
 fn is_on_curve(hole: &Hole, p: Vec2, touch: f64) -> bool {
-    let is_round = hole.sides().next().is_none() && hole.rim_distance(p) <= touch;
-    let mut arcs = hole.edges().filter(Edge::is_arc);
-    is_round || arcs.any(|arc| arc.distance(p) <= touch)
+    hole.rim_edges().iter().any(|edge| edge.is_arc() && edge.distance(p) <= touch)
 }
 
 /// Distance, less than `reach`, from a point in a direction to an edge that does not begin there.

@@ -368,7 +368,8 @@ impl ProblemData {
     pub(crate) fn face_near(&self, crack: usize, side: Side, x: Vec2) -> (usize, Vec2) {
         let edges = self.cracks()[crack].edges().enumerate();
         let nearest = edges.min_by(|(_, s), (_, t)| s.distance(x).total_cmp(&t.distance(x)));
-        let (number, left) = nearest.map_or((0, Vec2::ZERO), |(k, edge)| (k, left_of(&edge, x)));
+        let left = |edge: Edge| edge.tangent_towards(x).left();
+        let (number, left) = nearest.map_or((0, Vec2::ZERO), |(k, edge)| (k, left(edge)));
         (number, if side == Side::Above { left } else { -left })
     }
 
@@ -385,9 +386,4 @@ impl ProblemData {
         }
         sum
     }
-}
-
-/// The normal on the left of an edge at its point next to another one.
-fn left_of(edge: &Edge, x: Vec2) -> Vec2 {
-    if edge.is_arc() { edge.tangent_towards(x).left() } else { edge.chord().unit().left() }
 }

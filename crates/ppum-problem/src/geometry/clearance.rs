@@ -228,7 +228,7 @@ fn comes_back(own: &Crack, end: End) -> f64 {
 /// The edges of the part of a crack that leads away from a tip, and of the rest, in the direction
 /// from the tip. Arcs are divided.
 pub(super) fn led_away(own: &Crack, end: End) -> [Vec<Edge>; 2] {
-    let edges: Vec<Edge> = from_tip(own, end).flat_map(parts).collect();
+    let edges: Vec<Edge> = from_tip(own, end).flat_map(|edge| edge.divided(PART)).collect();
     let (tip, axis) = (own.end_point(end), own.growth_direction(end));
     // a right angle leads neither away nor back, whatever its rounding
     let is_acute = |u: Vec2, v: Vec2| u.dot(v) > AS_LONG * u.length() * v.length();
@@ -240,13 +240,6 @@ pub(super) fn led_away(own: &Crack, end: End) -> [Vec<Edge>; 2] {
     let is_behind = |p: Vec2| is_acute(tip - p, axis);
     let away = edges.iter().take_while(|edge| leads_away(edge) && is_behind(edge.to)).count();
     [edges[..away].to_vec(), edges[away..].to_vec()]
-}
-
-/// A segment, or the parts of an arc.
-fn parts(edge: Edge) -> impl Iterator<Item = Edge> {
-    let count = (edge.sweep().abs() / PART).ceil().max(1.0) as usize;
-    let at = move |k: usize| k as f64 / count as f64;
-    (0..count).map(move |k| if count == 1 { edge } else { edge.part([at(k), at(k + 1)]) })
 }
 
 /// Distance from a tip up to which θ surely jumps on its crack alone. For a hook, whose extensions
@@ -271,7 +264,7 @@ pub fn sure_side(crack: &Crack, at: Vec2, bounds: &Rect, touch: f64) -> f64 {
         return f64::INFINITY;
     }
     let rays = [End::Start, End::Last].map(|end| extension(crack, end, reach));
-    let all = crack.edges().flat_map(parts).chain(rays);
+    let all = crack.edges().flat_map(|edge| edge.divided(PART)).chain(rays);
     let others = all.map(|edge| edge.distance(at)).filter(|distance| *distance > touch);
     0.5 * others.fold(f64::INFINITY, f64::min)
 }

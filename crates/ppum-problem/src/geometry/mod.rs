@@ -5,7 +5,6 @@ mod clearance;
 mod clip;
 mod components;
 mod cracks;
-mod curve;
 mod jumps;
 mod material;
 mod nearby;
@@ -24,7 +23,6 @@ pub use clip::{
 pub(crate) use clip::{lies_along, solid_length};
 pub(crate) use cracks::{Holes, edges_at, holes_at, holes_of, reaches, settled, with_ends};
 pub use cracks::{crack, cracks};
-pub(crate) use curve::{MOST_ARCS, SmoothCurve};
 pub use jumps::Jumps;
 pub use material::{interface_distance, jumps_within};
 pub(crate) use nearby::{Nearby, TooDense, first_pair};

@@ -4,12 +4,13 @@ use ppum::border::touch;
 use ppum::crack::Crack;
 use ppum::domain::{Domain, Hole, PolygonSide};
 use ppum::edge::Edge;
+use ppum::smooth_curve::SmoothCurve;
 use ppum::spline::Spline;
 use ppum::vec2::{Rect, Vec2};
 
 use crate::data::{Body, BoundaryPiece, BoundaryRange, Discretization};
 use crate::file::{DocumentValue, FromValue as _, Section, all};
-use crate::geometry::{SmoothCurve, needed, shown};
+use crate::geometry::{needed, shown};
 use crate::read::curve::{bulges, edges, ellipse, joined, knots, no_bulges, note_segments};
 
 /// A closed curve in words of the problem file.

@@ -5,11 +5,12 @@ use std::f64::consts::TAU;
 
 use ppum::crack::Crack;
 use ppum::edge::Edge;
+use ppum::smooth_curve::{MOST_ARCS, SmoothCurve};
 use ppum::spline::Spline;
 use ppum::vec2::{Vec2, vec2};
 
 use crate::file::{DocumentValue, FromValue as _, Section, all};
-use crate::geometry::{MOST_ARCS, SmoothCurve, shown};
+use crate::geometry::shown;
 
 /// Gap between pieces of a path, in parts of their size, that is rounding of their ends.
 pub(super) const JOINT: f64 = 1e-6;

@@ -1,7 +1,6 @@
 """Edges between points, segments and arcs of circles: an arc has a bulge, tan(sweep / 4), positive where it turns left."""
 
 import math
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -58,21 +57,14 @@ def _turned(vectors: Points, angles: Points) -> Points:
 
 def distance(p: Points, points: Points, bulges: Points | None) -> float:
     """Return the distance from a point to a chain of edges."""
-    given = np.zeros(len(points) - 1) if bulges is None else bulges
-    return min(_distance(p, a, b, float(bulge)) for a, b, bulge in zip(points, points[1:], given))
-
-
-def _distance(p: Any, a: Any, b: Any, bulge: float) -> float:
-    along, way = b - a, p - a
-    if bulge == 0:
-        part = min(max(float(way @ along) / float(along @ along), 0.0), 1.0)
-        return float(np.hypot(*(way - part * along)))
-    center = (a + b) / 2 + np.array([-along[1], along[0]]) * ((1 - bulge**2) / (4 * bulge))
-    radius = np.hypot(*(a - center))
-    # p is between the ends if the arc, which lies on its side of the chord, has it in its angle
-    spoke = p - center
-    start = a - center
-    turn = math.atan2(start[0] * spoke[1] - start[1] * spoke[0], start @ spoke)
-    if (turn * math.copysign(1, bulge)) % (2 * math.pi) <= abs(4 * math.atan(bulge)):
-        return float(abs(np.hypot(*spoke) - radius))
-    return float(min(np.hypot(*way), np.hypot(*(p - b))))
+    chords = np.diff(points, axis=0)
+    given = np.zeros(len(chords)) if bulges is None else bulges
+    left = np.column_stack([-chords[:, 1], chords[:, 0]])
+    # the way from the middle, along the chord and across it, in chords
+    way = p - (points[:-1] + points[1:] - left * given[:, None]) / 2
+    size = (chords**2).sum(axis=1)
+    t, n = (way * chords).sum(axis=1) / size, (way * left).sum(axis=1) / size
+    bend, sweep = 4 * given / (1 + given**2), 4 * np.arctan(given)
+    parts = np.where(given == 0, t, np.arctan2(bend * t, 1 - bend * n) / np.where(given == 0, 1, sweep)) + 0.5
+    closest, _ = along(chords, given, np.clip(parts, 0, 1))
+    return float(np.hypot(*(points[:-1] + closest - p).T).min())

@@ -123,10 +123,8 @@ def _bulges(name: str, points: Sequence[NDArray[np.float64]], bulges: Sequence[N
     """Return the array of bulges of the edges behind all points; none without arcs."""
     if all(given is None for given in bulges):
         return {}
-    padded = [np.zeros(len(of)) for of in points]
-    for edges, given in zip(padded, bulges):
-        if given is not None:
-            edges[: len(given)] = given
+    known = [np.empty(0) if given is None else given for given in bulges]
+    padded = [np.pad(given, (0, len(of) - len(given))) for of, given in zip(points, known)]
     return {name: np.concatenate(padded)}
 
 

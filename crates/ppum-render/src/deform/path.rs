@@ -2,7 +2,7 @@
 
 use ppum::border::{is_mirrored_side, touch};
 use ppum::crack::{Crack, CrackEnd, Side};
-use ppum::domain::LocalDomain;
+use ppum::domain::{Hole, LocalDomain};
 use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2, vec2};
 
@@ -89,11 +89,7 @@ impl DeformedView<'_> {
         let mut all = border.sides(sides.filter(is_drawn), 1.0);
         for hole in &self.field().domain.holes {
             all.extend(border.sides(hole.edges().filter(is_drawn), -hole.orientation()));
-            all.extend(
-                AnchoredEdge::circle(hole, self.anchor)
-                    .into_iter()
-                    .flat_map(|rim| border.circle(rim)),
-            );
+            all.extend(border.circle(hole));
         }
         all
     }
@@ -106,9 +102,14 @@ impl DeformedView<'_> {
             let ends = [edge.from, edge.to].map(|end| end - self.anchor);
             return self.line(ends, &mut |o| place(o, left));
         }
-        let arc = AnchoredEdge::new(edge, self.anchor);
-        let parts = self.parts(edge.length()).max(edge.sweep().abs().ceil() as usize);
-        let mut at = |s: f64| place(arc.at(s), arc.tangent_at(s).left());
+        self.arc(&AnchoredEdge::new(edge, self.anchor), place)
+    }
+
+    fn arc(&self, arc: &AnchoredEdge, place: &mut dyn FnMut(Vec2, Vec2) -> Option<Vec2>) -> Paths {
+        let length = arc.range[1] - arc.range[0];
+        let turn = length * arc.frame.curvature.abs();
+        let mut at = |s: f64| place(arc.frame.at(s), arc.frame.tangent_at(s).left());
+        let parts = self.parts(length).max(turn.ceil() as usize);
         self.trace(arc.range, parts, |a, b| 0.5 * (a + b), &mut at)
     }
 
@@ -274,14 +275,11 @@ impl<'a, 'f> BoundaryPath<'a, 'f> {
         paths.all
     }
 
-    /// A round rim with the body on its right.
-    fn circle(&mut self, rim: AnchoredEdge) -> Paths {
+    /// The rim of a round hole, with the body on its right; nothing of a polygon.
+    fn circle(&mut self, hole: &Hole) -> Paths {
         let (view, mut paths) = (self.view, JoinedPaths::new(self.view));
-        let [low, high] = rim.range;
-        for ends in [[low, 0.0], [0.0, high]] {
-            paths.add(view.trace(ends, PARTS, |a, b| 0.5 * (a + b), &mut |s| {
-                self.place(rim.at(s), -rim.tangent_at(s).left())
-            }));
+        for half in AnchoredEdge::halves(hole, view.anchor) {
+            paths.add(view.arc(&half, &mut |o, normal| self.place(o, -normal)));
         }
         paths.all
     }

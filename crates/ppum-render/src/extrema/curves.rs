@@ -1,17 +1,15 @@
 //! Boundaries on which an extremum may lie, and extreme values along them.
 
 use ppum::crack::{SegmentId, Side};
-use ppum::domain::Hole;
-use ppum::edge::Edge;
+use ppum::edge::EdgeFrame;
 use ppum::field::{Field, LocalField};
 use ppum::line::Line;
 use ppum::vec2::{Rect, Vec2};
-use std::f64::consts::PI;
 
 use super::bent::Bent;
 use super::site::ExtremumSite;
 use crate::anchored_edge::AnchoredEdge;
-use crate::pieces::{AnchoredCircle, material_kinks, rim_edges, turns};
+use crate::pieces::material_kinks;
 
 /// Fewest and most samples that a curve should have.
 const SAMPLES: [usize; 2] = [32, 1 << 14];
@@ -40,16 +38,7 @@ enum CurveShape {
     Straight([Vec2; 2]),
     /// The part between two places of an arc, seen from its left for +1, from its right for −1.
     Arc(AnchoredEdge, [f64; 2], f64),
-    Round(RimArc),
     Bent(Bent),
-}
-
-/// A part of a rim: the point at the angle ψ from the direction e to the anchor, at the distance a
-/// from the centre, is, relative to the anchor, e (r − a − 2 r sin² ψ/2) + e⊥ r sin ψ, without
-/// cancellation where ψ is small.
-struct RimArc {
-    circle: AnchoredCircle,
-    angles: [f64; 2],
 }
 
 impl BoundaryCurve {
@@ -67,9 +56,8 @@ impl BoundaryCurve {
             CurveShape::Straight([a, b]) => *a + (*b - *a) * t + self.toward * (BESIDE * pixel),
             CurveShape::Arc(edge, [low, high], side) => {
                 let s = low + (high - low) * t;
-                edge.at(s) + edge.tangent_at(s).left() * (side * BESIDE * pixel)
+                edge.frame.at(s) + edge.frame.tangent_at(s).left() * (side * BESIDE * pixel)
             }
-            CurveShape::Round(arc) => arc.at(t, BESIDE * pixel),
             CurveShape::Bent(bent) => bent.at(t, BESIDE * pixel),
         }
     }
@@ -93,23 +81,9 @@ impl BoundaryCurve {
         let length = match &self.shape {
             CurveShape::Straight([a, b]) => (*b - *a).length(),
             CurveShape::Arc(_, [low, high], _) => (high - low).abs(),
-            CurveShape::Round(arc) => arc.circle.radius * (arc.angles[1] - arc.angles[0]),
             CurveShape::Bent(bent) => bent.length(),
         };
         ((length / pixel).ceil() as usize).clamp(SAMPLES[0], SAMPLES[1])
-    }
-}
-
-impl RimArc {
-    fn at(&self, t: f64, beside: f64) -> Vec2 {
-        let angle = self.angles[0] + (self.angles[1] - self.angles[0]) * t;
-        let (sin, cos) = angle.sin_cos();
-        let AnchoredCircle { away, direction, excess, radius } = self.circle;
-        // r − a
-        let inward = -excess / (away + radius);
-        let fall = 2.0 * radius * (0.5 * angle).sin().powi(2);
-        let along = direction * (inward - fall + beside * cos);
-        along + direction.left() * ((radius + beside) * sin)
     }
 }
 
@@ -120,35 +94,32 @@ pub(super) fn boundary_curves(field: &Field<'_>, anchor: Vec2, rect: &Rect) -> V
         for (segment, edge) in (0..).zip(crack.edges()) {
             let id = SegmentId { crack: index, segment };
             for (side, sign) in [(Side::Above, 1.0), (Side::Below, -1.0)] {
-                curves.extend(beside(edge, sign, ExtremumSite::Face(id, side), anchor, rect));
+                let local = AnchoredEdge::new(edge, anchor);
+                curves.extend(beside(local, sign, ExtremumSite::Face(id, side), rect));
             }
         }
     }
     for (index, hole) in field.domain.holes.iter().enumerate() {
-        add_rim(hole, index, anchor, rect, &mut curves);
+        let on = if hole.is_outside() { ExtremumSite::Border } else { ExtremumSite::Rim(index) };
+        let body = -hole.orientation();
+        let rim = AnchoredEdge::rim(hole, anchor);
+        curves.extend(rim.flat_map(|(_, edge)| beside(edge, body, on, rect)));
     }
     add_interfaces(field, anchor, rect, &mut curves);
     curves
 }
 
 /// The parts of an edge in a rectangle, seen from its left for the side +1.
-fn beside(
-    edge: Edge,
-    side: f64,
-    on: ExtremumSite,
-    anchor: Vec2,
-    rect: &Rect,
-) -> Vec<BoundaryCurve> {
-    let local = AnchoredEdge::new(edge, anchor);
-    if edge.is_arc() {
+fn beside(local: AnchoredEdge, side: f64, on: ExtremumSite, rect: &Rect) -> Vec<BoundaryCurve> {
+    if local.frame.curvature != 0.0 {
         let curve = |part| {
             let shape = CurveShape::Arc(local, part, side);
             BoundaryCurve { shape, toward: Vec2::ZERO, on }
         };
         return local.within(rect).into_iter().map(curve).collect();
     }
-    let line = Line { from: local.tangent.left() * -local.distance, along: local.tangent };
-    let toward = local.tangent.left() * side;
+    let EdgeFrame { foot, tangent, .. } = local.frame;
+    let (line, toward) = (Line { from: foot, along: tangent }, tangent.left() * side);
     let ends = line.clipped(rect, local.range);
     ends.map(|ends| BoundaryCurve::straight(ends, toward, on)).into_iter().collect()
 }
@@ -156,32 +127,6 @@ fn beside(
 fn borders(rect: &Rect) -> Vec<BoundaryCurve> {
     let side = |ends| BoundaryCurve::straight(ends, Vec2::ZERO, ExtremumSite::Border);
     rect.sides().map(side).into()
-}
-
-fn add_rim(hole: &Hole, index: usize, anchor: Vec2, rect: &Rect, curves: &mut Vec<BoundaryCurve>) {
-    let on = if hole.is_outside() { ExtremumSite::Border } else { ExtremumSite::Rim(index) };
-    let orientation = hole.orientation();
-    curves.extend(rim_edges(hole).flat_map(|edge| beside(edge, -orientation, on, anchor, rect)));
-    let round = AnchoredCircle::new(hole, anchor).and_then(|circle| arc(circle, rect));
-    let shape = round.map(CurveShape::Round);
-    curves.extend(shape.map(|shape| BoundaryCurve { shape, toward: Vec2::ZERO, on }));
-}
-
-/// The part of a rim near a rectangle; all of it if the rectangle surrounds the centre or is no
-/// smaller than the hole.
-fn arc(circle: AnchoredCircle, rect: &Rect) -> Option<RimArc> {
-    let (center, radius) = (circle.center(), circle.radius);
-    let nearest = center.max(rect.min).min(rect.max);
-    if (nearest - center).length() > radius * (1.0 + 1e-9) {
-        return None;
-    }
-    let size = rect.size();
-    if rect.contains(center) || size.x.max(size.y) > radius {
-        return Some(RimArc { circle, angles: [-PI, PI] });
-    }
-    let angles = rect.corners().map(|p| circle.angle(p));
-    let angles = turns(&angles).map(|turn| angles[0] + turn);
-    Some(RimArc { circle, angles })
 }
 
 /// Both sides of the straight lines on which the material's formulas are not smooth.
@@ -213,11 +158,11 @@ impl BoundaryCurve {
                     (near, length, Box::new(move |range| CurveShape::Straight(ends(range))))
                 }
                 (&CurveShape::Arc(edge, [low, high], side), ExtremumSite::Face(..)) => {
-                    let [a, b] = [low, high].map(|s| (edge.at(s) - point).length());
+                    let [a, b] = [low, high].map(|s| (edge.frame.at(s) - point).length());
                     let (near, sign) = if a < b { (low, 1.0) } else { (high, -1.0) };
                     let places = move |range: [f64; 2]| range.map(|r| near + sign * r);
                     let part = move |range| CurveShape::Arc(edge, places(range), side);
-                    (edge.at(near), high - low, Box::new(part))
+                    (edge.frame.at(near), high - low, Box::new(part))
                 }
                 _ => return Vec::new(),
             };

@@ -271,10 +271,11 @@ fn no_crack_is_crossed(field: &Field<'_>, view: &View, line: &Isoline) {
     for (crack, ends) in
         field.step.cracks.iter().map(|c| (LocalCrack::new(c, view.center), &c.points))
     {
+        let segments = crack.segments();
         for (way, (segment, ends)) in line
             .points
             .windows(2)
-            .flat_map(|way| crack.segments().iter().zip(ends.windows(2)).map(move |s| (way, s)))
+            .flat_map(|way| segments.iter().zip(ends.windows(2)).map(move |s| (way, s)))
         {
             let [a, b] = [way[0], way[1]].map(|p| segment.distance + segment.tangent.cross(p));
             let along = segment.tangent.dot(way[0] + (way[1] - way[0]) * (a / (a - b)));

@@ -5,9 +5,9 @@
 //! by
 //!
 //! - the lines of the segments of cracks that meet it: their extensions too, which does no harm,
-//! - the sides of polygonal holes and tangents of round ones, which leave the hole by less than
-//!   [`SAGITTA`] of the square,
-//! - for arcs of cracks and rims chords, or tangents where these stay in the body, as near as that,
+//! - the straight sides of holes,
+//! - for arcs of cracks and rims chords, or tangents where these stay in the body, nearer to them
+//!   than [`SAGITTA`] of the square,
 //! - the border of the domain,
 //! - the sets on which the material's formulas may jump, curved ones by chords;
 //!
@@ -22,7 +22,6 @@ mod cut;
 mod edge_line;
 mod element;
 mod piece;
-mod round;
 
 use ppum::box_tree::BoxTree;
 use ppum::domain::{Hole, LocalDomain};
@@ -32,6 +31,7 @@ use ppum::field::Field;
 use ppum::formula::Kink;
 use ppum::vec2::{Rect, Vec2, vec2};
 
+use crate::anchored_edge::AnchoredEdge;
 pub(crate) use curve::{FormulaLevel, LevelCurve};
 pub(crate) use cut::PolygonCut;
 pub use cut::SAGITTA;
@@ -41,7 +41,6 @@ pub use element::{ElementCuts, steepness};
 use piece::SHORTEST;
 pub(crate) use piece::contains;
 pub use piece::{ConvexPiece, INSET};
-pub(crate) use round::{AnchoredCircle, turns};
 
 /// Squares with more lines in them than this are divided into four, again and again, up to
 /// [`DEPTH`] times: the lines of a corner with many sides do not all cut all pieces then.
@@ -60,11 +59,9 @@ pub struct Pieces<'f> {
     domain: LocalDomain,
     /// The box of the domain, relative to the anchor.
     bounds: Rect,
-    /// Edges of cracks and of polygonal holes, found by their boxes.
+    /// Edges of cracks and rims, found by their boxes.
     lines: Vec<EdgeLine>,
     tree: BoxTree,
-    rounds: Vec<AnchoredCircle>,
-    round_tree: BoxTree,
     /// Straight interfaces, and the others.
     interfaces: Vec<PolygonCut>,
     curves: Vec<FormulaLevel>,
@@ -84,19 +81,17 @@ impl<'f> Pieces<'f> {
     /// rims only.
     #[must_use]
     pub fn of_values(field: &Field<'f>, anchor: Vec2) -> Self {
-        let (domain, holes) = (field.domain, &field.domain.holes);
+        let domain = field.domain;
         let of_cracks = field.step.cracks.iter().flat_map(|crack| {
             let line = |edge: Edge| EdgeLine::of_crack(edge, crack.is_curved(), anchor);
             crack.edges().map(move |edge| (edge.bounds(), line(edge)))
         });
-        let of_holes = holes.iter().flat_map(|hole| {
-            let orientation = hole.orientation();
-            let line = move |edge: Edge| EdgeLine::of_rim(edge, -orientation, anchor);
-            rim_edges(hole).map(move |edge| (edge.bounds(), line(edge)))
+        let of_holes = domain.holes.iter().flat_map(|hole| {
+            let (body, is_disc) = (-hole.orientation(), matches!(hole, Hole::Circle { .. }));
+            let line = move |(bounds, edge)| (bounds, EdgeLine::of_rim(edge, body, is_disc));
+            AnchoredEdge::rim(hole, anchor).map(line)
         });
         let (boxes, lines): (Vec<Rect>, Vec<_>) = of_cracks.chain(of_holes).unzip();
-        let is_round = |hole: &&Hole| matches!(hole, Hole::Circle { .. });
-        let round_boxes: Vec<Rect> = holes.iter().filter(is_round).map(Hole::bounds).collect();
         Self {
             equation: field.equation,
             anchor,
@@ -104,8 +99,6 @@ impl<'f> Pieces<'f> {
             bounds: Rect::new(domain.bounds.min - anchor, domain.bounds.max - anchor),
             lines,
             tree: BoxTree::new(&boxes),
-            rounds: holes.iter().filter_map(|hole| AnchoredCircle::new(hole, anchor)).collect(),
-            round_tree: BoxTree::new(&round_boxes),
             interfaces: Vec::new(),
             curves: Vec::new(),
         }
@@ -131,7 +124,6 @@ impl<'f> Pieces<'f> {
             || self.curves.iter().any(|curve| curve.may_meet(rect))
             || self.interfaces.iter().any(|cut| cut.meets(rect))
             || !self.lines_in(rect).is_empty()
-            || self.rounds_in(rect).next().is_some()
     }
 
     /// The pieces of a square, or another rectangle, of offsets from the anchor; none if all of it
@@ -159,9 +151,6 @@ impl<'f> Pieces<'f> {
                 inside
             };
             all = all.into_iter().filter_map(inside).collect();
-        }
-        for round in self.rounds_in(square) {
-            all = all.into_iter().flat_map(|polygon| round.outside(polygon, size, least)).collect();
         }
         let straight = self.interfaces.iter().filter(|cut| cut.meets(square));
         for cut in lines {
@@ -210,25 +199,18 @@ impl<'f> Pieces<'f> {
         a.into_iter().zip(b).any(|(a, b)| (a - b).abs() > JUMP * (a.abs() + b.abs()))
     }
 
-    /// True if the box of an arc, or a round rim, comes near a rectangle of offsets.
+    /// True if an arc comes near a rectangle of offsets.
     pub(crate) fn may_bend(&self, rect: &Rect) -> bool {
         let (near, mut found) = (Rect::around(rect.center(), rect.size() * 0.51), Vec::new());
         self.tree.query_box(&self.in_world(&near), &mut found);
-        let mut near_lines = found.iter().map(|&k| &self.lines[k as usize]);
-        near_lines.any(EdgeLine::is_arc) || self.rounds_in(&near).next().is_some()
+        let mut lines = found.iter().map(|&k| &self.lines[k as usize]);
+        lines.any(|line| line.is_arc() && !line.cuts(&near).is_empty())
     }
 
     fn lines_in(&self, square: &Rect) -> Vec<EdgeCut> {
         let mut found = Vec::new();
         self.tree.query_box(&self.in_world(square), &mut found);
         found.iter().flat_map(|&k| self.lines[k as usize].cuts(square)).collect()
-    }
-
-    fn rounds_in(&self, square: &Rect) -> impl Iterator<Item = &AnchoredCircle> {
-        let mut found = Vec::new();
-        self.round_tree.query_box(&self.in_world(square), &mut found);
-        let square = *square;
-        found.into_iter().map(|k| &self.rounds[k as usize]).filter(move |r| r.meets(&square))
     }
 
     /// A box in world coordinates that holds a rectangle in spite of rounding.
@@ -259,11 +241,6 @@ pub fn quarters(square: &Rect) -> [Rect; 4] {
         Rect::new(vec2(min.x, middle.y), vec2(middle.x, max.y)),
         Rect::new(middle, max),
     ]
-}
-
-/// The sides of a polygonal hole that have a length; none of a round one.
-pub(crate) fn rim_edges(hole: &Hole) -> impl Iterator<Item = Edge> + '_ {
-    hole.edges().filter(|edge| edge.chord().length() > 0.0)
 }
 
 #[cfg(test)]

@@ -275,7 +275,7 @@ fn pieces_lie_beside_arcs() {
             // slivers beside arcs are left out
             let edges = field.step.cracks.iter().flat_map(Crack::edges);
             let mut locals = edges.map(|edge| AnchoredEdge::new(edge, anchor));
-            let is_apart = locals.all(|e| (e.at(e.closest(p)) - p).length() > 0.02 * size);
+            let is_apart = locals.all(|e| (e.frame.at(e.closest(p)) - p).length() > 0.02 * size);
             let message = || format!("{anchor:?} {square:?} {p:?} {pieces:?}");
             assert!(!is_inside || !is_apart || is_held, "{}", message());
         }

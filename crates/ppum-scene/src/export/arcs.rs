@@ -19,29 +19,15 @@ pub(super) fn with_polygons(domain: &Domain) -> Domain {
 }
 
 fn polygon(hole: &Hole) -> Hole {
-    match hole {
-        Hole::Circle { center, radius } => Hole::polygon(around(*center, *radius)),
-        Hole::Polygon { side, .. } => {
-            let inner = hole.orientation();
-            let points = hole.edges().flat_map(|edge| {
-                let is_outside = inner * edge.bulge > 0.0;
-                let behind = if is_outside { tangents(&edge) } else { chords(&edge, &[]) };
-                let behind = behind.into_iter().filter(move |p| *p != edge.to);
-                std::iter::once(edge.from).chain(behind)
-            });
-            Hole::Polygon { points: points.collect(), bulges: Vec::new(), side: *side }
-        }
-    }
-}
-
-fn around(center: Vec2, radius: f64) -> Vec<Vec2> {
-    let step = TAU / SIDES;
-    let far = radius / (0.5 * step).cos();
-    let corner = |k: u32| {
-        let (sin, cos) = (step * f64::from(k)).sin_cos();
-        center + vec2(cos, sin) * far
-    };
-    (0..SIDES as u32).map(corner).collect()
+    let inner = hole.orientation();
+    let points = hole.rim_edges().into_iter().flat_map(|edge| {
+        let is_outside = inner * edge.bulge > 0.0;
+        let behind = if is_outside { tangents(&edge) } else { chords(&edge, &[]) };
+        let behind = behind.into_iter().filter(move |p| *p != edge.to);
+        std::iter::once(edge.from).chain(behind)
+    });
+    let points = points.collect();
+    if hole.is_outside() { Hole::outside(points) } else { Hole::polygon(points) }
 }
 
 /// The points in which tangents at the ends of the parts of an arc meet.
@@ -132,7 +118,7 @@ mod tests {
                 let away = hole.rim_distance(p);
                 assert!(away < 1e-3 && (away < 1e-13 || !hole.contains(p)), "{hole:?} {p:?}");
             }
-            let area = |edge: Edge| 0.5 * edge.from.cross(edge.to) + edge.area_beside_chord();
+            let area = |edge: Edge| edge.area_from(Vec2::ZERO);
             let exact: f64 = hole.edges().map(area).sum();
             assert!((signed_area(&points) - exact).abs() < 5e-3, "{hole:?}");
         }

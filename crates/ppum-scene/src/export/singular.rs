@@ -89,7 +89,7 @@ fn extent(field: &Field<'_>, p: Vec2) -> f64 {
     let holes = holes.map(|hole| (hole.rim_distance(p), longest(&hole.rim_bounds())));
     let cracks = field.step.cracks.iter().map(|crack| {
         let tips = crack.tips().count().max(1);
-        let away = crack.edges().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min);
+        let away = crack.distance(p);
         (away, crack.length() / tips as f64)
     });
     let near = SAME * longest(bounds);

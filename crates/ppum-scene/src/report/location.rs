@@ -97,7 +97,7 @@ impl Location {
             (edge.reversed(), from_b)
         };
         let local = AnchoredEdge::new(edge, edge.from);
-        let offset = local.at(local.closest(way));
+        let offset = local.frame.at(local.closest(way));
         ((way - offset).length(), Self::new(edge.from, offset))
     }
 

@@ -25,7 +25,6 @@ use ppum::crack::{Crack, LocalCrack, Side, tips};
 use ppum::domain::Hole;
 use ppum::edge::Edge;
 use ppum::formula::Formula;
-use ppum::line::circles_meet;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::{rim_crossings, sure_side};
 use ppum_problem::{BoundaryCondition, BoundaryPart, Problem};
@@ -368,14 +367,8 @@ fn crossing(edge: Edge, hole: &Hole) -> Vec<Vec2> {
 
 /// The points that two rims share.
 fn rims_crossing(hole: &Hole, other: &Hole) -> Vec<Vec2> {
-    match (hole, other) {
-        (Hole::Polygon { .. }, _) => hole.edges().flat_map(|edge| crossing(edge, other)).collect(),
-        (_, Hole::Polygon { .. }) => other.edges().flat_map(|edge| crossing(edge, hole)).collect(),
-        (Hole::Circle { center, radius }, Hole::Circle { center: c, radius: r }) => {
-            let meet = circles_meet((*center, *radius), (*c, *r));
-            meet.filter(|[p, q]| p != q).into_iter().flatten().collect()
-        }
-    }
+    let (of, with) = if hole.sides().next().is_some() { (hole, other) } else { (other, hole) };
+    of.rim_edges().into_iter().flat_map(|edge| crossing(edge, with)).collect()
 }
 
 /// Points without those that are the same as one before them.

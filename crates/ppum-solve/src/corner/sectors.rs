@@ -213,19 +213,11 @@ impl CornerSurroundings<'_> {
     }
 
     fn along_rim(&self, (index, hole): (usize, &Hole), p: Vec2) -> Vec<Ray> {
-        let on = |side: usize| RayLine::Rim { hole: index, side };
-        match hole {
-            Hole::Circle { center, .. } if self.is_on(hole.rim_distance(p)) => {
-                let tangent = (p - *center).left();
-                vec![ray(tangent, on(0)), ray(-tangent, on(0))]
-            }
-            Hole::Circle { .. } => Vec::new(),
-            Hole::Polygon { .. } => {
-                let sides = hole.edges().enumerate();
-                let ways = |(k, side)| self.along(side, p).map(move |(way, _)| ray(way, on(k)));
-                sides.flat_map(ways).collect()
-            }
-        }
+        let ways = |(side, edge): (usize, Edge)| {
+            let on = RayLine::Rim { hole: index, side };
+            self.along(edge, p).map(move |(way, _)| ray(way, on))
+        };
+        hole.rim_edges().into_iter().enumerate().flat_map(ways).collect()
     }
 
     /// The ways along an edge from a point on it, and whether they lead ahead.

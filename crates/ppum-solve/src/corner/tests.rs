@@ -1,6 +1,6 @@
 use super::*;
 use ppum::dataset::{Material, StressState};
-use ppum::domain::{Domain, PolygonSide};
+use ppum::domain::Domain;
 use ppum::vec2::vec2;
 use ppum_problem::{
     BaseCells, BoundaryCondition, BoundaryRange, Condition, Discretization, DomainEdge, Expression,
@@ -311,9 +311,7 @@ fn hole_of(edges: &[Edge], parts: usize) -> Hole {
     let at = |k: usize| k as f64 / parts as f64;
     let of = |edge: &Edge| (0..parts).map(|k| edge.part([at(k), at(k + 1)])).collect::<Vec<_>>();
     let all: Vec<Edge> = edges.iter().flat_map(of).collect();
-    let points = all.iter().map(|edge| edge.from).collect();
-    let bulges = all.iter().map(|edge| edge.bulge).collect();
-    Hole::Polygon { points, bulges, side: PolygonSide::Inside }
+    Hole::enclosed(&all)
 }
 
 /// A slot with round ends has no corners; a lens has two, with the openings of its tangents and the

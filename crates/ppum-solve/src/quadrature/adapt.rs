@@ -349,10 +349,9 @@ impl IntegrandDemand<'_> {
             if is_load {
                 doubt.add(&QuadratureErrorEstimate::of_load(error, worst.at));
             } else if cut {
-                doubt.add(&QuadratureErrorEstimate::of_functions(
-                    ACCURACY * error / allowed,
-                    worst.at,
-                ));
+                let accuracy = if k < 3 * self.active.len() { ACCURACY } else { AREA_ACCURACY };
+                let error = accuracy * error / allowed;
+                doubt.add(&QuadratureErrorEstimate::of_functions(error, worst.at));
             }
         }
         doubt

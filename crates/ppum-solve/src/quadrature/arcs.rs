@@ -12,7 +12,6 @@
 use super::local_curve::LocalCurve;
 use super::polygon::{ConvexPolygon, SegmentCut};
 use super::split::breaks;
-use crate::edges::rim_edges;
 use ppum::crack::Crack;
 use ppum::domain::Hole;
 use ppum::edge::Edge;
@@ -78,7 +77,7 @@ impl EdgeCuts {
     /// The cuts of cracks, whose segments cut beyond their ends, and of the rims of holes.
     pub(super) fn new(cracks: &[&Crack], holes: &[Hole]) -> Self {
         let open = cracks.iter().map(|crack| (crack.edges().collect(), false));
-        let closed = holes.iter().map(|hole| (rim_edges(hole), true));
+        let closed = holes.iter().map(|hole| (hole.rim_edges(), true));
         let (mut all, mut joints) = (Self::default(), Vec::new());
         for (chain, (edges, is_closed)) in open.chain(closed).enumerate() {
             let runs = runs(&edges, chain, is_closed);

@@ -258,8 +258,11 @@ impl CellIntegration<'_> {
             _ => order,
         };
         let polygons = self.cut(rect, anchor, &kinks);
+        // where a disc asks for fewer points, half of them are compared
+        let reserve = self.orders.reserve.min(self.disc.map_or(usize::MAX, |_| order / 2));
+        let orders = Orders { reserve, ..self.orders };
         let mut pieces = PieceQuadrature {
-            demand: geometry.demand(&active, order, self.orders, (self.cell, &self.left)),
+            demand: geometry.demand(&active, order, orders, (self.cell, &self.left)),
             rules: &mut self.rules,
             patches,
             least: self.least,

@@ -1,12 +1,11 @@
 //! An edge in the coordinate s along it.
 
 use super::geometry::LevelFunction;
-use super::graded_interval::EdgeFrame;
 use super::polygon::{SegmentCut, line_side};
 use super::roots::{ZERO, clamp_non_finite, sign_changes};
 use super::split::{TOLERANCE, component};
 use ppum::border::{TOUCH, touch};
-use ppum::edge::Edge;
+use ppum::edge::{Edge, EdgeFrame};
 use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::around;
@@ -99,14 +98,7 @@ impl EdgeLine {
     }
 
     fn near(&self, offset: Vec2, expected: f64) -> f64 {
-        let EdgeFrame { foot, tangent, curvature } = self.frame;
-        if !self.is_arc() {
-            return tangent.dot(offset);
-        }
-        let way = offset - foot;
-        let s =
-            (curvature * tangent.dot(way)).atan2(1.0 - curvature * tangent.cross(way)) / curvature;
-        let round = TAU / curvature.abs();
+        let (s, round) = (self.frame.place(offset), TAU / self.frame.curvature.abs());
         match ((expected - s) / round).round() {
             0.0 => s,
             turns => s + turns * round,
@@ -116,22 +108,14 @@ impl EdgeLine {
     /// s of a point's foot on the line or circle, and the point's distance from it.
     pub(super) fn seen_from(&self, point: Vec2) -> (f64, f64) {
         let way = point - self.anchor;
-        (self.coordinate(way), self.distance(way).abs())
-    }
-
-    /// Distance of an offset from the line or circle, positive on its left.
-    fn distance(&self, offset: Vec2) -> f64 {
-        let EdgeFrame { foot, tangent, curvature } = self.frame;
-        let way = offset - foot;
-        let power = 2.0 * tangent.left().dot(way) - curvature * way.dot(way);
-        power / (1.0 + (1.0 - curvature * power).max(0.0).sqrt())
+        (self.coordinate(way), self.frame.side(way).abs())
     }
 
     /// The point of the line or circle nearest to a point with that normal, from the point.
     pub(super) fn foot_from(&self, point: Vec2, normal: Vec2) -> Vec2 {
         let way = point - self.anchor;
         if self.is_arc() {
-            normal * -self.distance(way)
+            normal * -self.frame.side(way)
         } else {
             normal * normal.dot(self.frame.foot - way)
         }
@@ -346,9 +330,6 @@ fn arc_frame(arc: &Edge, seen: &Edge, anchor: Vec2) -> EdgeFrame {
     match arc.closest_part(anchor) {
         0.0 => EdgeFrame { foot: seen.from, tangent: start, curvature },
         1.0 => EdgeFrame { foot: seen.to, tangent: end, curvature },
-        _ => {
-            let tangent = arc.tangent_towards(anchor);
-            EdgeFrame { foot: tangent.left() * -arc.side(anchor), tangent, curvature }
-        }
+        _ => EdgeFrame::nearest(arc, anchor),
     }
 }

@@ -3,6 +3,7 @@
 use super::adapt::Subregion;
 use super::gauss::{MAX_POINTS, Rules1d};
 use super::geometry::RayGrading;
+use ppum::edge::EdgeFrame;
 use ppum::vec2::Vec2;
 
 /// Longest part of an arc that gets one rule, in radians. A polynomial of degree 2p of the position
@@ -11,14 +12,6 @@ pub(super) const LONGEST: f64 = 0.4;
 
 /// Gauss points more than along a straight line on the longest part, for sines and cosines.
 const EXTRA_POINTS: f64 = 3.0;
-
-/// A line or circle by a point, where s = 0, the unit tangent there and the curvature.
-#[derive(Clone, Copy)]
-pub(super) struct EdgeFrame {
-    pub(super) foot: Vec2,
-    pub(super) tangent: Vec2,
-    pub(super) curvature: f64,
-}
 
 /// Coordinate s along an edge as a function of the parameter that Gauss rules are laid out in.
 #[derive(Clone, Copy)]
@@ -37,25 +30,6 @@ pub(super) struct GradedInterval {
     pub(super) path: LineParameter,
     pub(super) frame: EdgeFrame,
     pub(super) interval: (f64, f64),
-}
-
-impl EdgeFrame {
-    /// The point at a length from the foot: the chord is turned by half of the arc's turn.
-    pub(super) fn at(&self, s: f64) -> Vec2 {
-        if self.curvature == 0.0 {
-            return self.foot + self.tangent * s;
-        }
-        let half = 0.5 * self.curvature * s;
-        self.foot + self.turned(half) * (2.0 * half.sin() / self.curvature)
-    }
-
-    pub(super) fn tangent_at(&self, s: f64) -> Vec2 {
-        if self.curvature == 0.0 { self.tangent } else { self.turned(self.curvature * s) }
-    }
-
-    fn turned(&self, angle: f64) -> Vec2 {
-        self.tangent * angle.cos() + self.tangent.left() * angle.sin()
-    }
 }
 
 impl LineParameter {

@@ -3,7 +3,6 @@
 use super::adapt::Subregion as _;
 use super::gauss::gauss;
 use super::piece::SmoothPiece;
-use crate::edges::rim_edges;
 use ppum::domain::{Hole, LocalHole};
 use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2};
@@ -24,7 +23,7 @@ pub(super) struct PlacedHole<'a> {
 
 impl<'a> PlacedHole<'a> {
     pub(super) fn new(hole: &'a Hole) -> Self {
-        let (bounds, outside, edges) = (hole.bounds(), hole.orientation(), rim_edges(hole));
+        let (bounds, outside, edges) = (hole.bounds(), hole.orientation(), hole.rim_edges());
         let is_curved = edges.iter().any(Edge::is_arc);
         let edges = edges.into_iter().enumerate().map(|(k, edge)| (edge.bounds(), (k, edge)));
         Self { hole, bounds, outside, edges: BoxList::new(edges), is_curved }

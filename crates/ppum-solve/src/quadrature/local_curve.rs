@@ -2,7 +2,7 @@
 
 use super::geometry::LevelFunction;
 use super::roots::clamp_non_finite;
-use ppum::edge::Edge;
+use ppum::edge::{Edge, EdgeFrame};
 use ppum::vec2::Vec2;
 use std::rc::Rc;
 
@@ -16,22 +16,16 @@ pub(super) enum LocalCurve<'c> {
     /// A level function, and the anchor.
     Level(&'c LevelFunction, Vec2),
     /// A circle.
-    Circle(LocalArc),
+    Circle(EdgeFrame),
     /// Arcs one behind the other that go on smoothly and do not turn much, between their tangents
     /// at both ends.
     Run(Rc<[LocalArc]>),
 }
 
-/// A circle by its point Q nearest to an anchor, and the begin of an arc on it.
+/// A circle seen from an anchor, and the begin of an arc on it with its unit tangent.
 #[derive(Clone, Copy)]
 pub(super) struct LocalArc {
-    /// Unit tangent at Q, and the unit vector to its left.
-    tangent: Vec2,
-    normal: Vec2,
-    /// Distance of the anchor from the circle, positive on its left.
-    distance: f64,
-    curvature: f64,
-    /// The begin of the arc, and its unit tangent.
+    circle: EdgeFrame,
     begin: [Vec2; 2],
 }
 
@@ -40,7 +34,7 @@ impl LocalCurve<'_> {
     pub(super) fn arcs(edges: &[Edge], anchor: Vec2) -> Self {
         let (first, last) = (&edges[0], &edges[edges.len() - 1]);
         if edges.len() == 1 {
-            return Self::Circle(LocalArc::new(first, anchor));
+            return Self::Circle(EdgeFrame::nearest(first, anchor));
         }
         let ways = [first, last].map(|edge| edge.end_tangents().map(|t| t * edge.length()));
         let before = Edge::segment([first.from - ways[0][0], first.from]);
@@ -54,7 +48,7 @@ impl LocalCurve<'_> {
         match self {
             Self::Level(level, anchor) => clamp_non_finite(level(*anchor + offset)),
             // it is smooth at the centre, which the distance is not
-            Self::Circle(arc) => arc.power(offset),
+            Self::Circle(circle) => circle.power(offset),
             Self::Run(arcs) => nearest(arcs, offset).distance_beside(offset),
         }
     }
@@ -78,30 +72,15 @@ fn nearest(arcs: &[LocalArc], offset: Vec2) -> &LocalArc {
 }
 
 impl LocalArc {
-    pub(super) fn new(edge: &Edge, anchor: Vec2) -> Self {
-        let tangent = edge.tangent_towards(anchor);
+    fn new(edge: &Edge, anchor: Vec2) -> Self {
         let begin = [edge.from - anchor, edge.end_tangents()[0]];
-        let (distance, curvature) = (edge.side(anchor), edge.curvature());
-        Self { tangent, normal: tangent.left(), distance, curvature, begin }
-    }
-
-    /// p = 2 v − κ (u² + v²) with the coordinates u and v from Q: (1 − κ² |x − c|²)/κ for the
-    /// centre c, without it.
-    fn power(&self, offset: Vec2) -> f64 {
-        let (u, v) = (self.tangent.dot(offset), self.distance + self.normal.dot(offset));
-        2.0 * v - self.curvature * (u * u + v * v)
-    }
-
-    /// Distance from the circle, positive on its left.
-    fn distance(&self, offset: Vec2) -> f64 {
-        let power = self.power(offset);
-        power / (1.0 + (1.0 - self.curvature * power).max(0.0).sqrt())
+        Self { circle: EdgeFrame::nearest(edge, anchor), begin }
     }
 
     /// Distance of a point beside the arc. Beyond the centre, where another arc is the nearest, it
     /// keeps its sign.
     fn distance_beside(&self, offset: Vec2) -> f64 {
         let across = self.begin[1].cross(offset - self.begin[0]);
-        if self.curvature * across < 1.0 { self.distance(offset) } else { across }
+        if self.circle.curvature * across < 1.0 { self.circle.side(offset) } else { across }
     }
 }

@@ -2,7 +2,6 @@
 //! crack, the body bends like a beam, and a few cells must lie across.
 
 use super::graded::SMALLEST;
-use crate::edges::rim_edges;
 use ppum::crack::Crack;
 use ppum::domain::Hole;
 use ppum::edge::Edge;
@@ -48,7 +47,7 @@ pub(super) fn ligaments(problem: &Problem, size: f64) -> Vec<Ligament<'_>> {
         let others = holes[..k].iter().map(LigamentEnd::Hole);
         let cracks = problem.cracks().iter().map(LigamentEnd::Crack);
         let all = edges.chain(others).chain(cracks);
-        let rim = rim_edges(hole);
+        let rim = hole.rim_edges();
         let mut own: Vec<_> = all
             .filter_map(|other| {
                 let width = width(&rim, other.edges(), size / ACROSS);
@@ -110,7 +109,7 @@ impl LigamentEnd<'_> {
             Self::Edge(edge, bounds) => {
                 vec![Edge::segment(edge.range(bounds).map(|s| edge.point(bounds, s)))]
             }
-            Self::Hole(hole) => rim_edges(hole),
+            Self::Hole(hole) => hole.rim_edges(),
             Self::Crack(crack) => crack.edges().collect(),
         }
     }

@@ -60,10 +60,9 @@ pub(super) fn bends(hole: &Hole, step: f64) -> Vec<RimCorner> {
 }
 
 fn along_arc(arc: &Edge, step: f64) -> Vec<RimCorner> {
-    let count = (arc.sweep().abs() / step).ceil().max(1.0) as usize;
-    let (radius, length) = (arc.curvature().recip().abs(), arc.length() / count as f64);
-    let at = |k: usize| arc.at((k as f64 + 0.5) / count as f64);
-    (0..count).map(|k| RimCorner { at: at(k), radius, length }).collect()
+    let radius = arc.curvature().recip().abs();
+    let corner = |part: Edge| RimCorner { at: part.middle(), radius, length: part.length() };
+    arc.divided(step).map(corner).collect()
 }
 
 /// The corner between two segments if they follow a curve.

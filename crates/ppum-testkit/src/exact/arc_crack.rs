@@ -153,34 +153,22 @@ impl ArcCrack {
     fn text(&self) -> String {
         let ([alpha, g, d], far) = (self.strengths(), -self.on_arc().conj());
         let (sin, cos) = self.half_angle.sin_cos();
-        let values = [
-            self.radius,
-            cos,
-            sin,
-            far.re,
-            far.im,
-            far.arg(),
-            alpha.re,
-            alpha.im,
-            g.re,
-            g.im,
-            d.re,
-            d.im,
-            self.material.kolosov(),
-            self.pressure,
-        ];
-        let [radius, cos, sin, fr, fi, turn, ar, ai, gr, gi, dr, di, kappa, pressure] =
-            values.map(number);
+        let kappa = self.material.kolosov();
+        let given = [("m", cos), ("n", sin), ("k", kappa), ("p", self.pressure)];
+        let complex = [("a", alpha), ("g", g), ("d", d)];
+        let parts = complex.map(|(name, z)| [(name, "r", z.re), (name, "i", z.im)]);
+        let all = given.map(|(name, x)| (name, "", x)).into_iter().chain(parts.concat());
+        let bind = |(name, part, x)| format!("let {name}{part} = {}; ", number(x));
+        let [radius, fr, fi, turn] = [self.radius, far.re, far.im, far.arg()].map(number);
         format!(
-            "{}let zx = px/{radius}; let zy = py/{radius}; \
-             let m = {cos}; let n = {sin}; let ar = {ar}; let ai = {ai}; let gr = {gr}; \
-             let gi = {gi}; let dr = {dr}; let di = {di}; let k = {kappa}; let p = {pressure}; \
+            "{}let zx = px/{radius}; let zy = py/{radius}; {}\
              let qr = (zx - m)^2 + zy^2 - n^2; let qi = -2*n*(zx - m); \
              let angle = atan2(zy + n, zx - m) \
              + (atan2(qr*{fi} + qi*{fr}, qr*{fr} - qi*{fi}) - {turn})/2; \
              let rho = sqrt(hypot(zx - m, zy - n)*hypot(zx - m, zy + n)); \
              let xr = rho*cos(angle); let xi = rho*sin(angle); ",
-            self.axes.text()
+            self.axes.text(),
+            all.map(bind).collect::<String>()
         )
     }
 }

@@ -76,10 +76,8 @@ mod tests {
     /// Lines across a page, `count` of them, half let through.
     fn lines(count: usize) -> Layers {
         let piece = vec![vec2(0.0, 2.0), vec2(8.0, 2.0)];
-        let (path, pen) = (
-            CanvasPath { pieces: vec![piece; count], ..CanvasPath::default() },
-            StrokeStyle::new([200, 0, 0, 128], 2.0),
-        );
+        let (path, pen) =
+            (CanvasPath::of_pieces(vec![piece; count]), StrokeStyle::new([200, 0, 0, 128], 2.0));
         Layers { items: vec![CanvasItem::Line { path, pen }], ..Layers::default() }
     }
 

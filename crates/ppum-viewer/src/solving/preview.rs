@@ -82,10 +82,7 @@ impl Preview {
 /// The box of the body.
 fn plate(view: &View, min: Vec2, max: Vec2, scale: f64) -> Vec<CanvasItem> {
     let corners = [min, vec2(max.x, min.y), max, vec2(min.x, max.y), min];
-    let outline = CanvasPath {
-        pieces: vec![corners.map(|corner| view.pixel(corner)).to_vec()],
-        ..CanvasPath::default()
-    };
+    let outline = CanvasPath::of_pieces(vec![corners.map(|corner| view.pixel(corner)).to_vec()]);
     let border = CanvasItem::Line { path: outline.clone(), pen: StrokeStyle::new(BORDER, scale) };
     vec![CanvasItem::Fill { outline, color: PLATE }, border]
 }

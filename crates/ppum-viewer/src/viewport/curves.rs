@@ -321,10 +321,7 @@ impl CurvePainter<'_> {
 
 /// The crack nearest to a point.
 fn nearest_crack(cracks: &[Crack], spot: &Location) -> Option<usize> {
-    let distance = |crack: &Crack| {
-        let distances = crack.edges().map(|edge| edge.distance(spot.point()));
-        distances.fold(f64::INFINITY, f64::min)
-    };
+    let distance = |crack: &Crack| crack.distance(spot.point());
     let all = cracks.iter().map(distance).enumerate();
     all.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(index, _)| index)
 }
@@ -417,6 +414,6 @@ fn behind(edge: Edge, view: Option<&View>) -> Vec<Location> {
     };
     let mut places: Vec<f64> = std::iter::once(local.range).chain(seen).flat_map(divided).collect();
     places.sort_by(f64::total_cmp);
-    let between = places.into_iter().map(|s| Location::new(anchor, local.at(s)));
+    let between = places.into_iter().map(|s| Location::new(anchor, local.frame.at(s)));
     between.chain([last]).collect()
 }

@@ -8,144 +8,34 @@
 //! is zero however their coordinates were rounded, and the [`Side`] that is asked for is the one
 //! that is met.
 
+use super::local_chain::{EdgeGroup, LocalChain};
+use super::local_edge::{LocalSegment, LocalVertex};
 use super::{Crack, End, Side};
-use crate::compensated::cross;
-use crate::edge::Edge;
 use crate::vec2::Vec2;
 use ppum_formula::elementary::Atan;
 use ppum_formula::real::Real;
+use std::borrow::Cow;
 
 /// A crack seen from an anchor.
 #[derive(Clone, Debug)]
-pub struct LocalCrack {
+pub struct LocalCrack<'c> {
+    /// The edges of a polyline; empty of a crack with arcs.
     segments: Vec<LocalSegment>,
-    /// The vertices of a crack with arcs; empty of a polyline.
-    vertices: Vec<LocalVertex>,
-    /// The lines on which a crack with arcs goes on beyond its ends: its segments, of arcs the
-    /// tangents; empty of a polyline.
-    rays: Vec<LocalSegment>,
+    /// A crack with arcs.
+    chain: Option<Box<LocalChain<'c>>>,
 }
 
-/// One edge: coordinates of a point are `along` its line, from the anchor, and `distance` from
-/// it, positive on the left. The ends of a segment are at `lo` and `hi` along it, each the small
-/// number it is when the anchor is near that end.
-///
-/// The line of an arc is the tangent of its circle at the point Q nearest to the anchor. With
-/// coordinates u and v = distance + normal·offset from Q a point is in the distance
-///
-/// ```text
-/// d = p/(1 + √(1 − κ p))        p = 2 v − κ (u² + v²)
-/// ```
-///
-/// from the circle, which is v of a segment, κ = 0.
-#[derive(Clone, Copy, Debug)]
-pub struct LocalSegment {
-    /// Unit vector along the line.
-    pub tangent: Vec2,
-    /// Unit vector to its left; zero if all points lie on the edge.
-    normal: Vec2,
-    /// Distance of the anchor from the line, positive on its left.
-    pub distance: f64,
-    /// The curvature κ, positive of an edge that turns left; zero of a segment.
-    pub curvature: f64,
-    /// Begin of a segment, along it from the anchor; −∞ of a crack's first segment.
-    pub lo: f64,
-    /// End of a segment; +∞ of a crack's last segment.
-    pub hi: f64,
-    /// True of an arc of more than half a turn.
-    pub is_major: bool,
-}
-
-/// A vertex of a crack with arcs.
-#[derive(Clone, Copy, Debug)]
-pub struct LocalVertex {
-    /// The vertex minus the anchor.
-    pub at: Vec2,
-    /// Unit tangents of the edges before and behind; at an end of the crack that of its edge,
-    /// twice.
-    pub tangents: [Vec2; 2],
-}
-
-impl LocalSegment {
-    /// The edge seen from `anchor`.
-    pub(crate) fn new(edge: Edge, anchor: Vec2) -> Self {
-        let Edge { from: a, to: b, bulge } = edge;
-        let (tangent, distance) = if edge.is_arc() {
-            (edge.tangent_towards(anchor), edge.side(anchor))
-        } else {
-            ((b - a).unit(), cross(a, b, anchor) / (b - a).length())
-        };
-        let [lo, hi] = [a, b].map(|end| tangent.dot(end - anchor));
-        let (curvature, is_major) = (edge.curvature(), bulge.abs() > 1.0);
-        Self { tangent, normal: tangent.left(), distance, curvature, lo, hi, is_major }
-    }
-
-    /// The tangent at a tip seen from `anchor`, as a line that ends there.
-    fn at_tip(tip: Vec2, tangent: Vec2, anchor: Vec2) -> Self {
-        let distance = tangent.cross(anchor - tip);
-        let end = tangent.dot(tip - anchor);
-        let normal = tangent.left();
-        Self { tangent, normal, distance, curvature: 0.0, lo: end, hi: end, is_major: false }
-    }
-
-    /// Returns the edge for points that lie on it, whose distance is zero.
-    pub(crate) fn touched(self) -> Self {
-        Self { normal: Vec2::ZERO, distance: 0.0, curvature: 0.0, ..self }
-    }
-
-    /// Distance of a point from the line or the circle, positive on its left.
-    #[inline(always)]
-    pub(crate) fn curved_distance_of<R: Real>(&self, offset: [R; 2]) -> R {
-        let v = self.distance_of(offset);
-        if self.curvature == 0.0 {
-            return v;
-        }
-        let (u, kappa) = (self.along(offset), v.broadcast(self.curvature));
-        let (zero, one) = (v.broadcast(0.0), v.broadcast(1.0));
-        let p = v + v - kappa * u.mul_add(u, v * v);
-        p / (one + (one - kappa * p).max(zero).sqrt())
-    }
-
-    /// Distance of a point from the line, positive on its left.
-    #[inline(always)]
-    pub(crate) fn distance_of<R: Real>(&self, offset: [R; 2]) -> R {
-        let [x, y] = offset;
-        x.broadcast(self.normal.y)
-            .mul_add(y, x.broadcast(self.normal.x).mul_add(x, x.broadcast(self.distance)))
-    }
-
-    #[inline(always)]
-    fn along<R: Real>(&self, offset: [R; 2]) -> R {
-        let [x, y] = offset;
-        x.broadcast(self.tangent.x).mul_add(x, x.broadcast(self.tangent.y) * y)
-    }
-
-    /// How far a point lies beyond the end of the segment, along it; negative before its begin,
-    /// zero between them.
-    #[inline(always)]
-    fn beyond<R: Real>(&self, offset: [R; 2]) -> R {
-        let along = self.along(offset);
-        along - along.max(along.broadcast(self.lo)).min(along.broadcast(self.hi))
-    }
-}
-
-impl LocalCrack {
+impl<'c> LocalCrack<'c> {
     /// The crack seen from `anchor`.
     #[must_use]
-    pub fn new(crack: &Crack, anchor: Vec2) -> Self {
-        let mut segments: Vec<_> =
-            crack.edges().map(|edge| LocalSegment::new(edge, anchor)).collect();
-        if let Some(first) = segments.first_mut() {
-            first.lo = f64::NEG_INFINITY;
+    pub fn new(crack: &'c Crack, anchor: Vec2) -> Self {
+        if crack.is_curved() {
+            return Self {
+                segments: Vec::new(),
+                chain: Some(Box::new(LocalChain::new(crack, anchor))),
+            };
         }
-        if let Some(last) = segments.last_mut() {
-            last.hi = f64::INFINITY;
-        }
-        if !crack.is_curved() {
-            return Self { segments, vertices: Vec::new(), rays: Vec::new() };
-        }
-        let rays = [End::Start, End::Last].map(|end| ray(crack, &segments, end, anchor)).to_vec();
-        Self { segments, vertices: vertices(crack, anchor), rays }
+        Self { segments: LocalSegment::all(crack, anchor), chain: None }
     }
 
     /// The crack seen from `anchor` for points that lie on one of its edges: this one is the
@@ -156,19 +46,34 @@ impl LocalCrack {
     #[must_use]
     pub fn on(crack: &Crack, segment: u32, anchor: Vec2) -> Self {
         let touched = LocalSegment::new(crack.edge(segment as usize), anchor).touched();
-        Self { segments: vec![touched], vertices: Vec::new(), rays: Vec::new() }
+        Self { segments: vec![touched], chain: None }
     }
 
-    /// The edges, in order: one at least.
+    /// The edges, in order: one at least. Those of a crack with arcs are formed anew.
     #[must_use]
-    pub fn segments(&self) -> &[LocalSegment] {
-        &self.segments
+    pub fn segments(&self) -> Cow<'_, [LocalSegment]> {
+        self.chain.as_ref().map_or((&self.segments).into(), |chain| chain.segments().into())
     }
 
-    /// The vertices of a crack with arcs; none of a polyline.
+    /// The vertices of a crack with arcs, formed anew; none of a polyline.
     #[must_use]
-    pub fn vertices(&self) -> &[LocalVertex] {
-        &self.vertices
+    pub fn vertices(&self) -> Vec<LocalVertex> {
+        self.chain.as_ref().map_or_else(Vec::new, |chain| chain.vertices())
+    }
+
+    /// The groups of edges of a crack with arcs, in order; none of a polyline.
+    #[must_use]
+    pub fn groups(&self) -> &[EdgeGroup] {
+        self.chain.as_ref().map_or(&[], |chain| &chain.groups)
+    }
+
+    /// The line on which the crack goes on beyond an end.
+    fn ray(&self, end: End) -> LocalSegment {
+        match (&self.chain, end) {
+            (Some(chain), _) => chain.rays[usize::from(end == End::Last)],
+            (None, End::Start) => self.segments[0],
+            (None, End::Last) => self.segments[self.segments.len() - 1],
+        }
     }
 
     /// +1 on the left of the crack, −1 on its right; `side` decides on the crack itself.
@@ -185,8 +90,8 @@ impl LocalCrack {
     /// that sector, so it does not matter which of the two rounding takes for the nearer one.
     #[inline(always)]
     fn nearest_distance<R: Real>(&self, offset: [R; 2]) -> R {
-        if !self.vertices.is_empty() {
-            return self.nearest_curved_distance(offset);
+        if let Some(chain) = &self.chain {
+            return chain.nearest_distance(offset);
         }
         let mut own = self.segments[0].distance_of(offset);
         let last = self.segments.len() - 1;
@@ -210,89 +115,6 @@ impl LocalCrack {
     }
 }
 
-impl LocalCrack {
-    /// Returns the distance of a crack with arcs. An arc is the nearest within the angle between
-    /// the normals at its ends; elsewhere one of its vertices is, or the tangent beyond an end of
-    /// the crack.
-    #[inline(always)]
-    fn nearest_curved_distance<R: Real>(&self, offset: [R; 2]) -> R {
-        let (zero, far) = (offset[0].broadcast(0.0), offset[0].broadcast(f64::INFINITY));
-        let (mut nearest, mut least, mut k) = (zero, far, 0);
-        while k < self.segments.len() {
-            let (edge, ends) = (&self.segments[k], &self.vertices[k..=k + 1]);
-            let (after, _, to_start) = ends[0].seen(offset, 1);
-            let (beyond, _, to_end) = ends[1].seen(offset, 0);
-            let (before, start) = if k > 0 {
-                (to_start, ends[0].larger(offset))
-            } else {
-                let beside = self.rays[0].distance_of(offset);
-                (R::select(zero.gt(after), beside * beside, far), beside)
-            };
-            let (behind, end) = if k + 1 < self.segments.len() {
-                (to_end, ends[1].larger(offset))
-            } else {
-                let beside = self.rays[1].distance_of(offset);
-                (R::select(beyond.gt(zero), beside * beside, far), beside)
-            };
-            let own = edge.curved_distance_of(offset);
-            let depth = if edge.is_major { after.max(-beyond) } else { after.min(-beyond) };
-            let is_beside = depth.ge(zero);
-            let square = R::select(is_beside, own * own, before.min(behind));
-            let decides = R::select(is_beside, own, R::select(before.gt(behind), end, start));
-            nearest = R::select(least.gt(square), decides, nearest);
-            least = least.min(square);
-            k += 1;
-        }
-        nearest
-    }
-}
-
-/// The line of the edge at an end, or its tangent there.
-fn ray(crack: &Crack, segments: &[LocalSegment], end: End, anchor: Vec2) -> LocalSegment {
-    let (edge, direction) = match end {
-        End::Start => (segments[0], -1.0),
-        End::Last => (segments[segments.len() - 1], 1.0),
-    };
-    if edge.curvature == 0.0 {
-        return edge;
-    }
-    LocalSegment::at_tip(crack.end_point(end), crack.growth_direction(end) * direction, anchor)
-}
-
-fn vertices(crack: &Crack, anchor: Vec2) -> Vec<LocalVertex> {
-    let tangents: Vec<_> = crack.edges().map(|edge| edge.end_tangents()).collect();
-    let last = tangents.len() - 1;
-    let vertex = |(k, point): (usize, &Vec2)| {
-        let (before, after) = (tangents[k.saturating_sub(1)], tangents[k.min(last)]);
-        let [before, after] = match k {
-            0 => [after[0]; 2],
-            _ if k > last => [before[1]; 2],
-            _ => [before[1], after[0]],
-        };
-        LocalVertex { at: *point - anchor, tangents: [before, after] }
-    };
-    crack.points.iter().enumerate().map(vertex).collect()
-}
-
-impl LocalVertex {
-    /// Where a point lies along one of the tangents, how far beside it, positive on the left, and
-    /// the square of its distance from the vertex.
-    #[inline(always)]
-    fn seen<R: Real>(&self, [x, y]: [R; 2], tangent: usize) -> (R, R, R) {
-        let (dx, dy) = (x - x.broadcast(self.at.x), y - y.broadcast(self.at.y));
-        let (tx, ty) =
-            (x.broadcast(self.tangents[tangent].x), y.broadcast(self.tangents[tangent].y));
-        (tx.mul_add(dx, ty * dy), tx * dy - ty * dx, dx.mul_add(dx, dy * dy))
-    }
-
-    /// The distance from that tangent from which it is larger.
-    #[inline(always)]
-    fn larger<R: Real>(&self, offset: [R; 2]) -> R {
-        let [(_, before, _), (_, after, _)] = [0, 1].map(|tangent| self.seen(offset, tangent));
-        R::select(after.abs().gt(before.abs()), after, before)
-    }
-}
-
 /// +1 or −1 by a signed distance; zero counts as the given side.
 #[inline(always)]
 fn sign<R: Real>(distance: R, side: Side) -> R {
@@ -305,12 +127,12 @@ fn sign<R: Real>(distance: R, side: Side) -> R {
 
 /// A crack tip seen from an anchor.
 #[derive(Clone, Debug)]
-pub struct LocalTip {
+pub struct LocalTip<'c> {
     /// Anchor minus tip.
     pub from_tip: Vec2,
     /// Unit direction of growth.
     pub axis: Vec2,
-    crack: LocalCrack,
+    crack: LocalCrack<'c>,
     /// Index of the edge that ends at the tip.
     pub segment: usize,
     /// That segment; of an arc the tangent at the tip.
@@ -336,18 +158,17 @@ pub struct TipPoint<R> {
     pub branch: R,
 }
 
-impl LocalTip {
+impl<'c> LocalTip<'c> {
     /// The tip at `end` of `crack`, seen from `anchor`.
     #[must_use]
-    pub fn new(crack: &Crack, end: End, anchor: Vec2) -> Self {
+    pub fn new(crack: &'c Crack, end: End, anchor: Vec2) -> Self {
         let local = LocalCrack::new(crack, anchor);
-        let bends = local.segments.len() > 1 || crack.is_curved();
+        let last = crack.points.len() - 2;
         let (segment, orientation) = match end {
             End::Start => (0, -1.0),
-            End::Last => (local.segments.len() - 1, 1.0),
+            End::Last => (last, 1.0),
         };
-        let ray = local.rays.get(usize::from(end == End::Last));
-        let line = *ray.unwrap_or(&local.segments[segment]);
+        let (line, bends) = (local.ray(end), last > 0 || crack.is_curved());
         let (from_tip, axis) = (anchor - crack.end_point(end), line.tangent * orientation);
         Self { from_tip, axis, crack: local, segment, line, bends, orientation }
     }
@@ -358,10 +179,9 @@ impl LocalTip {
     /// # Panics
     /// If there is no such edge.
     #[must_use]
-    pub fn on(crack: &Crack, segment: u32, end: End, anchor: Vec2) -> Self {
+    pub fn on(crack: &'c Crack, segment: u32, end: End, anchor: Vec2) -> Self {
         let tip = Self::new(crack, end, anchor);
-        let is_line =
-            tip.segment == segment as usize && tip.crack.segments[tip.segment].curvature == 0.0;
+        let is_line = tip.segment == segment as usize && !crack.edge(tip.segment).is_arc();
         let line = if is_line { tip.line.touched() } else { tip.line };
         Self { crack: LocalCrack::on(crack, segment, anchor), line, ..tip }
     }
@@ -457,6 +277,7 @@ impl TipPoint<f64> {
 mod tests {
     use super::super::CrackEnd;
     use super::*;
+    use crate::compensated::cross;
     use crate::vec2::vec2;
 
     fn crack(points: &[(f64, f64)]) -> Crack {
@@ -475,7 +296,8 @@ mod tests {
 
     #[test]
     fn sides_of_a_sharp_kink() {
-        let v = LocalCrack::new(&crack(&[(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)]), Vec2::ZERO);
+        let kinked = crack(&[(-1.0, 1.0), (0.0, 0.0), (1.0, 1.0)]);
+        let v = LocalCrack::new(&kinked, Vec2::ZERO);
         for (p, expected) in
             [([0.0, 0.5], 1.0), ([0.0, -0.5], -1.0), ([-3.0, 0.0], -1.0), ([3.0, 4.0], 1.0)]
         {

@@ -17,8 +17,8 @@ pub(super) struct AnchoredCracks<'a> {
     pub(super) on: Option<SegmentId>,
 }
 
-impl AnchoredCracks<'_> {
-    pub(super) fn crack(&self, crack: u32) -> LocalCrack {
+impl<'a> AnchoredCracks<'a> {
+    pub(super) fn crack(&self, crack: u32) -> LocalCrack<'a> {
         let points = &self.cracks[crack as usize];
         match self.segment_of(crack) {
             Some(segment) => LocalCrack::on(points, segment, self.anchor),
@@ -26,7 +26,7 @@ impl AnchoredCracks<'_> {
         }
     }
 
-    pub(super) fn tip(&self, tip: TipId) -> LocalTip {
+    pub(super) fn tip(&self, tip: TipId) -> LocalTip<'a> {
         let points = &self.cracks[tip.crack as usize];
         match self.segment_of(tip.crack) {
             Some(segment) => LocalTip::on(points, segment, tip.end, self.anchor),

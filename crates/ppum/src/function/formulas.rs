@@ -87,7 +87,7 @@ impl FormulaGroup {
     }
 
     /// The functions as seen from the anchor of the cracks.
-    pub(super) fn anchored(&self, cracks: &AnchoredCracks<'_>) -> LocalFormulas<'_> {
+    pub(super) fn anchored<'t>(&'t self, cracks: &AnchoredCracks<'t>) -> LocalFormulas<'t> {
         let used = |(crack, &used): (u32, &bool)| used.then(|| cracks.crack(crack));
         LocalFormulas {
             compiled: &self.compiled,
@@ -99,18 +99,18 @@ impl FormulaGroup {
 
 /// A formula's frame seen from an anchor.
 #[derive(Clone, Debug)]
-enum LocalFrame {
+enum LocalFrame<'t> {
     Fixed {
         from_origin: Vec2,
         axis: Vec2,
     },
-    Tip(LocalTip),
+    Tip(LocalTip<'t>),
     /// The point is known on a patch alone.
     Levels,
 }
 
-impl LocalFrame {
-    fn new(cracks: &AnchoredCracks<'_>, frame: Frame) -> Self {
+impl<'t> LocalFrame<'t> {
+    fn new(cracks: &AnchoredCracks<'t>, frame: Frame) -> Self {
         let anchor = cracks.anchor;
         match frame {
             Frame::World => Self::Fixed { from_origin: anchor, axis: vec2(1.0, 0.0) },
@@ -156,9 +156,9 @@ impl LocalFrame {
 #[derive(Clone, Debug)]
 pub(super) struct LocalFormulas<'t> {
     compiled: &'t CompiledGroup,
-    frame: LocalFrame,
+    frame: LocalFrame<'t>,
     /// The cracks whose sides are used.
-    cracks: Vec<Option<LocalCrack>>,
+    cracks: Vec<Option<LocalCrack<'t>>>,
 }
 
 thread_local! {

@@ -417,8 +417,8 @@ type FunctionPage<'t> = Vec<OnceLock<LocalGroup<'t>>>;
 
 #[derive(Clone, Debug)]
 enum LocalGroup<'t> {
-    Side(LocalCrack),
-    Westergaard(LocalTip),
+    Side(LocalCrack<'t>),
+    Westergaard(LocalTip<'t>),
     Component(LocalIndicator),
     /// Known on a patch alone.
     Level,
@@ -522,7 +522,7 @@ impl<'t> LocalFunctions<'t> {
     /// functions in registers.
     #[inline(always)]
     #[must_use]
-    pub fn tip(&self, group: usize) -> Option<&LocalTip> {
+    pub fn tip(&self, group: usize) -> Option<&LocalTip<'t>> {
         match self.group(group) {
             LocalGroup::Westergaard(tip) => Some(tip),
             _ => None,
@@ -538,7 +538,11 @@ impl<'t> LocalFunctions<'t> {
 
 /// The functions of [`westergaard()`] at a tip, with derivatives in the world.
 #[inline(always)]
-pub fn at_tip<R: Real, const D: usize>(tip: &LocalTip, offset: [R; 2], side: Side) -> [Jet<R>; 4] {
+pub fn at_tip<R: Real, const D: usize>(
+    tip: &LocalTip<'_>,
+    offset: [R; 2],
+    side: Side,
+) -> [Jet<R>; 4] {
     let [a, b, c, d] = westergaard::<R, D>(&tip.point(offset, side));
     let (x, y) = (offset[0].broadcast(tip.axis.x), offset[0].broadcast(tip.axis.y));
     [a.turned::<D>(x, y), b.turned::<D>(x, y), c.turned::<D>(x, y), d.turned::<D>(x, y)]

@@ -1,7 +1,7 @@
 // Cracks seen from the view's centre: the twin of LocalCrack in ppum::crack.
 
 // Where the edges of a crack are in the view's data, and how many; if some are arcs, its vertices
-// follow.
+// and groups of edges follow.
 struct Crack { first: u32, count: u32, is_curved: bool }
 
 // The signed distance from the line of the nearest segment, and which segment that is; of a crack
@@ -97,8 +97,12 @@ fn crack_vertex(crack: Crack, k: u32, tangent: u32, offset: vec2<f32>) -> Vertex
     let at = crack.first + SEGMENT_PAIRS * crack.count + VERTEX_PAIRS * k;
     let way = offset - load_view(at);
     let t = load_view(at + 1u + tangent);
+    return Vertex(dot(t, way), t.x * way.y - t.y * way.x, crack_length(way));
+}
+
+fn crack_length(way: vec2<f32>) -> f32 {
     let scale = crack_scale(abs(way));
-    return Vertex(dot(t, way), t.x * way.y - t.y * way.x, length(way * scale) / scale);
+    return length(way * scale) / scale;
 }
 
 // The larger of the distances from both tangents of a vertex.
@@ -119,11 +123,31 @@ fn crack_ray_distance(crack: Crack, end: u32, beside: f32, offset: vec2<f32>) ->
     return beside;
 }
 
-// The nearest edge of a crack with arcs, see LocalCrack::nearest_curved_distance.
+// The nearest edge of a crack with arcs, see LocalChain::nearest_distance. Groups of edges are passed
+// over that are farther away than the nearest centre of one.
 fn crack_nearest_edge(crack: Crack, offset: vec2<f32>) -> Nearest {
     var nearest = Nearest(0.0, 2u);
     var closest = CRACK_FAR;
+    let groups = crack.first + SEGMENT_PAIRS * crack.count + VERTEX_PAIRS * (crack.count + 1u);
+    var reach = CRACK_FAR;
+    var group = groups;
+    for (var k = 0u; k < crack.count; k = u32(load_view(group - 1u).y)) {
+        reach = min(reach, crack_length(offset - load_view(group)));
+        group += EDGE_GROUP_PAIRS;
+    }
+    group = groups;
+    var group_end = 0u;
     for (var k = 0u; k < crack.count; k++) {
+        if k == group_end {
+            let away = crack_length(offset - load_view(group)) - 1.01 * reach;
+            let disc = load_view(group + 1u);
+            group += EDGE_GROUP_PAIRS;
+            group_end = u32(disc.y);
+            if away > disc.x {
+                k = group_end - 1u;
+                continue;
+            }
+        }
         let at = crack.first + SEGMENT_PAIRS * k;
         let start = crack_vertex(crack, k, 1u, offset);
         let end = crack_vertex(crack, k + 1u, 0u, offset);

@@ -198,11 +198,8 @@ impl Region {
     /// The area, about, of what holes leave.
     pub(super) fn area(&self, holes: &[&Hole]) -> f64 {
         let center = self.center();
-        let beside = |edge: &Edge| {
-            let (a, b) = (edge.from, edge.to);
-            let area = 0.5 * (a - center).cross(b - center) + edge.area_beside_chord();
-            area * solid_part([center, a, b], holes)
-        };
+        let beside =
+            |edge: &Edge| edge.area_from(center) * solid_part([center, edge.from, edge.to], holes);
         self.0.iter().map(|(side, _)| beside(side)).sum()
     }
 }

@@ -4,7 +4,6 @@
 //! between chords have the connections of the body, and a point between chord and arc belongs to
 //! the triangle behind the chord.
 
-use crate::edges::rim_edges;
 use ppum::domain::{Domain, Hole};
 use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2};
@@ -34,7 +33,7 @@ pub(super) struct ChordParts {
 
 impl ChordParts {
     pub(super) fn new(domain: &Domain, cracks: &[Vec<Edge>]) -> Self {
-        let rims: Vec<Vec<Edge>> = domain.holes.iter().map(rim_edges).collect();
+        let rims: Vec<Vec<Edge>> = domain.holes.iter().map(Hole::rim_edges).collect();
         let sides = domain.bounds.sides().map(Edge::segment);
         let all = sides.iter().chain(rims.iter().flatten()).chain(cracks.iter().flatten());
         let others = BoxList::new(all.map(|edge| (edge.bounds(), *edge)));
@@ -80,9 +79,7 @@ fn parts(edge: &Edge, others: &BoxList<Edge>, touch: f64) -> Vec<Edge> {
     let mut all = Vec::new();
     for pair in ends.windows(2) {
         let whole = edge.part([pair[0], pair[1]]);
-        let count = (whole.sweep().abs() / TURN).ceil().max(1.0) as usize;
-        let at = |k: usize| k as f64 / count as f64;
-        (0..count).for_each(|k| halve(whole.part([at(k), at(k + 1)]), others, touch, 0, &mut all));
+        whole.divided(TURN).for_each(|part| halve(part, others, touch, 0, &mut all));
     }
     all
 }

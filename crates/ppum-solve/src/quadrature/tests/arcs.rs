@@ -2,7 +2,7 @@
 
 use super::*;
 use ppum::crack::{End, LocalTip, SegmentId, Side};
-use ppum::domain::{Hole, PolygonSide};
+use ppum::domain::Hole;
 use ppum::edge::Edge;
 use std::f64::consts::{PI, TAU};
 
@@ -23,12 +23,6 @@ fn moments(edges: &[Edge]) -> [f64; 3] {
         }
     }
     sums
-}
-
-fn hole(edges: &[Edge]) -> Hole {
-    let points = edges.iter().map(|edge| edge.from).collect();
-    let bulges = edges.iter().map(|edge| edge.bulge).collect();
-    Hole::Polygon { points, bulges, side: PolygonSide::Inside }
 }
 
 fn divided(edges: &[Edge], parts: usize) -> Vec<Edge> {
@@ -108,7 +102,7 @@ fn segments_of_discs() {
             continue;
         }
         let edges = [edge, Edge::segment([edge.to, edge.from])];
-        let (cells, rim) = with_hole(&partition, &[hole(&edges)], Orders::for_degree(4));
+        let (cells, rim) = with_hole(&partition, &[Hole::enclosed(&edges)], Orders::for_degree(4));
         let exact = moments(&edges);
         let sign = exact[0].signum();
         let found = [
@@ -142,8 +136,11 @@ fn circles_of_arcs() {
         let quarters: Vec<Edge> = (0..4)
             .map(|k| Edge::around(c, r, [k, k + 1].map(|k| 0.3 + 0.25 * TAU * f64::from(k))))
             .collect();
-        let holes =
-            [Hole::Circle { center: c, radius: r }, hole(&quarters), hole(&divided(&quarters, 10))];
+        let holes = [
+            Hole::Circle { center: c, radius: r },
+            Hole::enclosed(&quarters),
+            Hole::enclosed(&divided(&quarters, 10)),
+        ];
         let mut counts = Vec::new();
         for hole in &holes {
             let (cells, rim) =
@@ -171,7 +168,8 @@ fn stadiums_and_ellipses() {
         let oval = ellipse(c, vec2(random.between(0.2, 0.6), random.between(0.2, 0.6)), 600);
         let mut counts = Vec::new();
         for (edges, tolerance) in [(&slot, 1e-10), (&divided(&slot, 10), 1e-10), (&oval, 1e-8)] {
-            let (cells, rim) = with_hole(&partition, &[hole(edges)], Orders::for_degree(4));
+            let (cells, rim) =
+                with_hole(&partition, &[Hole::enclosed(edges)], Orders::for_degree(4));
             let exact = moments(edges);
             let moment = |f: &dyn Fn(Vec2) -> f64| integrate(&cells, |a, x| f(a + x));
             assert_near(moment(&|_| 1.0), 4.0 - exact[0], tolerance, &format!("{trial}: area"));
@@ -188,14 +186,6 @@ fn stadiums_and_ellipses() {
         let most = counts[3].0.max(4000) * 3 / 2;
         assert!(counts[2].0 <= most, "points of an ellipse beside a circle: {counts:?}");
     }
-}
-
-/// A chain of edges as a crack.
-fn chain(edges: &[Edge]) -> Crack {
-    let mut points: Vec<Vec2> = edges.iter().map(|edge| edge.from).collect();
-    points.extend(edges.last().map(|edge| edge.to));
-    let bulges = edges.iter().map(|edge| edge.bulge).collect();
-    Crack { points, bulges, ends: [CrackEnd::Tip; 2] }
 }
 
 /// √r sin(θ/2) and its square's slope, with θ that jumps on the crack: the integral and those of
@@ -226,7 +216,7 @@ fn singular_functions_that_jump_on_arcs() {
         let from = vec2(-1.2, random.between(-0.3, 0.3));
         let edge = Edge { from, to: point(&mut random, 0.4), bulge: (0.25_f64 * sweep).tan() };
         let edges = if trial % 4 == 3 { divided(&[edge], 10) } else { vec![edge] };
-        let crack = chain(&edges);
+        let crack = Crack::along(&edges);
         let partition = graded(&mut random, WeightFunction::Linear);
         let case = GeometryCase::new(partition, vec![crack.clone()], vec![edge.to]);
         let of = |orders| {
@@ -250,7 +240,7 @@ fn faces_of_arcs() {
     for trial in 0..20 {
         let edge = arc(&mut random);
         let edges = divided(&[edge], 1 + 2 * (trial % 2));
-        let cracks = vec![chain(&edges)];
+        let cracks = vec![Crack::along(&edges)];
         let partition = graded(&mut random, WeightFunction::ALL[trial % 3].clone());
         let case = GeometryCase::new(partition, cracks, vec![edge.from, edge.to]);
         let quadrature = case.quadrature(Orders::for_degree(4));
@@ -298,7 +288,8 @@ fn ellipses_in_large_cells() {
         let edges = ellipse(point(&mut random, 0.2), axes, 300);
         for level in [0, 1, 2] {
             let partition = uniform(level);
-            let (cells, _) = with_hole(&partition, &[hole(&edges)], Orders::for_degree(4));
+            let (cells, _) =
+                with_hole(&partition, &[Hole::enclosed(&edges)], Orders::for_degree(4));
             let area = integrate(&cells, |_, _| 1.0);
             let what = format!("{trial}: axes {axes:?}, level {level}");
             assert_near(area, 4.0 - moments(&edges)[0], 5e-9, &what);
@@ -315,7 +306,8 @@ fn arcs_that_touch_lines_of_cells() {
             let c = vec2(shift, -0.5 * shift);
             let angles = |k: u32| [k, k + 1].map(|k| turn + 0.25 * TAU * f64::from(k));
             let quarters: Vec<Edge> = (0..4).map(|k| Edge::around(c, r, angles(k))).collect();
-            let (cells, rim) = with_hole(&partition, &[hole(&quarters)], Orders::for_degree(4));
+            let (cells, rim) =
+                with_hole(&partition, &[Hole::enclosed(&quarters)], Orders::for_degree(4));
             let what = format!("r = {r}, shift {shift:e}, turn {turn}");
             let area = integrate(&cells, |_, _| 1.0);
             assert_near(area, 4.0 - PI * r * r, 1e-10, &format!("area, {what}"));
@@ -332,7 +324,7 @@ fn arcs_that_cross() {
     let circle = |x: f64| {
         let angles = |k: u32| [k, k + 1].map(|k| 0.2 + TAU / 3.0 * f64::from(k));
         let thirds: Vec<Edge> = (0..3).map(|k| Edge::around(vec2(x, 0.1), r, angles(k))).collect();
-        hole(&thirds)
+        Hole::enclosed(&thirds)
     };
     let (cells, rim) =
         with_hole(&partition, &[circle(-0.13), circle(-0.13 + d)], Orders::for_degree(4));
@@ -341,4 +333,31 @@ fn arcs_that_cross() {
     let area = integrate(&cells, |_, _| 1.0);
     assert_near(area, 4.0 - 2.0 * PI * r * r + lens, 1e-12, "area");
     assert_near(lengths(&rim), 4.0 * r * (PI - half_angle), 1e-12, "rims");
+}
+
+/// Boxes in discs around tips of arcs, wherever the arc passes, also next to a corner: their areas
+/// are right, and take few points.
+#[test]
+fn discs_around_tips_of_arcs() {
+    let mut random = Random(83);
+    for trial in 0..600 {
+        let bulge = random.between(-0.8, 0.8);
+        let edge = Edge { from: vec2(-0.4, 0.1), to: vec2(0.5, 0.2), bulge };
+        let (width, height) = (10f64.powf(random.between(-2.5, -1.5)), random.between(0.1, 3.0));
+        let (near, size) = (edge.at(random.between(0.6, 0.95)), vec2(width, width * height));
+        let min = near - vec2(size.x * random.between(0.0, 1.0), size.y * random.between(0.0, 1.0));
+        let corner = min + vec2(size.x, 0.0);
+        let beside = 10f64.powf(random.between(-9.0, -3.0));
+        let shift = edge.closest_point(corner) - corner + edge.tangent(0.8).left() * beside;
+        let min = if trial % 3 == 0 { min + shift } else { min };
+        let cell = Rect::new(min, min + size);
+        let case = alone(cell, vec![Crack::along(&[edge])], vec![edge.from, edge.to]);
+        let quadrature = case.quadrature(Orders::for_degree(2));
+        let disc = Disc { center: edge.to, radius: 1.0, scale: 0.05, order: 12, least: 6 };
+        let rules = quadrature.disc(covered(&cell, &[0]), disc);
+        let off = integrate(&rules, |_, _| 1.0) / (size.x * size.y) - 1.0;
+        assert!(off.abs() < 1e-11, "{trial}: off by {off:e}, {cell:?} {edge:?}");
+        assert!(rules.iter().all(|rule| rule.doubt.functions == 0.0), "{trial}: {cell:?} {edge:?}");
+        assert!(n_points(&rules) < 5000, "{trial}: {} points", n_points(&rules));
+    }
 }

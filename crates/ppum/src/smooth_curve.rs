@@ -1,12 +1,12 @@
 //! Curves of cracks and rims as arcs of circles.
 
-use ppum::arc_spline::{TooSharp, arc_spline};
-use ppum::edge::Edge;
-use ppum::spline::Spline;
-use ppum::vec2::{Vec2, vec2};
+use crate::arc_spline::{TooSharp, arc_spline};
+use crate::edge::Edge;
+use crate::spline::Spline;
+use crate::vec2::{Rect, Vec2, vec2};
 
 /// Most arcs of one curve: as many as the rims of a body may have.
-pub(crate) const MOST_ARCS: usize = 1 << 14;
+pub const MOST_ARCS: usize = 1 << 14;
 
 /// Largest distance of the arcs from the curve, in parts of its size: no more than the distance at
 /// which things touch.
@@ -17,17 +17,29 @@ const LARGEST_SWEEP: f64 = 4.0;
 
 /// A smooth curve without corners.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum SmoothCurve {
+pub enum SmoothCurve {
     /// A part of an ellipse: c + R(angle) (a cos t, b sin t), from ≤ t ≤ to or back; all angles
     /// in radians.
-    Ellipse { center: Vec2, axes: Vec2, angle: f64, from: f64, to: f64 },
+    Ellipse {
+        /// The centre c.
+        center: Vec2,
+        /// The half axes a and b.
+        axes: Vec2,
+        /// The angle of the first axis.
+        angle: f64,
+        /// The parameter at its begin.
+        from: f64,
+        /// The parameter at its end.
+        to: f64,
+    },
     /// A cubic spline.
     Spline(Spline),
 }
 
 impl SmoothCurve {
     /// An arc of a circle.
-    pub(crate) fn arc(center: Vec2, radius: f64, from: f64, to: f64) -> Self {
+    #[must_use]
+    pub fn arc(center: Vec2, radius: f64, from: f64, to: f64) -> Self {
         Self::Ellipse { center, axes: vec2(radius, radius), angle: 0.0, from, to }
     }
 
@@ -35,7 +47,7 @@ impl SmoothCurve {
     ///
     /// # Errors
     /// The place where it is too sharp for arcs.
-    pub(crate) fn edges(&self) -> Result<Vec<Edge>, Vec2> {
+    pub fn edges(&self) -> Result<Vec<Edge>, Vec2> {
         if let Self::Ellipse { center, axes, angle, from, to } = *self
             && axes.x == axes.y
         {
@@ -74,9 +86,9 @@ impl SmoothCurve {
         match self {
             Self::Ellipse { axes, .. } => axes.x.max(axes.y),
             Self::Spline(spline) => {
-                let points: Vec<Vec2> =
-                    (0..=spline.spans()).map(|k| spline.at(k as f64)[0]).collect();
-                let size = super::around(&points).size();
+                let points = (0..=spline.spans()).map(|k| spline.at(k as f64)[0]);
+                let around = |all: Rect, p| all.union(&Rect::new(p, p));
+                let size = points.fold(Rect::EMPTY, around).size();
                 size.x.max(size.y)
             }
         }
@@ -95,7 +107,7 @@ mod tests {
     use std::f64::consts::{PI, TAU};
 
     use super::*;
-    use ppum::domain::Hole;
+    use crate::domain::Hole;
     use ppum_testkit::random::Random;
 
     /// Closed chains of arcs have the area of the ellipse, π a b.
@@ -108,8 +120,7 @@ mod tests {
             let curve =
                 SmoothCurve::Ellipse { center: vec2(0.3, -0.2), axes, angle, from: 0.0, to: TAU };
             let edges = curve.edges().expect("smooth");
-            let area = |edge: &Edge| 0.5 * edge.from.cross(edge.to) + edge.area_beside_chord();
-            let area: f64 = edges.iter().map(area).sum();
+            let area: f64 = edges.iter().map(|edge| edge.area_from(Vec2::ZERO)).sum();
             assert!((area / (PI * axes.x * axes.y) - 1.0).abs() < 5e-9, "{area}");
         }
     }
@@ -149,9 +160,7 @@ mod tests {
             let rim = |shift: f64| {
                 let edges = SmoothCurve::Spline(Spline::closed(&points(shift))).edges();
                 let edges = edges.expect("smooth");
-                let points = edges.iter().map(|edge| edge.from).collect();
-                let bulges = edges.iter().map(|edge| edge.bulge).collect();
-                Hole::Polygon { points, bulges, side: ppum::domain::PolygonSide::Inside }
+                Hole::enclosed(&edges)
             };
             let (one, other) = (rim(0.0), rim(1e-13));
             assert!(one.edges().count().abs_diff(other.edges().count()) < 10);
