@@ -36,8 +36,8 @@ impl AnchoredEdge {
         local
     }
 
-    /// The halves of a round hole's rim before and behind Q, with the hole on their left; nothing of
-    /// a polygon.
+    /// The halves of a round hole's rim before and behind Q, with the hole on their left; nothing
+    /// of a polygon.
     #[must_use]
     pub fn halves(hole: &Hole, anchor: Vec2) -> Vec<Self> {
         let local = hole.at(anchor);

@@ -440,9 +440,9 @@ impl Edge {
     }
 }
 
-/// A line or circle in the frame of one of its points, seen from an anchor. Places on it are lengths
-/// s from that point. If it is the point nearest to the anchor, nothing cancels near the anchor: an
-/// arc in a view 10⁻¹² of its radius wide has no noise.
+/// A line or circle in the frame of one of its points, seen from an anchor. Places on it are
+/// lengths s from that point. If it is the point nearest to the anchor, nothing cancels near the
+/// anchor: an arc in a view 10⁻¹² of its radius wide has no noise.
 #[derive(Clone, Copy, Debug)]
 pub struct EdgeFrame {
     /// The offset of the point from the anchor.

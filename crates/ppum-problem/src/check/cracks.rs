@@ -222,17 +222,10 @@ impl Course<'_> {
     /// No crossing with itself.
     fn meets_itself(&self) -> Option<KeyError> {
         let (edges, last) = (self.course.edges().collect::<Vec<_>>(), self.points.len() - 1);
-        if last > 1 && (self.points[last] - self.points[0]).length() <= self.touch {
-            let message = format!(
-                "the crack is closed: both of its ends are at {}; give it as two cracks whose ends meet",
-                shown(self.points[0])
-            );
-            return Some(self.error_at(last, message));
-        }
         let Ok(touching) = self_touch(&edges, false, self.touch) else {
             return Some(self.error(TooDense::message("parts of the crack")));
         };
-        touching.map(|(first, second)| {
+        if let Some((first, second)) = touching {
             let message = format!(
                 "the crack crosses, touches or folds back on itself around {}: its edges {} and {} meet; \
                  separate them, or give the second one as a crack of its own: cracks may meet others",
@@ -240,7 +233,16 @@ impl Course<'_> {
                 first + 1,
                 second + 1
             );
-            self.error_at(second, message)
+            return Some(self.error_at(second, message));
+        }
+        // two arcs between the same points meet at both of them
+        let is_closed = last > 1 && (self.points[last] - self.points[0]).length() <= self.touch;
+        is_closed.then(|| {
+            let message = format!(
+                "the crack is closed: both of its ends are at {}; give it as two cracks whose ends meet",
+                shown(self.points[0])
+            );
+            self.error_at(last, message)
         })
     }
 }

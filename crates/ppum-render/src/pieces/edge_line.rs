@@ -16,9 +16,9 @@ use crate::anchored_edge::AnchoredEdge;
 /// Fewest lines that stand for a whole circle.
 const LEAST: f64 = 12.0;
 
-/// Largest distance of a line from the arc of a crack, on whose sides values differ, in parts of
-/// the square's side.
-const OF_CRACK: f64 = 3e-4;
+/// Largest distance of a line from an arc that is no part of a round hole, in parts of the square's
+/// side.
+const OF_ARC: f64 = 3e-4;
 
 /// An edge that cuts squares: a segment by its own line, an arc by chords or tangents of its parts.
 #[derive(Debug)]
@@ -67,8 +67,8 @@ impl EdgeLine {
 
     /// Largest distance of a line from its arc in a square.
     fn sagitta(&self, square: &Rect) -> f64 {
-        let (part, size) = (if self.body == 0.0 { OF_CRACK } else { SAGITTA }, square.size());
-        part * size.x.min(size.y)
+        let (part, size) = (if self.is_disc { SAGITTA } else { OF_ARC }, square.size());
+        part * size.x.max(size.y)
     }
 
     /// The parts that lines stand for, beside a square.
@@ -124,7 +124,8 @@ impl EdgeLine {
         let at = self.edge.frame.at(middle) + tangent.left() * shift;
         let along = tangent.dot(at);
         let line = PolygonCut::along(tangent, -tangent.cross(at), [along - reach, along + reach]);
-        let line = line.with_sagitta(sagitta.abs());
+        // tangents of round holes do not leave the body
+        let line = line.with_sagitta(if self.is_disc { 0.0 } else { sagitta.abs() });
         EdgeCut { line, normals, is_disc: self.is_disc }
     }
 }

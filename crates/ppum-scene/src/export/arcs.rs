@@ -20,14 +20,27 @@ pub(super) fn with_polygons(domain: &Domain) -> Domain {
 
 fn polygon(hole: &Hole) -> Hole {
     let inner = hole.orientation();
-    let points = hole.rim_edges().into_iter().flat_map(|edge| {
-        let is_outside = inner * edge.bulge > 0.0;
-        let behind = if is_outside { tangents(&edge) } else { chords(&edge, &[]) };
-        let behind = behind.into_iter().filter(move |p| *p != edge.to);
-        std::iter::once(edge.from).chain(behind)
-    });
-    let points = points.collect();
+    let points = match hole {
+        Hole::Circle { center, radius } => around(*center, *radius),
+        Hole::Polygon { .. } => hole.edges().flat_map(|edge| behind(edge, inner)).collect(),
+    };
     if hole.is_outside() { Hole::outside(points) } else { Hole::polygon(points) }
+}
+
+/// The first point of an edge, and those behind it but for the last one.
+fn behind(edge: Edge, inner: f64) -> impl Iterator<Item = Vec2> {
+    let is_outside = inner * edge.bulge > 0.0;
+    let behind = if is_outside { tangents(&edge) } else { chords(&edge, &[]) };
+    std::iter::once(edge.from).chain(behind.into_iter().filter(move |p| *p != edge.to))
+}
+
+fn around(center: Vec2, radius: f64) -> Vec<Vec2> {
+    let step = TAU / SIDES;
+    let corner = |k: u32| {
+        let (sin, cos) = (step * f64::from(k)).sin_cos();
+        center + vec2(cos, sin) * (radius / (0.5 * step).cos())
+    };
+    (0..SIDES as u32).map(corner).collect()
 }
 
 /// The points in which tangents at the ends of the parts of an arc meet.

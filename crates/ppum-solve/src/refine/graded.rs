@@ -33,9 +33,9 @@ const STRONG: f64 = 0.6;
 const WITH_FUNCTIONS: f64 = 0.5;
 const CELLS_OF_FUNCTIONS: f64 = 0.25;
 
-/// Largest cells on an arc of a crack, in its radii. Continued across the arc, the field on one side
-/// of it is singular at the centre, so that polynomials of order p leave (h/R)^p: an arc of 170° has
-/// K to 6e-8 in cells of 0.2 radii and to 4e-10 in cells of 0.1, at order 6.
+/// Largest cells on an arc of a crack, in its radii. Continued across the arc, the field on one
+/// side of it is singular at the centre, so that polynomials of order p leave (h/R)^p: an arc of
+/// 170° has K to 6e-8 in cells of 0.2 radii and to 4e-10 in cells of 0.1, at order 6.
 const ON_CRACK: f64 = 0.125;
 
 /// Smallest cells that are asked for, in parts of the base cover's: what is smaller is

@@ -377,8 +377,8 @@ mod tests {
     #[test]
     fn sides_of_arcs_by_crossings() {
         for bulge in [-1.0, -0.3, -1e-9, 1e-9, 0.3, 1.0] {
-            let points = [[-0.3, 0.1], [0.4, 0.2], [0.9, -0.3]].map(Vec2::from).to_vec();
-            let crack = Crack { points, bulges: vec![bulge, 0.4], ends: [CrackEnd::Tip; 2] };
+            let points = [[-0.3, 0.1], [0.4, 0.2], [0.5, 0.9]].map(Vec2::from).to_vec();
+            let crack = Crack { points, bulges: vec![bulge, 0.1], ends: [CrackEnd::Tip; 2] };
             for (edge, part) in crack.edges().flat_map(|edge| [0.1, 0.5, 0.97].map(|t| (edge, t))) {
                 let normal = edge.tangent(part).left();
                 for (step, expected) in [(1e-9, 1.0), (-1e-9, -1.0)] {

@@ -123,8 +123,8 @@ fn crack_ray_distance(crack: Crack, end: u32, beside: f32, offset: vec2<f32>) ->
     return beside;
 }
 
-// The nearest edge of a crack with arcs, see LocalChain::nearest_distance. Groups of edges are passed
-// over that are farther away than the nearest centre of one.
+// The nearest edge of a crack with arcs, see LocalChain::nearest_distance. Groups of edges are
+// passed over that are farther away than the nearest centre of one.
 fn crack_nearest_edge(crack: Crack, offset: vec2<f32>) -> Nearest {
     var nearest = Nearest(0.0, 2u);
     var closest = CRACK_FAR;
