@@ -89,7 +89,7 @@ fn pressed_arcs() {
             .with_pressure(BoundaryPart::Crack { crack: 0, face: None }, 0.8);
         let [k, t, j] = errors(&solved(&body), &field);
         println!("{sweep} degrees under pressure, order {order}: K {k:.1e}, T {t:.1e}, J {j:.1e}");
-        assert!(k < 1e-5 && t < 1e-3 && j < 1e-4, "{sweep}: {k} {t} {j}");
+        assert!(k < 1e-6 && t < 2e-6 && j < 2e-6, "{sweep}: {k} {t} {j}");
     }
 }
 
@@ -170,18 +170,18 @@ fn numbers(dataset: &Dataset) -> Vec<[f64; 4]> {
     tips.iter().map(of).collect()
 }
 
-/// Asserts that numbers differ by no more than rules for the integrals of K leave.
-fn assert_same(what: &str, found: &[[f64; 4]], expected: &[[f64; 4]]) {
+/// Asserts that numbers differ by no more than a bound.
+fn assert_same((what, bound): (&str, f64), found: &[[f64; 4]], expected: &[[f64; 4]]) {
     for (a, b) in found.iter().zip(expected) {
         let size = b[0].hypot(b[1]);
         let off = a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) / size;
         println!("{what}: {off:.1e}");
-        assert!(off < 5e-9, "{what}: {a:?} {b:?}");
+        assert!(off < bound, "{what}: {a:?} {b:?}");
     }
 }
 
 /// The same arc in the opposite direction, in ten parts, turned by a right angle, and ten times as
-/// large.
+/// large. Cells are cut along other axes in a turned plate, so rules for the integrals of K differ.
 #[test]
 fn one_arc_in_many_ways() {
     let field = arc(100.0);
@@ -189,13 +189,14 @@ fn one_arc_in_many_ways() {
     let plain = numbers(&solved(&problem(&field, &[edge], set())));
     let mut reversed = numbers(&solved(&problem(&field, &[edge.reversed()], set())));
     reversed.reverse();
-    assert_same("reversed", &reversed, &plain);
+    assert_same(("reversed", 1e-13), &reversed, &plain);
     let tenth = |k: u32| edge.part([f64::from(k) / 10.0, f64::from(k + 1) / 10.0]);
     let mut parts: Vec<Edge> = (0..10).map(tenth).collect();
     for k in 1..10 {
         parts[k].from = parts[k - 1].to;
     }
-    assert_same("in ten parts", &numbers(&solved(&problem(&field, &parts, set()))), &plain);
+    let in_parts = numbers(&solved(&problem(&field, &parts, set())));
+    assert_same(("in ten parts", 1e-9), &in_parts, &plain);
     let turned = |p: Vec2| p.left();
     let moved = |place: &dyn Fn(Vec2) -> Vec2, size: f64| {
         let Edge { from, to, bulge } = edge;
@@ -207,12 +208,12 @@ fn one_arc_in_many_ways() {
         numbers(&solved(&crate::support::stressed(body, [x, y, 0.0], &DomainEdge::ALL)))
     };
     let plain = pulled(moved(&|p| p, 1.0), [0.4, 1.0]);
-    assert_same("turned", &pulled(moved(&turned, 1.0), [1.0, 0.4]), &plain);
+    assert_same(("turned", 2e-9), &pulled(moved(&turned, 1.0), [1.0, 0.4]), &plain);
     let mut large = pulled(moved(&|p| p * 10.0, 10.0), [0.4, 1.0]);
     for [k1, k2, _, j] in &mut large {
         (*k1, *k2, *j) = (*k1 / 10f64.sqrt(), *k2 / 10f64.sqrt(), *j / 10.0);
     }
-    assert_same("ten times as large", &large, &plain);
+    assert_same(("ten times as large", 1e-10), &large, &plain);
 }
 
 /// Chords of the arc become it: the error of T falls like the root of their length, that of K like
@@ -248,6 +249,6 @@ fn discs_on_arcs() {
         let found = on_circle(&dataset, 0, tip, radius, None, unwatched()).expect("room");
         let [k, t, j] = errors_at(&found, field.intensities(End::Last), field.t_stress(End::Last));
         println!("radius {radius:.2}: K {k:.1e}, T {t:.1e}, J {j:.1e}");
-        assert!(k < 1e-4 && t < 1e-3 && j < 1e-4, "{radius}: {k} {t} {j}");
+        assert!(k < 1e-5 && t < 5e-6 && j < 1e-6, "{radius}: {k} {t} {j}");
     }
 }
