@@ -402,7 +402,8 @@ impl Kernels<'_> {
 #[inline(always)]
 fn moved<R: Real>(point: &TipPoint<R>, u: &Gradients<R>, curvature: R) -> [R; 2] {
     let (along, across) = (curvature.broadcast(1.0) - curvature * point.y, curvature * point.x);
-    u.map(|row| row[0] * along + row[1] * across)
+    // no closure, which would leave the vectors' instructions
+    [u[0][0] * along + u[0][1] * across, u[1][0] * along + u[1][1] * across]
 }
 
 /// σ : ∇(e₃ × u), which times q c stands for what [`moved`] leaves out: −σ_ij c (e₃ × u)_i q_,j
