@@ -279,13 +279,18 @@ impl Edge {
         parts.map(|part| self.at(part)).fold(ends, |all, p| all.union(&Rect::new(p, p)))
     }
 
-    /// Heights y between which the edge surely lies: those of its ends, and of an arc more by its
-    /// distance from the chord.
+    /// Heights y between which the edge surely lies.
     pub(crate) fn heights(&self) -> [f64; 2] {
-        let (a, b, d) = (self.from.y, self.to.y, self.chord());
-        // |D| |β|/2 or more, also after rounding
+        let reach = self.reach();
+        [reach.min.y, reach.max.y]
+    }
+
+    /// A box in which the edge surely lies.
+    fn reach(&self) -> Rect {
+        let (a, b, d) = (self.from, self.to, self.chord());
+        // an arc stays as near to its chord as its middle: |D| |β|/2 or more, also after rounding
         let beside = 0.51 * self.bulge.abs() * (d.x.abs() + d.y.abs());
-        [a.min(b) - beside, a.max(b) + beside]
+        Rect::new(a.min(b) - vec2(beside, beside), a.max(b) + vec2(beside, beside))
     }
 
     /// The signed area between chord and arc: positive where the arc turns left, and lies on the
@@ -393,11 +398,7 @@ impl Edge {
     /// The parts of the length that lie inside an open box, in order.
     #[must_use]
     pub fn within(&self, open: &Rect) -> Vec<[f64; 2]> {
-        // an arc stays as near to its chord as its middle
-        let height = 0.505 * self.bulge.abs() * self.chord().length();
-        let chord = Rect::new(self.from.min(self.to), self.from.max(self.to));
-        let reach = Rect::around(chord.center(), chord.size() * 0.5 + vec2(height, height));
-        if self.is_arc() && !reach.overlaps(open) {
+        if self.is_arc() && !self.reach().overlaps(open) {
             return Vec::new();
         }
         let [a, b, c, d] = open.corners();

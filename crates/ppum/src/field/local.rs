@@ -10,6 +10,7 @@ use crate::mesh::{ElementField, LocalMesh};
 use crate::polynomial::polynomial;
 use crate::vec2::{Vec2, vec2};
 use ppum_formula::real::Real;
+use std::sync::OnceLock;
 
 /// A field seen from an anchor.
 #[derive(Clone, Debug)]
@@ -18,7 +19,11 @@ pub struct LocalField<'f> {
     pub field: &'f Field<'f>,
     /// The anchor.
     pub anchor: Vec2,
-    domain: LocalDomain,
+    /// The domain, formed when the first point asks for it: of rims with many sides that takes
+    /// longer than an evaluation.
+    domain: OnceLock<LocalDomain>,
+    /// The hole whose rim it is seen on, which then belongs to the domain.
+    touched_hole: Option<usize>,
     /// The side of the segment that it is seen on that lies outside of the domain, if one does.
     pub(super) outer: Option<Side>,
     /// A way of a few roundings from the segment that it is seen on to the side above it; zero if
@@ -69,21 +74,26 @@ impl Field<'_> {
         let edge = self.step.cracks[segment.crack as usize].edge(segment.segment as usize);
         let line = self.domain.line_of(edge);
         let local = LocalField::new(self, anchor, functions);
-        let domain = local.domain.without_hole(line.and_then(|line| line.hole));
+        let touched_hole = line.and_then(|line| line.hole);
         let extent = self.domain.bounds.max_norm();
         let along = if edge.is_arc() { edge.tangent_towards(anchor) } else { edge.chord().unit() };
         let above = along.left() * (ASIDE * extent);
         let outer = line.map(|line| line.outer_side([edge.from, edge.to]));
-        LocalField { outer, above, domain, ..local }
+        LocalField { outer, above, touched_hole, ..local }
     }
 }
 
 impl<'f> LocalField<'f> {
     fn new(field: &'f Field<'f>, anchor: Vec2, functions: LocalFunctions<'f>) -> Self {
-        let domain = field.domain.at(anchor);
         let mesh = field.step.partition.mesh().map(|mesh| LocalMesh::new(field, mesh, anchor));
-        let (outer, above, patches) = (None, Vec2::ZERO, Vec::new());
-        Self { field, anchor, domain, outer, above, functions, mesh, patches }
+        let (domain, patches) = (OnceLock::new(), Vec::new());
+        let (touched_hole, outer, above) = (None, None, Vec2::ZERO);
+        Self { field, anchor, domain, touched_hole, outer, above, functions, mesh, patches }
+    }
+
+    fn domain(&self) -> &LocalDomain {
+        let formed = || self.field.domain.at(self.anchor).without_hole(self.touched_hole);
+        self.domain.get_or_init(formed)
     }
 
     /// The functions as seen from the anchor.
@@ -97,7 +107,7 @@ impl<'f> LocalField<'f> {
     pub fn contains(&self, offset: Vec2) -> bool {
         match &self.mesh {
             Some(mesh) => mesh.owner(offset, Side::Above).is_some(),
-            None => self.domain.contains(offset),
+            None => self.domain().contains(offset),
         }
     }
 
@@ -140,7 +150,7 @@ impl<'f> LocalField<'f> {
         if let Some(mesh) = &self.mesh {
             return Some(mesh.owner(offset, side)?.patch);
         }
-        if !self.domain.contains(offset) {
+        if !self.domain().contains(offset) {
             return None;
         }
         let mut patches = Vec::new();
