@@ -54,10 +54,11 @@ fn of_problem(path: &Path, problem: &Problem) -> Option<Series> {
 fn solve(path: &Path, problem: &Problem) -> anyhow::Result<()> {
     let there = of_problem(path, problem);
     let mut writer = there.as_ref().map(|_| SeriesWriter::resume(path)).transpose()?;
-    let last =
-        there.map(|series| anyhow::Ok((series.len() - 1, series.results(series.len() - 1)?)));
-    let last = last.transpose()?;
-    let last = last.as_ref().map(|(number, step)| ResumePoint { number: *number, step });
+    let last = there
+        .map(|series| (0..series.len()).map(|k| series.results(k)).collect::<Result<Vec<_>, _>>());
+    let steps = last.transpose()?;
+    let last = steps.as_ref().and_then(|steps| steps.split_last());
+    let last = last.map(|(step, earlier)| ResumePoint { number: earlier.len(), step, earlier });
     let keep = |dataset: Dataset| -> anyhow::Result<()> {
         match &mut writer {
             None => writer = Some(SeriesWriter::begin(path, &dataset)?),

@@ -1,6 +1,7 @@
 //! Decides the next increments of the tips of a solved step: who grows, how far, and where to.
 
 use super::criterion::Drive;
+use super::life::{Life, LifeError, LifeStep, growth_ratio};
 use super::path::go;
 use crate::solve::SolveError;
 use ppum::crack::{Crack, End, TipId, tips};
@@ -9,8 +10,9 @@ use ppum::edge::Edge;
 use ppum::text::{short, trimmed};
 use ppum::vec2::Vec2;
 use ppum_problem::geometry::from_tip;
-use ppum_problem::{GrowthRule, LoadControl, Problem};
+use ppum_problem::{GrowthLaw, GrowthRule, LoadControl, Problem, TipState};
 use ppum_solve::terms::face_law;
+use std::collections::BTreeMap;
 
 /// Loads at which tips reach their toughness that count as one, relative: those of a symmetric
 /// body differ by the errors of their factors.
@@ -85,11 +87,14 @@ pub enum GrowthDataError {
     Load(f64),
     /// Cycles without number.
     #[error(
-        "the last increment took {} cycles: look at the units of `c` in `paris`, with which c ΔK^m is the length a \
-         cycle",
+        "the last increment took {} cycles: look at the units of the law of growth, whose rate is the length a cycle, \
+         as c ΔK^m is with the `c` of `paris`",
         short(*.0)
     )]
     Cycles(f64),
+    /// A law of growth that gives no life.
+    #[error(transparent)]
+    Life(#[from] LifeError),
 }
 
 /// Largest factor of a load, and one over the smallest: squares of it are far from the ends of f64.
@@ -105,19 +110,23 @@ pub(super) fn decide(
     rule: &GrowthRule,
     factors: &[TipIntensity],
     before: Option<&Growth>,
+    life: &mut Life,
 ) -> Result<(Growth, f64), GrowthDataError> {
     let mut driven: Vec<_> = tips(problem.cracks())
         .map(|tip| DrivenTip::new(problem, rule, tip, factors, before))
         .collect();
     driven.iter().filter(|tip| tip.fate == TipStatus::Grows).try_for_each(DrivenTip::check)?;
     let load = load(rule, &driven)?;
-    share(rule, &mut driven, load);
-    let increment = increment(problem, rule, &driven);
     let mut growth = Growth::default();
-    growth.cycles = cycles(rule, before, &driven)?;
+    growth.cycles = add_to_life(life, problem, rule, factors, &driven, before)?;
+    share(rule, &mut driven, load, life)?;
+    let increment = increment(problem, rule, &driven);
+    share_cycles(rule, &mut driven, increment, life);
     let mut so_far = problem.cracks().to_vec();
     for tip in &driven {
-        let row = tip.advance(problem, &so_far, increment);
+        let made = tip.before.map_or(0.0, |row| row.extension + row.length);
+        let due = rule.law.as_ref().map_or(0.0, |_| life.growth(tip.tip) - made);
+        let row = tip.advance(problem, &so_far, increment, due);
         extend(&mut so_far[tip.tip.crack as usize], &row);
         growth.tips.push(row);
     }
@@ -244,14 +253,21 @@ impl<'a> DrivenTip<'a> {
         at_start + length * self.heading(length).1.abs()
     }
 
-    /// Returns the increment of the tip when the tip that grows most advances by `increment`.
-    fn advance(&self, problem: &Problem, cracks: &[Crack], increment: f64) -> TipIncrement {
-        let so_far = self.before.map_or([0.0; 2], |row| [row.due, row.extension + row.length]);
+    /// Returns the increment of the tip when the tip that grows most advances by `increment`, with
+    /// the growth that is due before; less than nothing if more was made than the law says.
+    fn advance(
+        &self,
+        problem: &Problem,
+        cracks: &[Crack],
+        increment: f64,
+        due: f64,
+    ) -> TipIncrement {
+        let due = if due.abs() < ROUNDING * increment { 0.0 } else { due };
         let mut row = TipIncrement {
             k_eq: self.k_eq(),
             direction: self.axis,
-            due: so_far[0],
-            extension: so_far[1],
+            due: due.max(0.0),
+            extension: self.before.map_or(0.0, |row| row.extension + row.length),
             ..TipIncrement::staying(self.tip, self.fate)
         };
         if self.fate != TipStatus::Grows {
@@ -261,7 +277,7 @@ impl<'a> DrivenTip<'a> {
             row.fate = TipStatus::Joined;
             return row;
         }
-        row.due += self.share * increment;
+        row.due = (due + self.share * increment).max(0.0);
         if row.due < DUE * increment {
             row.fate = TipStatus::Waits;
             return row;
@@ -344,22 +360,44 @@ fn load(rule: &GrowthRule, driven: &[DrivenTip<'_>]) -> Result<f64, GrowthDataEr
     }
 }
 
-/// Finds which tips grow, and how much in parts of what the fastest grows.
-fn share(rule: &GrowthRule, driven: &mut [DrivenTip<'_>], load: f64) {
+/// Finds which tips grow, and how much in parts of what the fastest grows, by their rates now.
+fn share(
+    rule: &GrowthRule,
+    driven: &mut [DrivenTip<'_>],
+    load: f64,
+    life: &Life,
+) -> Result<(), GrowthDataError> {
     let enough = if rule.load == LoadControl::Critical { 1.0 - TOGETHER } else { 1.0 };
-    let most = driven.iter().map(|tip| load * tip.k_eq()).fold(0.0, f64::max);
+    let rates = rule.law.as_ref().map(|law| life.ln_rates(law)).transpose()?;
+    let rate = |tip: &DrivenTip<'_>| Some(*rates.as_ref()?.get(&tip.tip)?);
+    let most = driven.iter().filter_map(rate).fold(f64::NEG_INFINITY, f64::max);
     for tip in driven.iter_mut().filter(|tip| tip.fate == TipStatus::Grows) {
         let strength = load * tip.k_eq();
-        let grows = match &rule.paris {
-            Some(paris) => paris.grows(strength),
-            None => tip.toughness.is_none_or(|toughness| strength >= enough * toughness),
-        };
+        let is_enough = || tip.toughness.is_none_or(|toughness| strength >= enough * toughness);
+        let grows = rate(tip).map_or_else(is_enough, |rate| rate > f64::NEG_INFINITY);
         // the parts of rates alone, which may be out of all range
-        let power = rule.paris.as_ref().map_or(0.0, |paris| paris.m);
-        tip.share = if grows { (strength / most).powf(power) } else { 0.0 };
+        let part = rate(tip).map_or(1.0, |rate| growth_ratio(rate, most));
+        tip.share = if grows { part } else { 0.0 };
         if !grows {
             tip.fate = TipStatus::Held;
         }
+    }
+    Ok(())
+}
+
+/// Corrects the parts by how the tips' rates change in the cycles of the increment.
+fn share_cycles(rule: &GrowthRule, driven: &mut [DrivenTip<'_>], increment: f64, life: &Life) {
+    let growing = driven.iter().filter(|tip| tip.share > 0.0);
+    let first: BTreeMap<_, _> = growing.map(|tip| (tip.tip, tip.share * increment)).collect();
+    if first.len() < 2 {
+        return;
+    }
+    // what cannot be told beforehand is told when the increment is made
+    let law = rule.law.as_ref();
+    let Some(Ok(growth)) = law.map(|law| life.forecast(law, first)) else { return };
+    for tip in driven.iter_mut().filter(|tip| tip.share > 0.0 && tip.share < 1.0) {
+        let part = growth.get(&tip.tip).map_or(tip.share, |growth| growth / increment);
+        tip.share = part.min(1.0);
     }
 }
 
@@ -385,40 +423,54 @@ fn increment(problem: &Problem, rule: &GrowthRule, driven: &[DrivenTip<'_>]) -> 
     chosen.max(LEAST_CHOSEN * largest).min(largest)
 }
 
-/// Load cycles up to this step: those of the steps before, and those of the last increment of the
-/// tip that was driven most.
-fn cycles(
+/// Adds this step to the life of the cracks, and returns the cycles up to it.
+fn add_to_life(
+    life: &mut Life,
+    problem: &Problem,
     rule: &GrowthRule,
-    before: Option<&Growth>,
+    factors: &[TipIntensity],
     driven: &[DrivenTip<'_>],
+    before: Option<&Growth>,
 ) -> Result<Option<f64>, GrowthDataError> {
-    let Some(paris) = &rule.paris else { return Ok(None) };
-    let Some(before) = before else { return Ok(Some(0.0)) };
-    let rows = before.tips.iter().filter(|row| row.length > 0.0);
-    let so_far = before.cycles.unwrap_or(0.0);
-    let fastest = rows.max_by(|a, b| a.k_eq.total_cmp(&b.k_eq));
-    let Some(row) = fastest else { return Ok(Some(so_far)) };
-    let then = paris.ln_rate(row.k_eq);
-    let now = driven.iter().find(|tip| tip.tip == row.tip && paris.grows(tip.k_eq()));
-    let now = now.map_or(then, |tip| paris.ln_rate(tip.k_eq()));
-    let last = cycles_along(row.length, then, now);
-    if last.is_normal() { Ok(Some(so_far + last)) } else { Err(GrowthDataError::Cycles(last)) }
+    let Some(law) = &rule.law else { return Ok(None) };
+    let strengths = driven.iter().map(|tip| (tip.tip, tip.k_eq()));
+    let step = life_step(rule, problem.cracks(), factors, strengths);
+    life.add(law, step, before.map(increments).unwrap_or_default())?;
+    let cycles = life.cycles();
+    let has_grown = before.is_some_and(|growth| growth.tips.iter().any(|row| row.length > 0.0));
+    let is_wrong = !cycles.is_finite() || has_grown && cycles == 0.0;
+    if is_wrong { Err(GrowthDataError::Cycles(cycles)) } else { Ok(Some(cycles)) }
 }
 
-/// ∫ da / rate along a length on which the rate grows or falls like an exponential from one value
-/// to another, given by their logarithms.
-fn cycles_along(length: f64, from: f64, to: f64) -> f64 {
-    let growth = to - from;
-    // (1 − e^−x) / x
-    let mean = if growth == 0.0 { 1.0 } else { -(-growth).exp_m1() / growth };
-    length * (-from).exp() * mean
+/// What a law of growth sees of a step.
+pub(super) fn life_step(
+    rule: &GrowthRule,
+    cracks: &[Crack],
+    factors: &[TipIntensity],
+    strengths: impl Iterator<Item = (TipId, f64)>,
+) -> LifeStep {
+    let state = |(tip, strength): (TipId, f64)| {
+        let at = cracks[tip.crack as usize].end_point(tip.end);
+        let found = factors.iter().find(|found| found.tip == tip);
+        let found = found.map(|k| [k.k1, k.k2, k.t_stress.unwrap_or(f64::NAN)]);
+        let toughness = rule.toughness.as_ref().map_or(f64::INFINITY, |law| law.value(at));
+        let factors = found.unwrap_or([f64::NAN; 3]);
+        (tip, TipState { at, strength, factors, extension: 0.0, toughness })
+    };
+    let lengths = cracks.iter().map(Crack::length).collect();
+    LifeStep { lengths, tips: strengths.map(state).collect(), increments: BTreeMap::new() }
+}
+
+/// The lengths by which tips grow from a step on.
+pub(super) fn increments(growth: &Growth) -> BTreeMap<TipId, f64> {
+    growth.tips.iter().map(|row| (row.tip, row.length)).collect()
 }
 
 /// Returns the reason why the series ends here.
 fn stop(rule: &GrowthRule, driven: &[DrivenTip<'_>], growth: &Growth) -> Option<GrowthStop> {
-    let breaks = |tip: &DrivenTip<'_>| {
-        rule.paris.is_some() && tip.toughness.is_some_and(|toughness| tip.k_eq() >= toughness)
-    };
+    let load = rule.law.as_ref().map_or(0.0, GrowthLaw::largest_load);
+    let breaks =
+        |tip: &DrivenTip<'_>| tip.toughness.is_some_and(|toughness| load * tip.k_eq() >= toughness);
     if driven.is_empty() {
         return Some(GrowthStop::NoTips);
     }

@@ -14,20 +14,24 @@
 
 mod criterion;
 mod decision;
+mod life;
 mod path;
 mod settle;
 mod step;
 
 pub use criterion::{KinkPrediction, kink};
 pub use decision::GrowthDataError;
+pub use life::LifeError;
 
 use crate::solve::SolveError;
-use decision::grow_cracks;
+use decision::{grow_cracks, increments, life_step};
+use life::Life;
 use ppum::dataset::{Dataset, Step};
 use ppum::progress::Watcher;
 use ppum_problem::{GrowthRule, Problem, ProblemData};
 use ppum_solve::watched::StepWatcher;
 use settle::solve_step;
+use std::collections::BTreeMap;
 use std::convert::Infallible;
 use step::{GrowthSeries, PreviousStep, end_series};
 
@@ -53,6 +57,8 @@ pub struct ResumePoint<'s> {
     pub number: usize,
     /// The step, with its [`Growth`](ppum::dataset::Growth).
     pub step: &'s Step,
+    /// The steps before it, without their fields, which a law of growth remembers; else none.
+    pub earlier: &'s [Step],
 }
 
 /// Solves a problem whose cracks grow, and gives each step to `keep` as a dataset of its own when
@@ -77,6 +83,7 @@ pub fn grow<E>(
         Some(start) => start,
         None => return Ok(()),
     };
+    let mut life = life_so_far(rule, last)?;
     let mut done: Option<Dataset> = None;
     while number <= rule.steps {
         let here = StepWatcher { watcher, step: number };
@@ -92,7 +99,8 @@ pub fn grow<E>(
         let (cracks, dataset) = solve_step(plan, before.as_ref(), &series, &here)?;
         current = current.with_cracks(cracks);
         let growth_before = before.as_ref().map(|before| &before.growth);
-        let (dataset, growth) = series.with_decision(&current, dataset, growth_before)?;
+        let (dataset, growth) =
+            series.with_decision(&current, dataset, growth_before, &mut life)?;
         if growth.stop.is_some() || number == rule.steps {
             return keep(dataset).map_err(GrowthError::Kept);
         }
@@ -146,7 +154,7 @@ type NextStep = (usize, Problem, Option<PreviousStep>);
 
 /// The next step; none if the series has ended.
 fn start(problem: &Problem, last: Option<ResumePoint<'_>>) -> Result<Option<NextStep>, SolveError> {
-    let Some(ResumePoint { number, step }) = last else {
+    let Some(ResumePoint { number, step, .. }) = last else {
         return Ok(Some((0, problem.clone(), None)));
     };
     let going_on = step.growth.as_ref().filter(|growth| growth.stop.is_none());
@@ -154,4 +162,20 @@ fn start(problem: &Problem, last: Option<ResumePoint<'_>>) -> Result<Option<Next
     let problem = problem.with_cracks(step.cracks.clone());
     let next = grow_cracks(&problem, &growth)?;
     Ok(Some((number + 1, next, Some(PreviousStep { problem, growth }))))
+}
+
+/// The life of the cracks up to the last step.
+fn life_so_far(rule: &GrowthRule, last: Option<ResumePoint<'_>>) -> Result<Life, GrowthDataError> {
+    let mut life = Life::default();
+    let (Some(law), Some(ResumePoint { step, earlier, .. })) = (&rule.law, last) else {
+        return Ok(life);
+    };
+    let mut lengths = BTreeMap::new();
+    for step in earlier.iter().chain([step]) {
+        let Some(growth) = &step.growth else { continue };
+        let strengths = growth.tips.iter().map(|row| (row.tip, row.k_eq));
+        let found = life_step(rule, &step.cracks, &step.intensities, strengths);
+        life.add(law, found, std::mem::replace(&mut lengths, increments(growth)))?;
+    }
+    Ok(life)
 }

@@ -1,6 +1,7 @@
 //! A step of a series: its plan, what is decided with it, and whether the series ends there.
 
 use super::decision::{GrowthDataError, decide};
+use super::life::Life;
 use crate::solve::{Plan, SolveError};
 use ppum::dataset::{Dataset, Growth, GrowthStop, Record, Step, Warning, WarningKind};
 use ppum::progress::Watcher;
@@ -59,9 +60,10 @@ impl GrowthSeries<'_> {
         problem: &Problem,
         mut dataset: Dataset,
         before: Option<&Growth>,
+        life: &mut Life,
     ) -> Result<(Dataset, Growth), GrowthDataError> {
         let step = &mut dataset.steps[0];
-        let decision = decide(problem, self.rule, &step.intensities, before);
+        let decision = decide(problem, self.rule, &step.intensities, before, life);
         let (growth, load) = match (decision, before) {
             (Err(error), Some(Growth { cycles, .. })) => {
                 let stop = GrowthStop::Unsolvable;

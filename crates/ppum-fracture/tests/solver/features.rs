@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// The features of plates here; of oblique sides see `sides`.
-const ALL: [Feature; 23] = [
+const ALL: [Feature; 26] = [
     F::Potential,
     F::VaryingMaterial,
     F::GivenStrains,
@@ -33,7 +33,10 @@ const ALL: [Feature; 23] = [
     F::Growth,
     F::CriticalLoad,
     F::NoToughness,
-    F::Paris,
+    F::GrowthLaw,
+    F::ToughnessRate,
+    F::OpeningRate,
+    F::NoClosure,
 ];
 
 /// What a feature cannot be without.
@@ -43,7 +46,8 @@ fn implied(feature: Feature) -> &'static [Feature] {
         F::SlidingPart => &[F::PartialModel],
         F::NoJumps => &[F::OtherTipFunctions, F::NoZones],
         F::NoZones => &[F::OtherTipFunctions],
-        F::CriticalLoad | F::NoToughness | F::Paris => &[F::Growth],
+        F::CriticalLoad | F::NoToughness | F::GrowthLaw | F::NoClosure => &[F::Growth],
+        F::ToughnessRate | F::OpeningRate => &[F::Growth, F::GrowthLaw],
         _ => &[],
     }
 }
@@ -132,11 +136,23 @@ fn settings(features: &BTreeMap<Feature, f64>, part: bool) -> String {
     if has(F::Multilevel) {
         rest += "[solver]\nkind = \"multilevel\"\n";
     }
-    if [F::Growth, F::CriticalLoad, F::NoToughness, F::Paris].into_iter().any(has) {
+    if features
+        .keys()
+        .any(|feature| *feature == F::Growth || implied(*feature).contains(&F::Growth))
+    {
         let toughness = if has(F::NoToughness) { "" } else { "toughness = 10\n" };
         let critical = if has(F::CriticalLoad) { "load = \"critical\"\n" } else { "" };
-        let paris = if has(F::Paris) { "paris = { c = 1, m = 2 }\n" } else { "" };
-        rest += &format!("[growth]\nsteps = 1\nincrement = 0.1\n{toughness}{critical}{paris}");
+        let law = match (has(F::ToughnessRate), has(F::OpeningRate)) {
+            (false, false) if has(F::GrowthLaw) => "paris = { c = 1, m = 2 }\n",
+            (false, false) => "",
+            (true, false) => "forman = { c = 1, m = 2 }\n",
+            (false, true) => "rate = \"opening*dk\"\n",
+            (true, true) => "nasgro = { c = 1, m = 2 }\n",
+        };
+        let is_known = has(F::OpeningRate) && !has(F::NoClosure);
+        let closure = if is_known { "closure = { alpha = 2, stress = 0.3 }\n" } else { "" };
+        rest +=
+            &format!("[growth]\nsteps = 1\nincrement = 0.1\n{toughness}{critical}{law}{closure}");
     }
     rest
 }
@@ -208,7 +224,8 @@ fn tolerance(feature: Feature) -> f64 {
         F::Forces | F::Multilevel => 1e-6,
         // faces of tips without series overlap by what their cells leave
         F::Contact => 1e-4,
-        F::Growth | F::CriticalLoad | F::NoToughness | F::Paris | F::ExactSolution => 1e-12,
+        F::Growth | F::CriticalLoad | F::NoToughness | F::ExactSolution => 1e-12,
+        F::GrowthLaw | F::ToughnessRate | F::OpeningRate | F::NoClosure => 1e-12,
         // other functions of the space: where the material varies, tips have no series
         _ => 5e-3,
     }

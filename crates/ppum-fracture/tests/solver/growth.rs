@@ -561,23 +561,25 @@ fn unsettled_arcs() {
     assert!(unsettled_steps(2) > 0);
 }
 
-/// The slower of two cracks has grown what the law says of its strength in the same cycles; it may
-/// lag by half an increment.
+/// The slower of two cracks has grown what the law says of its strength in the same cycles, by the
+/// means of its share at the ends of increments; it may lag by half an increment.
 #[test]
 fn slow_tips() {
     let more = "[[crack]]\npoints = [[1, 0.5], [0.8, 0.5]]";
     let growth = "increment = 0.05, steps = 4, paris = { c = 1, m = 2 }";
     let steps = grown(&pulled("[[-1, -0.3], [-0.6, -0.3]]", more, growth));
-    let mut wanted = 0.0;
-    for step in &steps[..4] {
+    let share = |step: &Step| {
         let (slow, fast) = (row(step, 0, End::Last), row(step, 1, End::Last));
         assert!(slow.k_eq < fast.k_eq);
-        wanted += 0.05 * (slow.k_eq / fast.k_eq).powi(2);
-    }
+        (slow.k_eq / fast.k_eq).powi(2)
+    };
+    let shares: Vec<_> = steps.iter().map(share).collect();
+    let wanted: f64 = shares.windows(2).map(|ends| 0.025 * (ends[0] + ends[1])).sum();
     let last = row(&steps[4], 0, End::Last);
     let due = row(&steps[3], 0, End::Last).due;
     println!("{wanted} {} {due}", last.extension);
-    assert!((last.extension + due - wanted).abs() < 1e-12 && due < 0.5 * 0.05);
+    // the last share is that of the last two steps, continued
+    assert!((last.extension + due - wanted).abs() < 2e-3 * wanted && due < 0.5 * 0.05);
 }
 
 /// The end that comes out of a crack that is fractured by cyclic loads.
@@ -598,12 +600,14 @@ fn series_go_on_from_their_steps() {
     let edge = "[[-1, 0.1], [-0.2, 0.15]]";
     let beside = "[[crack]]\npoints = [[0.4, 0.1], [0.7, -0.1]]";
     let held = r#"steps = 2, criterion = "hoop", increment = 0.1"#;
+    let cycled = "steps = 3, increment = 0.05, paris = { c = 1e-3, m = 3 }, cycles = [[9, 1, 0], [1, 1.5, 0.2]], \
+                  wheeler = { yield = 20, exponent = 1 }";
     let bent = r#"steps = 2, criterion = "local-symmetry", increment = 0.05"#;
-    for (more, rule, number) in [(beside, held, 1), ("", bent, 0)] {
+    for (more, rule, number) in [(beside, held, 1), ("", bent, 0), (beside, cycled, 2)] {
         let text = pulled_in(2, edge, more, rule);
         let (problem, whole) = (parsed(&text), grown(&text));
         let mut rest = Vec::new();
-        let last = ResumePoint { number, step: &whole[number] };
+        let last = ResumePoint { number, step: &whole[number], earlier: &whole[..number] };
         grow(&checked(&problem), Some(last), None, unwatched(), |mut step| {
             rest.append(&mut step.steps);
             Ok::<_, ()>(())

@@ -13,6 +13,7 @@ mod estimator;
 mod examples;
 mod exchange;
 mod faces;
+mod fatigue;
 mod features;
 mod forces;
 mod foreign;

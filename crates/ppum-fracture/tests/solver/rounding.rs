@@ -8,7 +8,7 @@ use ppum::dataset::Step;
 use ppum::progress::unwatched;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_fracture::growth::series;
-use ppum_problem::{BaseCells, GrowthRule, Paris, ProblemData};
+use ppum_problem::{BaseCells, GrowthLaw, GrowthRule, ProblemData};
 use ppum_testkit::random::Random;
 
 type Lines = Vec<Vec<Vec2>>;
@@ -135,7 +135,7 @@ fn cracks_that_have_grown_together() {
 #[ignore = "slow: five steps"]
 fn cycles_of_a_straight_crack() {
     let mut rule = GrowthRule::new(4);
-    (rule.increment, rule.paris) = (Some(0.05), Some(Paris::new(1e-3, 3.0)));
+    (rule.increment, rule.law) = (Some(0.05), Some(GrowthLaw::paris(1e-3, 3.0)));
     let lines = vec![vec![vec2(-0.3, 0.0), vec2(0.3, 0.0)]];
     let steps =
         series(&checked(&plate(&lines, AS_IT_IS, false).with_growth(rule)), None, unwatched());

@@ -7,8 +7,8 @@
 use ppum::vec2::Vec2;
 
 use crate::data::{
-    Adaptivity, Enrichment, GrowthRule, Keyword as _, LoadControl, LocalEnrichment, ProblemData,
-    SolverKind, StepsKept, Symmetry,
+    Adaptivity, Enrichment, GrowthLaw, GrowthRule, Keyword as _, LoadControl, LocalEnrichment,
+    ProblemData, SolverKind, StepsKept, Symmetry,
 };
 use crate::file::{Key, KeyError};
 
@@ -103,8 +103,15 @@ features! {
     CriticalLoad: "growth.load", "leave `load` out" => |p| grows(p, |rule| rule.load == LoadControl::Critical);
     /// No toughness is known.
     NoToughness: "growth.toughness", "add a `toughness`" => |p| grows(p, |rule| rule.toughness.is_none());
-    /// They grow by cycles of a load.
-    Paris: "growth.paris", "leave `paris` out" => |p| grows(p, |rule| rule.paris.is_some());
+    /// They grow by a law.
+    GrowthLaw: "growth.rate", "leave the law out" => |p| has_law(p, |_| true);
+    /// The law has no rate without a toughness.
+    ToughnessRate: "growth.rate", "take another law" => |p| has_law(p, |law| law.uses("toughness"));
+    /// The law has no rate without closure.
+    OpeningRate: "growth.rate", "take another law" => |p| has_law(p, |law| law.uses("opening"));
+    /// No closure is known.
+    NoClosure: "growth.closure", "add `closure = { alpha = 2, stress = 0.3 }`" =>
+        |p| grows(p, |rule| rule.law.as_ref().is_none_or(|law| law.closure.is_none()));
 }
 
 excluded! {
@@ -113,7 +120,9 @@ excluded! {
     // cells as small as there may be do not stand for functions of cracks
     Accuracy, NoJumps => "no accuracy can be had with `enrichment = \"{}\"`, which leaves out how fields jump across cracks";
     CriticalLoad, NoToughness => "`load = \"critical\"` needs a `toughness`, which the load is chosen to reach";
-    CriticalLoad, Paris => "`load = \"critical\"` is for one load that grows, `paris` for many cycles of the same";
+    CriticalLoad, GrowthLaw => "`load = \"critical\"` is for one load that grows, a law of growth for many cycles of the same";
+    ToughnessRate, NoToughness => "the law of growth needs a `toughness`, which its rate depends on";
+    OpeningRate, NoClosure => "the law of growth needs a `closure`, which its rate depends on";
     CriticalLoad, GivenStrains => "`load = \"critical\"` multiplies the loads by a factor, but not temperatures and given strains";
     SolvedTemperature, Contact => "a temperature that is solved for jumps across cracks whose faces touch";
     ExactSolution, SolvedTemperature => "an exact solution cannot be given beside a temperature that is solved for";
@@ -137,6 +146,10 @@ excluded! {
 
 fn grows(problem: &ProblemData, is: fn(&GrowthRule) -> bool) -> bool {
     problem.growth.as_ref().is_some_and(is)
+}
+
+fn has_law(problem: &ProblemData, is: fn(&GrowthLaw) -> bool) -> bool {
+    problem.growth.as_ref().and_then(|rule| rule.law.as_ref()).is_some_and(is)
 }
 
 fn adapts(problem: &ProblemData, is: fn(&Adaptivity) -> bool) -> bool {
@@ -180,6 +193,10 @@ impl Feature {
         let (path, on_border) = (self.row().key, problem.border_cracks().next());
         match path.split_once('.') {
             None if ["force", "enrichment"].contains(&path) => Key::new(path).index(0),
+            Some(("growth", "rate")) => {
+                let law = problem.growth.as_ref().and_then(|rule| rule.law.as_ref());
+                Key::new("growth").name(law.map_or("rate", GrowthLaw::key))
+            }
             Some(("crack", name)) => {
                 let contact = problem.body.contacts().next().map_or(0, |(crack, _)| crack);
                 let border = on_border.map_or(0, |(crack, _)| crack);

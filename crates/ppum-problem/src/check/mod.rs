@@ -19,8 +19,8 @@ use ppum::text::trimmed;
 use ppum::vec2::Rect;
 
 use crate::data::{
-    BaseCells, Diagnostic, Enrichment, EnrichmentRegion, MAX_LEVEL, PolynomialOrder, ProblemData,
-    ProblemError, ProblemLocation, RefinementRegion, scopes,
+    BaseCells, Diagnostic, Enrichment, EnrichmentRegion, LoadBlock, MAX_LEVEL, PolynomialOrder,
+    ProblemData, ProblemError, ProblemLocation, RefinementRegion, scopes,
 };
 use crate::file::{Key, KeyError};
 use crate::geometry::Jumps;
@@ -65,6 +65,7 @@ pub(super) fn errors(problem: &ProblemData) -> Vec<KeyError> {
     found.extend(numbers(problem).into_iter().filter_map(|(key, value)| key.out_of_range(value)));
     found.extend(check_cells(&problem.discretization.cells));
     found.extend(check_increment(problem));
+    found.extend(check_blocks(problem));
     found.extend(check_tables(problem));
     found.extend(check_quantities(problem));
     let bounds = &problem.domain().bounds;
@@ -91,7 +92,7 @@ pub(super) fn errors(problem: &ProblemData) -> Vec<KeyError> {
 /// The numbers that are given, with their keys, whose rows say in which range they must be.
 fn numbers(problem: &ProblemData) -> Vec<(Key, f64)> {
     let (set, rule) = (&problem.discretization, problem.growth.as_ref());
-    let (steps, paris) = (problem.adaptivity.as_ref(), rule.and_then(|rule| rule.paris));
+    let (steps, law) = (problem.adaptivity.as_ref(), rule.and_then(|rule| rule.law.as_ref()));
     let level = if let BaseCells::Level(level) = set.cells { Some(level.into()) } else { None };
     let toughness = rule.and_then(|rule| rule.toughness.as_ref());
     let single = [
@@ -109,13 +110,16 @@ fn numbers(problem: &ProblemData) -> Vec<(Key, f64)> {
         ("growth.steps", rule.map(|rule| rule.steps as f64)),
         ("growth.increment", rule.and_then(|rule| rule.increment)),
         ("growth.toughness", toughness.and_then(Expression::constant)),
-        ("growth.paris.c", paris.map(|law| law.c)),
-        ("growth.paris.m", paris.map(|law| law.m)),
-        ("growth.paris.threshold", paris.map(|law| law.threshold)),
-        ("growth.paris.ratio", paris.map(|law| law.ratio)),
+        ("growth.closure.alpha", law.and_then(|law| Some(law.closure?.alpha))),
+        ("growth.closure.stress", law.and_then(|law| Some(law.closure?.stress))),
+        ("growth.wheeler.yield", law.and_then(|law| Some(law.wheeler?.yield_stress))),
+        ("growth.wheeler.exponent", law.and_then(|law| Some(law.wheeler?.exponent))),
+        ("growth.wheeler.constraint", law.and_then(|law| Some(law.wheeler?.constraint))),
     ];
     let given = single.into_iter().filter_map(|(path, value)| Some((Key::new(path), value?)));
     let mut all: Vec<_> = given.collect();
+    let named = law.into_iter().flat_map(|law| law.parameters());
+    all.extend(named.map(|(law, name, value)| (Key::new("growth").name(law).name(name), value)));
     for (index, new) in problem.enrichments.iter().enumerate() {
         let key = Key::new("enrichment").index(index);
         let radius =
@@ -145,6 +149,32 @@ fn check_increment(problem: &ProblemData) -> Option<KeyError> {
         trimmed(least)
     );
     Some(Key::new("growth.increment").error(message))
+}
+
+/// Most blocks of loads.
+const MOST_BLOCKS: usize = 10_000;
+
+/// Blocks of loads have cycles, and one at least opens the cracks.
+fn check_blocks(problem: &ProblemData) -> Option<KeyError> {
+    let blocks = &problem.growth.as_ref()?.law.as_ref()?.blocks;
+    let is_wrong = |block: &LoadBlock| {
+        let is_ratio = block.max <= 0.0 || block.min / block.max >= -1e3;
+        !(block.cycles > 0.0 && block.max.is_finite() && block.min < block.max && is_ratio)
+    };
+    let key = Key::new("growth.cycles");
+    if let Some(wrong) = blocks.iter().position(is_wrong) {
+        let message = "a block is `[n, max, min]` with n > 0 cycles and `max` above `min`, which is at least −1000 `max`";
+        return Some(key.index(wrong).error(message));
+    }
+    if blocks.len() > MOST_BLOCKS {
+        return Some(
+            key.error(format!(
+                "there are more than {MOST_BLOCKS} blocks; write fewer, longer ones"
+            )),
+        );
+    }
+    let opens = blocks.iter().any(|block| block.max > 0.0);
+    (!opens).then(|| key.error("no block opens the cracks; give one with `max` above 0"))
 }
 
 /// Functions of tips alone let no crack jump that meets another one, or that comes back to itself.

@@ -2,7 +2,7 @@
 
 use ppum::expression::Expression;
 
-use super::word_table;
+use super::{GrowthLaw, word_table};
 
 /// A quasi-static series: solve, let the tips go on, again.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,8 +18,8 @@ pub struct GrowthRule {
     pub toughness: Option<Expression>,
     /// The control of the load.
     pub load: LoadControl,
-    /// Growth under cyclic loads.
-    pub paris: Option<Paris>,
+    /// How fast tips grow; none where growth has no time.
+    pub law: Option<GrowthLaw>,
 }
 
 /// The direction in which a tip grows, and the factor that is compared with the toughness.
@@ -49,20 +49,6 @@ pub enum LoadControl {
 
 word_table!(LoadControl: Constant "constant", Critical "critical");
 
-/// Growth per cycle da/dN = c ΔK^m, ΔK = (1 − ratio) × strength, above a threshold (Paris &
-/// Erdogan 1963).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Paris {
-    /// c > 0, in the units of the problem: length per cycle for ΔK = 1.
-    pub c: f64,
-    /// m ≥ 0.
-    pub m: f64,
-    /// ΔK up to which nothing grows.
-    pub threshold: f64,
-    /// Smallest load of a cycle in parts of the largest, from −1000 to below 1.
-    pub ratio: f64,
-}
-
 impl GrowthRule {
     /// So many increments by the largest hoop stress under constant load.
     #[must_use]
@@ -73,32 +59,7 @@ impl GrowthRule {
             steps,
             toughness: None,
             load: LoadControl::default(),
-            paris: None,
+            law: None,
         }
-    }
-}
-
-impl Paris {
-    /// The law without threshold, for loads that fall to zero in each cycle.
-    #[must_use]
-    pub fn new(c: f64, m: f64) -> Self {
-        Self { c, m, threshold: 0.0, ratio: 0.0 }
-    }
-
-    /// ln da/dN of a tip of this strength that grows: powers may be out of all range.
-    #[must_use]
-    pub fn ln_rate(&self, strength: f64) -> f64 {
-        self.c.ln() + self.m * self.range(strength).ln()
-    }
-
-    /// True if ΔK of a tip of this strength is above the threshold.
-    #[must_use]
-    pub fn grows(&self, strength: f64) -> bool {
-        self.range(strength) > self.threshold
-    }
-
-    /// ΔK of a tip of this strength.
-    fn range(&self, strength: f64) -> f64 {
-        (1.0 - self.ratio) * strength
     }
 }

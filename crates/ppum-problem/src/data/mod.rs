@@ -9,6 +9,7 @@ mod error;
 pub(crate) mod expression;
 mod force;
 mod growth;
+mod growth_law;
 mod model;
 pub mod quantities;
 mod refinement;
@@ -39,7 +40,10 @@ pub use enrichment::{EnrichmentRegion, LocalEnrichment, Site};
 pub use error::{Diagnostic, ProblemError, ProblemLocation};
 pub use force::ForcePlace;
 pub(crate) use force::is_outside;
-pub use growth::{Criterion, GrowthRule, LoadControl, Paris};
+pub use growth::{Criterion, GrowthRule, LoadControl};
+pub use growth_law::{
+    Closure, GrowthLaw, LoadBlock, NAMED_LAWS, NamedLaw, RATE_INPUTS, TipState, Wheeler, WrongRate,
+};
 pub use model::{Problem, ProblemData, SolvedTemperature};
 pub use refinement::{DEEPEST, LocalRefinement, RefinementRegion, nine};
 pub use restraint::{restraint_center, restraint_words};

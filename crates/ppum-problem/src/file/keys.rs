@@ -17,8 +17,8 @@ use Kind::{
 use super::key_kinds::{NOT_NEGATIVE, POSITIVE, key, within};
 use crate::data::{
     AdaptKind, Adaptivity, BaseCells, Criterion, Discretization, DomainEdge, Enrichment,
-    EquationKind, Keyword as _, LoadControl, MAX_LEVEL, MOST_TERMS, OUTLINE as WHOLE_OUTLINE,
-    Paris, Site, SolverKind, SolverSettings, StepsKept, words,
+    EquationKind, Keyword as _, LoadControl, MAX_LEVEL, MOST_TERMS, OUTLINE as WHOLE_OUTLINE, Site,
+    SolverKind, SolverSettings, StepsKept, words,
 };
 
 const DEGREE: NumberRange = within(0.0, MAX_DEGREE as f64);
@@ -28,6 +28,10 @@ const AXES: Kind = Array(2, "half axes", "[a, b]", &Constant);
 const SEGMENT: Kind = Array(2, "points", "[[x0, y0], [x1, y1]]", &POINT);
 const POINTS: Kind = List("points [[x, y], …]", &POINT);
 const NUMBERS: Kind = List("numbers", &Number);
+const BLOCK: Kind = Either(&[List("three numbers [n, max, min]", &Constant)]);
+
+const EXPONENT: NumberRange = within(0.0, 100.0);
+const USUAL: &str = "; 2 to 4 is usual";
 
 /// The end of messages about numbers with a default.
 const IS_DEFAULT: &str = "; {} is the default";
@@ -449,20 +453,76 @@ tables! {
             "to its toughness, reaches the toughness. Tips within 1 % of it advance, all others stay. Fields, stress "
             "intensity factors, reactions and energies of the step are those under this load; the factor is the "
             "step's `load`.";
-        paris: Table(&PARIS) =>
-            "Growth under cyclic loads: the strongest tip grows by `increment`, others by what they grow in the same "
-            "number of cycles, once that is half an increment. If a strength reaches the toughness, the series ends.";
+        rate: Text("formula"), example("\"1e-10*dk^3\"") =>
+            "Growth by a law: da/dN of a tip per cycle, or da/dt per unit of time. It may use `dk`, `kmax`, `k1`, `k2`, `t_stress`, "
+            "`ratio`, `extension`, `n`, `x`, `y`, `toughness`, `opening` and tables. The fastest tip grows by "
+            "`increment`, others by what they grow in the same cycles, once that is half an increment. A tip whose rate "
+            "is 0 stays. If K reaches the toughness, the series ends.";
+        paris: Table(&PARIS) => "Instead of `rate`: da/dN = c ΔK^m (Paris & Erdogan 1963).";
+        walker: Table(&WALKER) => "Instead: da/dN = c (ΔK (1 − ratio)^(γ − 1))^m, and c K_max^m where the ratio is negative (Walker 1970).";
+        forman: Table(&FORMAN) => "Instead: da/dN = c ΔK^m / ((1 − ratio) K_c − ΔK) with the `toughness` K_c (Forman et al. 1967).";
+        nasgro: Table(&NASGRO) =>
+            "Instead: da/dN = c ((1 − f)/(1 − ratio) ΔK)^m (1 − ΔK_th/ΔK)^p / (1 − K_max/K_c)^q with the `toughness` "
+            "K_c and the opening ratio f of `closure` (Forman & Mettu 1992).";
+        closure: Table(&CLOSURE) => "Newman's ratio of the load that opens a crack to the largest (1984), `opening` in formulas.";
+        ratio: Constant, range(within(-1e3, 1.0).with_open([false, true])), default(|| "0".into()),
+            remedy("; it is the smallest load of a cycle in parts of the largest") =>
+            "The ratio of the smallest to the largest load of a cycle.";
+        cycles: List("blocks [n, max, min]", &BLOCK), example("[[1000, 1, 0], [1, 2, 0]]") =>
+            "Instead of `ratio`: blocks `[n, max, min]` of n cycles (or units of time) between two multiples of the loads; "
+            "after the last the first follows again.";
+        wheeler: Table(&WHEELER) => "Slower growth behind overloads (Wheeler 1972).";
     }
 
     /// The law of Paris.
     static PARIS = "`paris`", "{ c = 1e-10, m = 3 }" {
         c: Constant, required("1e-10"), range(POSITIVE) =>
             "The factor c in da/dN = c ΔK^m, with ΔK = (1 − ratio) × strength (Paris & Erdogan 1963).";
-        m: Constant, required("3"), range(within(0.0, 100.0)), remedy("; 2 to 4 is usual") => "The exponent m.";
-        threshold: Constant, range(NOT_NEGATIVE), default(|| toml(Paris::new(1.0, 1.0).threshold)) => "Tips with ΔK up to this stay.";
-        ratio: Constant, range(within(-1e3, 1.0).with_open([false, true])), default(|| toml(Paris::new(1.0, 1.0).ratio)),
+        m: Constant, required("3"), range(EXPONENT), remedy(USUAL) => "The exponent m.";
+        threshold: Constant, range(NOT_NEGATIVE), default(|| "0".into()) => "Tips with ΔK up to this stay.";
+        ratio: Constant, range(within(-1e3, 1.0).with_open([false, true])), default(|| "0".into()),
             remedy("; it is the smallest load of a cycle in parts of the largest") =>
-            "The ratio of the smallest to the largest load of a cycle.";
+            "The key `ratio` of `[growth]`, as older files have it.";
+    }
+
+    /// The law of Walker.
+    static WALKER = "`walker`", "{ c = 1e-10, m = 3, gamma = 0.5 }" {
+        c: Constant, required("1e-10"), range(POSITIVE) => "The factor c.";
+        m: Constant, required("3"), range(EXPONENT), remedy(USUAL) => "The exponent m.";
+        gamma: Constant, range(within(0.0, 1.0)), default(|| toml(0.5)) => "The exponent γ: 1 where the ratio has no effect.";
+        threshold: Constant, range(NOT_NEGATIVE), default(|| "0".into()) => "Tips with ΔK up to this stay.";
+    }
+
+    /// The law of Forman.
+    static FORMAN = "`forman`", "{ c = 1e-7, m = 3 }" {
+        c: Constant, required("1e-7"), range(POSITIVE) => "The factor c.";
+        m: Constant, required("3"), range(EXPONENT), remedy(USUAL) => "The exponent m.";
+        threshold: Constant, range(NOT_NEGATIVE), default(|| "0".into()) => "Tips with ΔK up to this stay.";
+    }
+
+    /// The law of NASGRO.
+    static NASGRO = "`nasgro`", "{ c = 1e-10, m = 3, threshold = 2 }" {
+        c: Constant, required("1e-10"), range(POSITIVE) => "The factor c.";
+        m: Constant, required("3"), range(EXPONENT), remedy(USUAL) => "The exponent m.";
+        p: Constant, range(NOT_NEGATIVE), default(|| toml(0.5)) => "The exponent p, of the threshold.";
+        q: Constant, range(NOT_NEGATIVE), default(|| toml(0.5)) => "The exponent q, of the toughness.";
+        threshold: Constant, range(NOT_NEGATIVE), default(|| "0".into()) => "ΔK_th: tips with ΔK up to this stay.";
+    }
+
+    /// Closure of cracks by plastic wakes.
+    static CLOSURE = "`closure`", "{ alpha = 2, stress = 0.3 }" {
+        alpha: Constant, required("2"), range(within(1.0, 3.0)) => "1 in plane stress to 3 in plane strain.";
+        stress: Constant, required("0.3"), range(within(0.0, 1.0).with_open([false, true])) =>
+            "The largest stress of a cycle in parts of the flow stress.";
+    }
+
+    /// Retardation behind overloads.
+    static WHEELER = "`wheeler`", "{ yield = 350, exponent = 1.3 }" {
+        yield: Constant, required("350"), range(POSITIVE) => "The yield stress σ_Y.";
+        exponent: Constant, required("1.3"), range(NOT_NEGATIVE) =>
+            "Rates are multiplied by (r/(a_o + r_o − a))^exponent while a plastic zone r = (K_max/σ_Y)²/(π constraint) at a "
+            "stays inside r_o, that of a cycle before at a_o.";
+        constraint: Constant, range(within(1.0, 6.0)), default(|| "1".into()) => "1 in plane stress, 3 in plane strain.";
     }
 
     static SOLVER = "[solver]", "" {

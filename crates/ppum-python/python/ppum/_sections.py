@@ -103,7 +103,15 @@ class GrowthOptions(TypedDict, total=False):
     increment: Annotated[float, _key("length by which the fastest tip grows in a step")]
     toughness: Annotated[Value, _key("K_c: a tip of less strength stays")]
     load: Annotated[Literal["constant", "critical"], _key("whether loads are those at which a tip reaches K_c")]
-    paris: Annotated[Table, _key("growth by load cycles: a dictionary of c, m, threshold, ratio")]
+    rate: Annotated[str, _key("growth per cycle or unit of time: a formula of dk, kmax, ratio, ...")]
+    paris: Annotated[Table, _key("Paris' law: a dictionary of c, m, threshold")]
+    walker: Annotated[Table, _key("Walker's law: a dictionary of c, m, gamma, threshold")]
+    forman: Annotated[Table, _key("Forman's law: a dictionary of c, m, threshold")]
+    nasgro: Annotated[Table, _key("the law of NASGRO: a dictionary of c, m, p, q, threshold")]
+    closure: Annotated[Table, _key("Newman's closure: a dictionary of alpha, stress")]
+    ratio: Annotated[float, _key("the smallest load of a cycle in parts of the largest")]
+    cycles: Annotated[Sequence[tuple[float, float, float]], _key("blocks of loads: number of cycles, largest, smallest load")]
+    wheeler: Annotated[Table, _key("slower growth behind overloads: a dictionary of yield, exponent, constraint")]
 
 
 class AdaptivityOptions(TypedDict, total=False):

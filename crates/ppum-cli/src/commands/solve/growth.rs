@@ -104,8 +104,11 @@ pub(super) fn run(
         "a series grows in its file, step by step, and cannot go to standard output; give a file with -o"
     );
     let there = (args.resume && target.exists()).then(|| there(problem, target)).transpose()?;
-    let last = there.as_ref().map(|(number, step)| ResumePoint { number: *number, step });
-    if let Some(stop) = last.and_then(|ResumePoint { number, step }| ends(rule, number, step)) {
+    let last = there.as_ref().and_then(|(number, steps)| {
+        let (step, earlier) = steps.split_last()?;
+        Some(ResumePoint { number: *number, step, earlier })
+    });
+    if let Some(stop) = last.and_then(|last| ends(rule, last.number, last.step)) {
         writeln!(out, "{}: nothing to do, {stop}", target.display())?;
         return Ok(());
     }
@@ -133,8 +136,9 @@ pub(super) fn run(
     report(args, target, state, out)
 }
 
-/// The last step of the series in a file, and its number.
-fn there(problem: &Problem, target: &Path) -> anyhow::Result<(usize, Step)> {
+/// The number of the last step of the series in a file, and the steps that the next one follows
+/// from, all but the last without their fields.
+fn there(problem: &Problem, target: &Path) -> anyhow::Result<(usize, Vec<Step>)> {
     let series = series(target)?;
     let like = Problem::of_dataset(series.head()).ok().flatten();
     ensure!(
@@ -148,7 +152,9 @@ fn there(problem: &Problem, target: &Path) -> anyhow::Result<(usize, Step)> {
     if step.growth.is_none() {
         bail!("{}: its last step does not say how it goes on", target.display());
     }
-    Ok((number, step))
+    let has_law = problem.growth.as_ref().is_some_and(|rule| rule.law.is_some());
+    let earlier = (0..number).filter(|_| has_law).map(|k| named(target, series.results(k)));
+    Ok((number, earlier.chain([Ok(step)]).collect::<Result<_, _>>()?))
 }
 
 /// Why a series has no further steps.

@@ -62,7 +62,7 @@ pub enum PlotError {
     NoGrowth(String),
     /// Growth without cycles.
     #[error(
-        "{0}: load cycles are known of growth by Paris' law (`paris` of [growth] in the problem file), and the steps \
+        "{0}: load cycles are known of growth by a law (such as `paris` in [growth] of the problem file), and the steps \
         of this dataset hold none"
     )]
     NoCycles(String),
