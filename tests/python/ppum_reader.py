@@ -135,6 +135,30 @@ EIGENSTRAIN = dict(list(ELASTICITY.items())[:7]) | {
     "hydrostatic": "(sxx + syy + szz)/3",
     "energy": "(sxx*elastic_xx + syy*elastic_yy + 2*sxy*elastic_xy + young*eigenstrain_zz^2)/2",
 }
+# Those of anisotropic bodies: constants of the third direction are zero in plane stress.
+STIFFNESS = ("c11", "c12", "c16", "c22", "c26", "c66", "c13", "c23", "c36", "c33")
+ANISOTROPY = dict(list(ELASTICITY.items())[:7]) | {
+    "elastic_xx": "exx - eigenstrain_xx",
+    "elastic_yy": "eyy - eigenstrain_yy",
+    "elastic_xy": "exy - eigenstrain_xy",
+    "e11": "elastic_xx*cos(axis)^2 + elastic_yy*sin(axis)^2 + elastic_xy*sin(2*axis)",
+    "e22": "elastic_xx*sin(axis)^2 + elastic_yy*cos(axis)^2 - elastic_xy*sin(2*axis)",
+    "e12": "(elastic_yy - elastic_xx)*sin(2*axis)/2 + elastic_xy*cos(2*axis)",
+    "s11": "c11*e11 + c12*e22 + 2*c16*e12 - c13*eigenstrain_zz",
+    "s22": "c12*e11 + c22*e22 + 2*c26*e12 - c23*eigenstrain_zz",
+    "s12": "c16*e11 + c26*e22 + 2*c66*e12 - c36*eigenstrain_zz",
+    "sxx": "s11*cos(axis)^2 + s22*sin(axis)^2 - s12*sin(2*axis)",
+    "syy": "s11*sin(axis)^2 + s22*cos(axis)^2 + s12*sin(2*axis)",
+    "sxy": "(s11 - s22)*sin(2*axis)/2 + s12*cos(2*axis)",
+    "szz": "c13*e11 + c23*e22 + 2*c36*e12 - c33*eigenstrain_zz",
+    "von_mises": "hypot(sqrt(3)*hypot((s11 - s22)/2, s12), (s11 + s22)/2 - szz)",
+    "s1": "(s11 + s22)/2 + hypot((s11 - s22)/2, s12)",
+    "s2": "(s11 + s22)/2 - hypot((s11 - s22)/2, s12)",
+    "tresca": "(s1 - s2)/2 + max((s1 - s2)/2, abs((s11 + s22)/2 - szz))",
+    "direction": "if(sxy == 0, if(sxx >= syy, 0, pi/2), atan2(2*sxy, sxx - syy)/2)",
+    "hydrostatic": "(s11 + s22 + szz)/3",
+    "energy": "(s11*e11 + s22*e22 + 2*s12*e12 - szz*eigenstrain_zz)/2",
+}
 POISSON = {
     "magnitude": "abs(u)",
     "gradient": "sqrt(du_dx^2 + du_dy^2)",
@@ -312,7 +336,7 @@ class Field:
         """Formulas of quantities, in the order in which they are defined."""
         strained = ["ux", "uy"] + ["temperature"] * ("expansion" in self.constants)
         library = {"elasticity": (["ux", "uy"], ELASTICITY), "eigenstrain": (strained, EIGENSTRAIN),
-                   "poisson": (["u"], POISSON)}
+                   "anisotropic": (["ux", "uy"], ANISOTROPY), "poisson": (["u"], POISSON)}
         components, library = library.get(self.kind, ([], {}))
         library = library if components == self.components else {}
         named = file.get("quantities")
@@ -515,4 +539,7 @@ class Field:
             known["out_of_plane"] = poisson if strain else self.real(0)
             if self.kind == "eigenstrain" and not strain:
                 known["eigenstrain_zz"] = self.real(0)
+        if self.kind == "anisotropic":
+            zeros = [*STIFFNESS, *(f"eigenstrain_{d}" for d in ("xx", "yy", "xy", "zz"))]
+            known = dict.fromkeys(zeros, self.real(0)) | known
         return known

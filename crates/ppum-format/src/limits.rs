@@ -2,7 +2,7 @@
 
 /// Version of the format as (major, minor). A reader takes every minor version of its own major
 /// version; what it does not know is optional.
-pub const FORMAT_VERSION: (u32, u32) = (1, 8);
+pub const FORMAT_VERSION: (u32, u32) = (1, 9);
 
 /// Most values that the tables of a file may have together. In memory a value of a table takes 16
 /// numbers more, those of its spline, so a small file could ask for more than there is.

@@ -279,7 +279,7 @@ macro_rules! kinds {
 }
 
 kinds! {
-    EquationKind: Elasticity "elasticity", Eigenstrain "eigenstrain", Poisson "poisson", None "none";
+    EquationKind: Elasticity "elasticity", Eigenstrain "eigenstrain", Anisotropic "anisotropic", Poisson "poisson", None "none";
     HoleKind: Circle "circle", Polygon "polygon", Outside "outside",
         CurvedPolygon "curved-polygon", CurvedOutside "curved-outside";
     // readers of files before 1.2 know the first alone

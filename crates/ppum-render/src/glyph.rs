@@ -158,7 +158,7 @@ impl<'f> GlyphLattice<'f> {
     /// The field has no stresses; the watcher stops the call.
     pub fn principal(&self, watcher: &dyn Watcher) -> Result<Vec<Glyph<Principal>>, RasterError> {
         let field = self.field;
-        let named = |name| Quantity::from_name(name, field.equation, &field.data.components);
+        let named = |name| Quantity::parse(name, field);
         let quantities = [named("s1")?, named("s2")?, named("direction")?];
         let value = |[s1, s2, angle]: [f64; 3]| Principal { s1, s2, angle };
         self.glyphs(&quantities, watcher, value)

@@ -268,5 +268,6 @@ fn with_young(dataset: &mut Dataset, text: &str) {
         poisson: 0.3.into(),
         state: StressState::PlaneStrain,
         eigenstrain: None,
+        anisotropy: None,
     });
 }

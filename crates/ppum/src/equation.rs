@@ -1,5 +1,7 @@
 //! The equation behind a field and its material, the same everywhere or given by formulas.
 
+use crate::anisotropy::{Anisotropy, weakest_direction};
+use crate::dataset::TipIntensity;
 use crate::domain::Domain;
 use crate::expression::Expression;
 use crate::vec2::{Vec2, vec2};
@@ -22,7 +24,7 @@ pub enum Equation {
     None,
 }
 
-/// An isotropic linear elastic body in the plane; its constants may differ from place to place.
+/// A linear elastic body in the plane; its constants may differ from place to place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Elasticity {
     /// Young's modulus E > 0, a stress.
@@ -33,6 +35,9 @@ pub struct Elasticity {
     pub state: StressState,
     /// Strains ε⁰ that make no stress where the body takes them: σ = C(ε − ε⁰).
     pub eigenstrain: Option<Box<Eigenstrain>>,
+    /// The law of an anisotropic body, which takes the place of E and ν: these are those of an
+    /// isotropic body of its size then.
+    pub anisotropy: Option<Box<Anisotropy>>,
 }
 
 /// Strains that are given, by formulas and by a temperature of the field.
@@ -69,18 +74,34 @@ impl Elasticity {
         Material { young: self.young.value(p), poisson: self.poisson.value(p), state: self.state }
     }
 
-    /// The material, if it is the same everywhere, however given strains vary.
+    /// The material, if it is isotropic and the same everywhere, however given strains vary.
     #[must_use]
     pub fn uniform(&self) -> Option<Material> {
+        if self.anisotropy.is_some() {
+            return None;
+        }
         let (young, poisson) = (self.young.constant()?, self.poisson.constant()?);
         Some(Material { young, poisson, state: self.state })
+    }
+}
+
+impl Elasticity {
+    /// The energy that a tip at a place with a direction of growth releases by its factors, per
+    /// length of growth and thickness.
+    #[must_use]
+    pub fn energy_release(&self, factors: &TipIntensity, [tip, axis]: [Vec2; 2]) -> f64 {
+        match &self.anisotropy {
+            Some(law) => law.at_tip(tip, axis).energy_release([factors.k1, factors.k2]),
+            None => factors.energy_release(&self.at(tip)),
+        }
     }
 }
 
 impl From<Material> for Elasticity {
     fn from(material: Material) -> Self {
         let Material { young, poisson, state } = material;
-        Self { young: young.into(), poisson: poisson.into(), state, eigenstrain: None }
+        let (young, poisson) = (young.into(), poisson.into());
+        Self { young, poisson, state, eigenstrain: None, anisotropy: None }
     }
 }
 
@@ -125,17 +146,44 @@ impl Equation {
         }
     }
 
-    /// The expressions of the material constants with their names: `young` and `poisson`,
-    /// `conductivity`, or none; after them the given strains and the coefficient of expansion, if
+    /// The expressions of the material constants with their names: `young` and `poisson` or those
+    /// of an [`Anisotropy`], `conductivity`, or none; after them the given strains and the coefficient of expansion, if
     /// there are any.
     pub fn constants(&self) -> impl Iterator<Item = (&'static str, &Expression)> {
         let list = match self {
+            Self::Elasticity(Elasticity { anisotropy: Some(_), .. }) | Self::None => [None, None],
             Self::Elasticity(e) => [Some(("young", &e.young)), Some(("poisson", &e.poisson))],
             Self::Poisson { conductivity } => [Some(("conductivity", conductivity)), None],
-            Self::None => [None, None],
         };
         let expansion = self.expansion().map(|expansion| (EXPANSION, expansion));
-        list.into_iter().flatten().chain(self.eigenstrains()).chain(expansion)
+        let isotropic = list.into_iter().flatten();
+        isotropic.chain(self.stiffness()).chain(self.eigenstrains()).chain(expansion)
+    }
+
+    /// The law of an anisotropic body.
+    #[must_use]
+    pub fn anisotropy(&self) -> Option<&Anisotropy> {
+        self.elastic()?.anisotropy.as_deref()
+    }
+
+    /// The angle from the crack's direction in which the hoop stress beside a tip is largest, see
+    /// [`TipIntensity::growth_angle`].
+    #[must_use]
+    pub fn growth_angle(&self, factors: &TipIntensity, [tip, axis]: [Vec2; 2]) -> Option<f64> {
+        let isotropic = factors.growth_angle()?;
+        let law = self.anisotropy().map(|law| law.at_tip(tip, axis));
+        let k = [factors.k1.max(0.0), factors.k2];
+        Some(
+            law.map_or(isotropic, |law| {
+                weakest_direction(|theta| law.hoop_stress(k, theta), |_| 1.0)
+            }),
+        )
+    }
+
+    /// The constants of an anisotropic body with their names.
+    pub fn stiffness(&self) -> impl Iterator<Item = (&'static str, &Expression)> {
+        let body = self.elastic();
+        body.into_iter().flat_map(|e| e.anisotropy.iter().flat_map(|a| a.constants(e.state)))
     }
 
     /// The expressions of the given strains with their names.
@@ -216,6 +264,9 @@ impl Equation {
             (!(value > 0.0 && value.is_finite())).then(message)
         };
         match self {
+            Self::Elasticity(Elasticity { anisotropy: Some(law), state, .. }) => {
+                law.invalid(*state, p)
+            }
             Self::Elasticity(e) => positive("young", &e.young).or_else(|| {
                 let nu = e.poisson.value(p);
                 let (possible, rule) = match e.state {
@@ -239,13 +290,22 @@ impl Equation {
     /// True if the material is the same everywhere, however given strains vary.
     #[must_use]
     pub fn has_uniform_material(&self) -> bool {
-        self.elastic().map_or_else(|| self.is_uniform(), |elastic| elastic.uniform().is_some())
+        let (elastic, mut stiffness) = (self.elastic(), self.stiffness());
+        let is_isotropic = |elastic: &&Elasticity| elastic.anisotropy.is_none();
+        match elastic.filter(is_isotropic) {
+            Some(elastic) => elastic.uniform().is_some(),
+            None if elastic.is_some() => stiffness.all(|(_, e)| e.constant().is_some()),
+            None => self.is_uniform(),
+        }
     }
 
     /// The moduli at the points `anchor + offset` of some lanes.
     #[inline(always)]
     pub fn moduli<R: Real>(&self, anchor: Vec2, offset: [R; 2]) -> Moduli<R> {
         match self {
+            Self::Elasticity(Elasticity { anisotropy: Some(law), eigenstrain, .. }) => {
+                law.moduli(anchor, offset, eigenstrain.as_deref())
+            }
             Self::Elasticity(e) => {
                 let (young, poisson) =
                     (e.young.values(anchor, offset), e.poisson.values(anchor, offset));
@@ -281,19 +341,23 @@ impl Equation {
 /// has no such constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Moduli<R> {
-    /// E
+    /// E, of an anisotropic body that of the third direction.
     pub young: R,
     /// ν
     pub poisson: R,
-    /// λ of the plane law, see [`Material::lambda`].
+    /// λ of the plane law, see [`Material::lambda`]; c₁₂ of an anisotropic body.
     pub lambda: R,
-    /// μ
+    /// μ; c₆₆ of an anisotropic body.
     pub mu: R,
+    /// c₁₁ − c₁₂ − 2c₆₆, c₂₂ − c₁₂ − 2c₆₆, c₁₆ and c₂₆ of an anisotropic body in the world's axes:
+    /// zero of an isotropic one.
+    pub anisotropy: [R; 4],
     /// σ_zz / (σ_xx + σ_yy)
     pub out_of_plane: R,
     /// κ of Poisson's equation.
     pub conductivity: R,
-    /// ε⁰_xx, ε⁰_yy, ε⁰_xy and ε⁰_zz; the last is zero in plane stress, where it has no effect.
+    /// ε⁰_xx, ε⁰_yy, ε⁰_xy and ε⁰_zz; the last is zero in plane stress, where it has no effect. Of
+    /// an anisotropic body the first three are those under which the stresses of the plane vanish.
     pub eigenstrain: [R; 4],
     /// α of a body whose field has a temperature.
     pub expansion: R,
@@ -310,6 +374,7 @@ impl<R: Copy> Moduli<R> {
             poisson: value,
             lambda: value,
             mu: value,
+            anisotropy: [value; 4],
             out_of_plane: value,
             conductivity: value,
             eigenstrain: [value; 4],

@@ -132,11 +132,13 @@
 //! - Formulas are interpreted, functions of the plane in blocks of points on lanes; the Westergaard
 //!   functions, recognised by their text, have a kernel of their own.
 
+pub mod anisotropy;
 pub mod arc_spline;
 pub mod border;
 pub mod box_tree;
 pub mod check;
 mod compensated;
+pub mod complex;
 pub mod cover;
 pub mod crack;
 pub mod dataset;

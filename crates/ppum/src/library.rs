@@ -205,7 +205,34 @@ pub const EIGENSTRAIN: [Definition; 14] = [
     ("energy", "(sxx*elastic_xx + syy*elastic_yy + 2*sxy*elastic_xy + young*eigenstrain_zz^2)/2"),
 ];
 
-/// Number of quantities of [`ELASTICITY`] before those that [`EIGENSTRAIN`] takes the place of.
+/// The quantities of stresses in an anisotropic body, in place of those of [`ELASTICITY`]: of the
+/// elastic strains along its axes, with its constants `c11`, … and the angle `axis`. In plane stress
+/// the constants of the third direction are zero, and so is σ_zz.
+pub const ANISOTROPY: [Definition; 20] = [
+    ("elastic_xx", "exx - eigenstrain_xx"),
+    ("elastic_yy", "eyy - eigenstrain_yy"),
+    ("elastic_xy", "exy - eigenstrain_xy"),
+    ("e11", "elastic_xx*cos(axis)^2 + elastic_yy*sin(axis)^2 + elastic_xy*sin(2*axis)"),
+    ("e22", "elastic_xx*sin(axis)^2 + elastic_yy*cos(axis)^2 - elastic_xy*sin(2*axis)"),
+    ("e12", "(elastic_yy - elastic_xx)*sin(2*axis)/2 + elastic_xy*cos(2*axis)"),
+    ("s11", "c11*e11 + c12*e22 + 2*c16*e12 - c13*eigenstrain_zz"),
+    ("s22", "c12*e11 + c22*e22 + 2*c26*e12 - c23*eigenstrain_zz"),
+    ("s12", "c16*e11 + c26*e22 + 2*c66*e12 - c36*eigenstrain_zz"),
+    ("sxx", "s11*cos(axis)^2 + s22*sin(axis)^2 - s12*sin(2*axis)"),
+    ("syy", "s11*sin(axis)^2 + s22*cos(axis)^2 + s12*sin(2*axis)"),
+    ("sxy", "(s11 - s22)*sin(2*axis)/2 + s12*cos(2*axis)"),
+    ("szz", "c13*e11 + c23*e22 + 2*c36*e12 - c33*eigenstrain_zz"),
+    ("von_mises", "hypot(sqrt(3)*hypot((s11 - s22)/2, s12), (s11 + s22)/2 - szz)"),
+    ("s1", "(s11 + s22)/2 + hypot((s11 - s22)/2, s12)"),
+    ("s2", "(s11 + s22)/2 - hypot((s11 - s22)/2, s12)"),
+    ("tresca", "(s1 - s2)/2 + max((s1 - s2)/2, abs((s11 + s22)/2 - szz))"),
+    ("direction", "if(sxy == 0, if(sxx >= syy, 0, pi/2), atan2(2*sxy, sxx - syy)/2)"),
+    ("hydrostatic", "(s11 + s22 + szz)/3"),
+    ("energy", "(s11*e11 + s22*e22 + 2*s12*e12 - szz*eigenstrain_zz)/2"),
+];
+
+/// Number of quantities of [`ELASTICITY`] before those that [`EIGENSTRAIN`] and [`ANISOTROPY`] take
+/// the place of.
 pub const STRAINS: usize = 7;
 
 /// Quantities of a field with the one component u.

@@ -1,6 +1,9 @@
 //! The equation: its kind, and the constants of the material as numbers or formulas.
 
-use ppum::dataset::{Dataset, EIGENSTRAINS, EXPANSION, Eigenstrain, Elasticity, Equation};
+use ppum::anisotropy::{Anisotropy, STIFFNESS};
+use ppum::dataset::{
+    Dataset, EIGENSTRAINS, EXPANSION, Eigenstrain, Elasticity, Equation, StressState,
+};
 use ppum::expression::Expression;
 
 use crate::content::ObjectKind;
@@ -12,25 +15,30 @@ use crate::writer::{EncodeResult, GroupWriter};
 pub(super) const EQUATION: Member<Dataset> = Member::<Dataset>::group(
     "equation",
     (GroupShape::Single, || {
-        CONSTANTS.map(|name| MemberNames::new(name, ObjectKind::Attribute)).to_vec()
+        constants().map(|name| MemberNames::new(name, ObjectKind::Attribute)).collect()
     }),
     |dataset, group, name| put(&dataset.equation, &mut group.group(name)),
     |dataset, group, name, _| dataset.equation = take(&group.group(name)),
 );
 
 /// All attributes but the kind.
-const CONSTANTS: [&str; 9] = {
-    let [xx, yy, xy, zz] = EIGENSTRAINS;
-    ["conductivity", "young", "poisson", "state", xx, yy, xy, zz, EXPANSION]
-};
+fn constants() -> impl Iterator<Item = &'static str> {
+    let isotropic = ["conductivity", "young", "poisson", "state"].into_iter();
+    isotropic.chain(EIGENSTRAINS).chain([EXPANSION]).chain(STIFFNESS)
+}
 
-/// Those of an equation of a kind.
-fn constants(kind: EquationKind) -> &'static [&'static str] {
+/// True if an equation of a kind may have an attribute.
+fn has(kind: EquationKind, name: &str) -> bool {
+    let is_isotropic = matches!(name, "young" | "poisson");
+    let is_given = EIGENSTRAINS.contains(&name);
     match kind {
-        EquationKind::Elasticity => &CONSTANTS[1..4],
-        EquationKind::Eigenstrain => &CONSTANTS[1..],
-        EquationKind::Poisson => &CONSTANTS[..1],
-        EquationKind::None => &[],
+        EquationKind::Elasticity => is_isotropic || name == "state",
+        EquationKind::Eigenstrain => {
+            is_isotropic || is_given || name == "state" || name == EXPANSION
+        }
+        EquationKind::Anisotropic => is_given || name == "state" || STIFFNESS.contains(&name),
+        EquationKind::Poisson => name == "conductivity",
+        EquationKind::None => false,
     }
 }
 
@@ -45,7 +53,11 @@ fn put(equation: &Equation, group: &mut GroupWriter) -> EncodeResult {
         Equation::Elasticity(elasticity) => {
             group.attribute("state", &elasticity.state)?;
             let is_strained = elasticity.eigenstrain.is_some();
-            if is_strained { EquationKind::Eigenstrain } else { EquationKind::Elasticity }
+            match elasticity.anisotropy {
+                Some(_) => EquationKind::Anisotropic,
+                None if is_strained => EquationKind::Eigenstrain,
+                None => EquationKind::Elasticity,
+            }
         }
         Equation::Poisson { .. } => EquationKind::Poisson,
         Equation::None => EquationKind::None,
@@ -55,7 +67,7 @@ fn put(equation: &Equation, group: &mut GroupWriter) -> EncodeResult {
 
 fn take(group: &GroupReader) -> Equation {
     let Some(kind) = group.known_attribute("kind") else { return Equation::None };
-    let others = CONSTANTS.into_iter().filter(|name| !constants(kind).contains(name));
+    let others = constants().filter(|name| !has(kind, name));
     let word = kind.word().unwrap_or_default();
     others.for_each(|name| group.refuse(name, ObjectKind::Attribute, word));
     let constant = |name| constant(group, name);
@@ -64,15 +76,35 @@ fn take(group: &GroupReader) -> Equation {
             young: constant("young"),
             poisson: constant("poisson"),
             state: group.attribute("state"),
+            anisotropy: None,
             eigenstrain: (kind == EquationKind::Eigenstrain).then(|| {
                 let expansion =
                     group.holds(EXPANSION, ObjectKind::Attribute).then(|| constant(EXPANSION));
                 Box::new(Eigenstrain { strains: EIGENSTRAINS.map(constant), expansion })
             }),
         }),
+        EquationKind::Anisotropic => anisotropic(group),
         EquationKind::Poisson => Equation::Poisson { conductivity: constant("conductivity") },
         EquationKind::None => Equation::None,
     }
+}
+
+/// An anisotropic body: σ_zz and the strains that are given need the constants through the plane in
+/// plane strain alone.
+fn anisotropic(group: &GroupReader) -> Equation {
+    let state = group.attribute("state");
+    let value = |k: usize| match (k, state) {
+        (6..10, StressState::PlaneStress) => Expression::number(0.0),
+        _ => constant(group, STIFFNESS[k]),
+    };
+    let law = Anisotropy {
+        plane: std::array::from_fn(value),
+        through: std::array::from_fn(|k| value(6 + k)),
+        axis: value(10),
+    };
+    let is_strained = group.holds(EIGENSTRAINS[0], ObjectKind::Attribute);
+    let strains = || EIGENSTRAINS.map(|name| constant(group, name));
+    Equation::Elasticity(law.body(state, is_strained.then(|| Box::new(strains().into()))))
 }
 
 /// A constant of the material: a number, or the text of a formula.

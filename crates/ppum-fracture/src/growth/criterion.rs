@@ -19,6 +19,7 @@
 //! √(n + 1) − √n, stands in their recursion. [`Drive::next_turn`] turns by θ / (1 + c) instead, for
 //! which K_II at the end of the increment vanishes.
 
+use ppum::anisotropy::{TipLaw, weakest_direction};
 use ppum::dataset::TipIntensity;
 use ppum::vec2::Vec2;
 use ppum_problem::Criterion;
@@ -56,6 +57,8 @@ pub(super) struct Drive {
     t_stress: f64,
     /// The kink of a vanishing increment.
     pub(super) kink: KinkPrediction,
+    /// True if increments are straight in its direction.
+    pub(super) is_straight: bool,
 }
 
 /// The turn of an increment: at its start, and then evenly along its arc.
@@ -81,7 +84,28 @@ impl Drive {
             Criterion::Energy => after(angle, k)[0].hypot(after(angle, k)[1]),
         };
         let t_stress = factors.t_stress.unwrap_or(0.0).min(0.0);
-        Some(Self { criterion, k, t_stress, kink: KinkPrediction { angle, k_eq: strength } })
+        let kink = KinkPrediction { angle, k_eq: strength };
+        Some(Self { criterion, k, t_stress, kink, is_straight: false })
+    }
+
+    /// Returns the driving force of a tip in the direction in which the hoop stress, by the law at
+    /// the tip, is largest relative to a strength: of an anisotropic body, or of one whose toughness
+    /// depends on the direction. Increments are straight, as T's part in them is that of isotropic
+    /// bodies.
+    pub(super) fn by_direction(
+        factors: &TipIntensity,
+        law: Option<&TipLaw>,
+        strength: impl Fn(f64) -> f64,
+    ) -> Option<Self> {
+        factors.growth_angle()?;
+        let k = [factors.k1.max(0.0), factors.k2];
+        let hoop = |angle: f64| match law {
+            Some(law) => law.hoop_stress(k, angle),
+            None => hoop_strength(angle, k),
+        };
+        let angle = weakest_direction(hoop, strength);
+        let kink = KinkPrediction { angle, k_eq: hoop(angle) };
+        Some(Self { criterion: Criterion::Hoop, k, t_stress: 0.0, kink, is_straight: true })
     }
 
     /// True if T turns the crack back.

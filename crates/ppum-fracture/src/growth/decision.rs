@@ -175,18 +175,25 @@ impl<'a> DrivenTip<'a> {
         let crack = &problem.cracks()[tip.crack as usize];
         let (at, along) = (crack.end_point(tip.end), crack.growth_direction(tip.end));
         let factors = factors.iter().find(|found| found.tip == tip);
+        let axis = along.y.atan2(along.x);
+        let law = problem.equation.anisotropy().map(|law| law.at_tip(at, along));
+        let strength = |angle: f64| rule.toughness_at(at, axis + angle).unwrap_or(1.0);
+        let new = |factors: &TipIntensity| match law.is_some() || rule.is_directed() {
+            true => Drive::by_direction(factors, law.as_ref(), strength),
+            false => Drive::new(rule.criterion, factors),
+        };
         let drive = factors.and_then(|factors| match face_law(problem, tip.crack) {
-            Some(_) => Drive::new(rule.criterion, &closed_factors(factors)?),
-            None => Drive::new(rule.criterion, factors),
+            Some(_) => new(&closed_factors(factors)?),
+            None => new(factors),
         });
         let fate = match (factors, drive) {
             (None, _) => TipStatus::Unknown,
             (_, None) => TipStatus::Closed,
             _ => TipStatus::Grows,
         };
-        let toughness = rule.toughness.as_ref().map(|toughness| toughness.value(at));
+        let angle = drive.map_or(0.0, |drive| drive.kink.angle);
+        let toughness = rule.toughness_at(at, axis + angle);
         let before = before.and_then(|growth| growth.tips.iter().find(|row| row.tip == tip));
-        let axis = along.y.atan2(along.x);
         let path = match tip.end {
             // what is closed has no free faces, which T would act on
             _ if face_law(problem, tip.crack).is_some() => Vec::new(),
@@ -218,6 +225,9 @@ impl<'a> DrivenTip<'a> {
     /// Direction and curvature of the next increment.
     fn heading(&self, length: f64) -> (f64, f64) {
         let Some(drive) = &self.drive else { return (self.axis, 0.0) };
+        if drive.is_straight {
+            return (turn_between(0.0, self.axis + drive.kink.angle), 0.0);
+        }
         let is_first = self.before.is_none_or(|row| row.extension + row.length == 0.0);
         let turn = if is_first {
             drive.first_turn(&self.path, length, LARGEST_TURN)

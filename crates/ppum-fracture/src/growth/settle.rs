@@ -36,6 +36,11 @@ pub(super) fn solve_step(
     let Some(PreviousStep { problem: base, growth }) = before else {
         return Ok((cracks, plan.solve(watcher)?));
     };
+    let is_isotropic = plan.problem.equation.anisotropy().is_none() && !series.rule.is_directed();
+    if !is_isotropic {
+        // their paths have kinks where the weakest direction changes
+        return Ok((cracks, plan.solve(watcher)?));
+    }
     if series.rule.criterion != Criterion::LocalSymmetry {
         return Ok((cracks, with_warnings(plan.solve(watcher)?, growth, SHARP)));
     }

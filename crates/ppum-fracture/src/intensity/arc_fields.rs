@@ -20,76 +20,10 @@
 
 use super::auxiliary::{Auxiliary, TipMaterialBody};
 use super::sums::{Gradients, MODES};
+use ppum::complex::Complex;
 use ppum::crack::TipPoint;
-use ppum::formula::elementary::{Atan2, Log};
 use ppum::real::Real;
 use std::f64::consts::TAU;
-
-/// A complex number.
-#[derive(Clone, Copy)]
-struct Complex<R>(R, R);
-
-impl<R: Real> Complex<R> {
-    #[inline(always)]
-    fn times(self, other: Self) -> Self {
-        Self(self.0 * other.0 - self.1 * other.1, self.0 * other.1 + self.1 * other.0)
-    }
-
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        Self(self.0 + other.0, self.1 + other.1)
-    }
-
-    #[inline(always)]
-    fn minus(self, other: Self) -> Self {
-        Self(self.0 - other.0, self.1 - other.1)
-    }
-
-    #[inline(always)]
-    fn scaled(self, factor: f64) -> Self {
-        let factor = self.0.broadcast(factor);
-        Self(self.0 * factor, self.1 * factor)
-    }
-
-    #[inline(always)]
-    fn conjugate(self) -> Self {
-        Self(self.0, -self.1)
-    }
-
-    /// i times the number.
-    #[inline(always)]
-    fn turned(self) -> Self {
-        Self(-self.1, self.0)
-    }
-
-    #[inline(always)]
-    fn inverse(self) -> Self {
-        let square = self.0 * self.0 + self.1 * self.1;
-        Self(self.0 / square, -(self.1 / square))
-    }
-
-    /// The root of a number with a positive real part.
-    #[inline(always)]
-    fn root(self) -> Self {
-        let half = self.0.broadcast(0.5);
-        let size = (self.0 * self.0 + self.1 * self.1).sqrt();
-        let real = ((size + self.0) * half).sqrt();
-        Self(real, half * self.1 / real)
-    }
-
-    /// The angle, from −π to π.
-    #[inline(always)]
-    fn angle(self) -> R {
-        R::via_f64([self.1, self.0], Atan2)
-    }
-
-    /// ln of a number with this angle.
-    #[inline(always)]
-    fn logarithm(self, angle: R) -> Self {
-        let square = self.0 * self.0 + self.1 * self.1;
-        Self(R::via_f64([square], Log) * angle.broadcast(0.5), angle)
-    }
-}
 
 /// φ, φ′, zφ″, ψ and ψ′ of a field.
 #[derive(Clone, Copy)]

@@ -2,10 +2,12 @@
 //! and that of a unit force at the tip.
 
 use super::sums::{Gradients, MODES};
+use ppum::anisotropy::{PlaneStiffness, TipFields, turned};
 use ppum::crack::TipPoint;
-use ppum::dataset::Material;
+use ppum::dataset::{Elasticity, Material};
 use ppum::function::westergaard;
 use ppum::real::Real;
+use ppum::vec2::Vec2;
 use ppum_solve::law::Coefficients;
 use std::f64::consts::{PI, TAU};
 
@@ -31,14 +33,18 @@ impl<R: Real> Auxiliary<R> {
 /// The body of the tip's material that the fields are in, and the crack's curvature there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TipMaterialBody {
-    /// λ and μ of the plane law.
+    /// The coefficients of the law, in the frame of the tip.
     pub(super) moduli: Coefficients,
     /// Kolosov's κ.
     pub(super) kolosov: f64,
     /// The curvature of the crack at the tip, positive to the left.
     pub(super) curvature: f64,
-    /// E′
+    /// E′; 1/a₁₁ of an anisotropic body.
     pub(super) modulus: f64,
+    /// The parts of σ_12 and σ_22 at the tip in T.
+    pub(super) faces: [f64; 2],
+    /// The fields of an anisotropic body.
+    anisotropic: Option<TipFields>,
     /// 1 / (2μ √(2π)) and 1 / (8πμ).
     scale: [f64; 2],
 }
@@ -48,7 +54,33 @@ impl TipMaterialBody {
         let (lambda, mu) = (material.lambda(), material.mu());
         let scale = [0.5 / (mu * TAU.sqrt()), 0.125 / (PI * mu)];
         let (kolosov, modulus) = (material.kolosov(), material.effective_young());
-        Self { moduli: [lambda, mu], kolosov, curvature, modulus, scale }
+        let moduli = [lambda, mu, 0.0, 0.0, 0.0, 0.0];
+        let (faces, anisotropic) = ([0.0, 1.0], None);
+        Self { moduli, kolosov, curvature, modulus, faces, anisotropic, scale }
+    }
+
+    /// The body at a tip with a direction of growth.
+    pub(super) fn at(body: &Elasticity, [tip, axis]: [Vec2; 2], curvature: f64) -> Self {
+        let isotropic = Self::new(&body.at(tip), curvature);
+        let Some(anisotropy) = &body.anisotropy else { return isotropic };
+        let law = anisotropy.at_tip(tip, axis);
+        Self {
+            moduli: coefficients(law.stiffness()),
+            modulus: 1.0 / law.compliance()[0],
+            faces: law.faces(),
+            anisotropic: Some(law.fields()),
+            ..isotropic
+        }
+    }
+
+    /// The coefficients of the law in the frame of the tip, from those in the world's.
+    pub(super) fn in_frame(&self, world: Coefficients, axis: Vec2) -> Coefficients {
+        if self.anisotropic.is_none() {
+            return world;
+        }
+        let [c12, c66, xx, yy, c16, c26] = world;
+        let both = c12 + 2.0 * c66;
+        coefficients(turned([xx + both, c12, c16, yy + both, c26, c66], [axis.x, -axis.y]))
     }
 
     /// The fields at a point.
@@ -67,6 +99,10 @@ impl TipMaterialBody {
         &self,
         point: &TipPoint<R>,
     ) -> [Auxiliary<R>; MODES] {
+        if let Some(fields) = &self.anisotropic {
+            let [[one, a], [two, b], [force, c]] = fields.gradients(point);
+            return [Auxiliary::new(one, a), Auxiliary::new(two, b), Auxiliary::new(force, c)];
+        }
         let [f1, f2, f3, f4] = westergaard::<R, D>(point);
         let [one, two] = self.modes([f1.x, f1.y], [f2.x, f2.y], [f3.x, f3.y], [f4.x, f4.y]);
         let mut along = [[[point.x.broadcast(0.0); 2]; 2]; 2];
@@ -136,6 +172,12 @@ impl TipMaterialBody {
     }
 }
 
+/// The coefficients of a stiffness.
+fn coefficients([c11, c12, c16, c22, c26, c66]: PlaneStiffness) -> Coefficients {
+    let both = c12 + 2.0 * c66;
+    [c12, c66, c11 - both, c22 - both, c16, c26]
+}
+
 #[inline(always)]
 fn times<R: Real>(a: [R; 2], factor: f64) -> [R; 2] {
     let factor = a[0].broadcast(factor);
@@ -152,12 +194,18 @@ fn minus<R: Real>(a: [R; 2], b: [R; 2]) -> [R; 2] {
     [a[0] - b[0], a[1] - b[1]]
 }
 
-/// σ = λ tr(ε) I + 2μ ε of a gradient.
+/// σ = λ tr(ε) I + 2μ ε of a gradient, and what the coefficients of an anisotropic body add, which
+/// are zero of others.
 #[inline(always)]
-pub(super) fn stress<R: Real>([lambda, mu]: Coefficients<R>, u: &Gradients<R>) -> Gradients<R> {
-    let two_mu = mu + mu;
-    let (trace, shear) = (lambda * (u[0][0] + u[1][1]), mu * (u[0][1] + u[1][0]));
-    [[trace + two_mu * u[0][0], shear], [shear, trace + two_mu * u[1][1]]]
+pub(super) fn stress<R: Real>(of: Coefficients<R>, u: &Gradients<R>) -> Gradients<R> {
+    let [lambda, mu, xx, yy, along, across] = of;
+    let (two_mu, angle) = (mu + mu, u[0][1] + u[1][0]);
+    let (trace, shear) = (lambda * (u[0][0] + u[1][1]), mu * angle);
+    let shear = shear + (along * u[0][0] + across * u[1][1]);
+    [
+        [trace + two_mu * u[0][0] + (xx * u[0][0] + along * angle), shear],
+        [shear, trace + two_mu * u[1][1] + (yy * u[1][1] + across * angle)],
+    ]
 }
 
 /// The difference of two gradients.

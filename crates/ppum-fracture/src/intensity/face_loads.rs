@@ -7,7 +7,7 @@ use super::path::{PathSegment, TipPath};
 use super::sums::{Modes, cut_off, square, turned};
 use ppum::crack::{LocalTip, Side};
 use ppum::edge::Edge;
-use ppum::vec2::vec2;
+use ppum::vec2::{Vec2, vec2};
 use ppum_problem::Symmetry;
 use ppum_solve::quadrature::{GaussRule, closed, gauss};
 
@@ -172,9 +172,9 @@ impl TipFaces<'_> {
     }
 }
 
-/// σ_22 in the tip's frame that the loads on the faces at a tip stand for, or those on one face and
-/// their image; none if these have a resultant, under which stresses grow like log r.
-pub(super) fn pressed(path: &TipPath, load: &dyn TipLoads, half: Option<Symmetry>) -> Option<f64> {
+/// σ_12 and σ_22 in the tip's frame that the loads on the faces at a tip stand for, or those on one
+/// face and their image; none if these have a resultant, under which stresses grow like log r.
+pub(super) fn pressed(path: &TipPath, load: &dyn TipLoads, half: Option<Symmetry>) -> Option<Vec2> {
     let first = path.parts().next()?;
     let loads = LOOKS.map(|part| {
         let at = first.edge.from + first.edge.way(part);
@@ -190,7 +190,7 @@ pub(super) fn pressed(path: &TipPath, load: &dyn TipLoads, half: Option<Symmetry
         ([above, _], Some(Symmetry::Symmetric)) => [above, vec2(above.x, -above.y)],
         ([above, _], Some(Symmetry::Antisymmetric)) => [above, vec2(-above.x, above.y)],
     };
-    ((above + below).length() <= BALANCED * size).then_some(0.5 * (below.y - above.y))
+    ((above + below).length() <= BALANCED * size).then_some((below - above) * 0.5)
 }
 
 fn zero() -> Modes {
@@ -214,7 +214,6 @@ mod tests {
     use super::*;
     use ppum::crack::{Crack, CrackEnd, End, TipId};
     use ppum::dataset::{Material, StressState};
-    use ppum::vec2::{Vec2, vec2};
 
     const RADII: [f64; 3] = [0.3, 0.4, 0.5];
 

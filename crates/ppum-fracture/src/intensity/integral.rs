@@ -73,8 +73,8 @@ pub(super) struct Interaction<'a> {
     origin: Vec2,
     /// How the material varies, as the J-integral needs it; none if it jumps in the discs.
     slope: Option<EnergySlope<'a>>,
-    /// σ_22 at the tip by the loads on its faces; none if these have a resultant there.
-    pressed: Option<f64>,
+    /// σ_12 and σ_22 at the tip by the loads on its faces; none if these have a resultant there.
+    pressed: Option<Vec2>,
     /// The law between the faces of the crack.
     face_law: Option<FaceLaw>,
     /// The symmetry to the axis of a field of which one half is in the body.
@@ -95,9 +95,9 @@ impl<'a> Interaction<'a> {
         let crack = &field.step.cracks[tip.crack as usize];
         let path = TipPath::new(crack, tip, radii[RINGS - 1]);
         let center = path.center();
-        let body = TipMaterialBody::new(&field.equation.elastic()?.at(center), path.curvature());
-        let slope = EnergySlope::new(law.clone(), center, radii[RINGS - 1]);
         let axis = crack.growth_direction(tip.end);
+        let body = TipMaterialBody::at(field.equation.elastic()?, [center, axis], path.curvature());
+        let slope = EnergySlope::new(law.clone(), center, radii[RINGS - 1]);
         let free = law.at(center).elastic(&Strain::default()).in_plane().map(|row| -row);
         let is_finite = |g: &Gradients| g.as_flattened().iter().all(|e| e.is_finite());
         let shift = Some(tensor_in_frame(&free, axis)).filter(is_finite).unwrap_or_default();
@@ -108,7 +108,7 @@ impl<'a> Interaction<'a> {
         };
         let half = loads.symmetry(tip);
         let is_loaded = loads.traction(tip.crack, Side::Above, center).is_some();
-        let pressed = if is_loaded { pressed(&path, loads, half) } else { Some(0.0) };
+        let pressed = if is_loaded { pressed(&path, loads, half) } else { Some(Vec2::ZERO) };
         let face_law = loads.face_law(tip.crack);
         let between =
             face_law.map_or(0.0, |of| of.pressed(field, law, path.behind_tip(0.0), radii[0]));
@@ -127,7 +127,7 @@ impl<'a> Interaction<'a> {
             loads,
             has_force: loads.body_force(center).is_some(),
             slope,
-            pressed: pressed.map(|pressed| pressed + between),
+            pressed: pressed.map(|pressed| pressed + vec2(0.0, between)),
             half,
         })
     }
@@ -305,9 +305,12 @@ impl<'a> Interaction<'a> {
                 - shear * (stress[0][0] - stress[1][1]))
     }
 
-    /// The coefficients of the law at a point.
+    /// The coefficients of the law at a point, in the frame of the tip.
     pub(super) fn moduli(&self, world: Vec2) -> Coefficients {
-        if self.law.is_uniform() { self.body.moduli } else { self.law.coefficients(world) }
+        if self.law.is_uniform() {
+            return self.body.moduli;
+        }
+        self.body.in_frame(self.law.coefficients(world), self.axis)
     }
 
     /// The part that does not come from the cells: the loads on the faces.
@@ -329,10 +332,12 @@ impl<'a> Interaction<'a> {
             Ring { r1: 0.0, r2: self.radii[k], k1, k2 }
         });
         let of_force = one * modulus * integrals.modes[RINGS - 1][2];
+        let [shear, across] = self.body.faces;
+        let of_faces = |at: Vec2| of_force + (shear * at.x + across * at.y);
         let energy_scale = (modulus * integrals.energy.max(0.0) / self.largest()).sqrt();
         TipIntegrals {
             rings,
-            t_stress: self.pressed.map(|pressed| of_force + pressed).filter(|t| t.is_finite()),
+            t_stress: self.pressed.map(of_faces).filter(|t| t.is_finite()),
             j: self.slope.as_ref().map(|_| integrals.j).filter(|j| j.is_finite()),
             energy_scale,
             doubt: integrals.doubt,

@@ -42,7 +42,7 @@ fn dataset(edge: &Edge) -> Dataset {
     let mut dataset = Recipe { cracks: vec![crack], ..Recipe::default() }.dataset();
     let [young, poisson] = [MATERIAL.young, MATERIAL.poisson].map(Into::into);
     let state = MATERIAL.state;
-    let body = Elasticity { young, poisson, state, eigenstrain: None };
+    let body = Elasticity { young, poisson, state, eigenstrain: None, anisotropy: None };
     dataset.equation = Equation::Elasticity(body);
     dataset
 }

@@ -10,9 +10,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// The features of plates here; of oblique sides see `sides`.
-const ALL: [Feature; 26] = [
+const ALL: [Feature; 27] = [
     F::Potential,
     F::VaryingMaterial,
+    F::Anisotropic,
     F::GivenStrains,
     F::GivenShear,
     F::SolvedTemperature,
@@ -79,7 +80,13 @@ fn plate(features: &BTreeMap<Feature, f64>) -> String {
     };
     let young = format!("\"1 + {}*x\"", size(F::VaryingMaterial));
     let young = if has(F::VaryingMaterial) { young.as_str() } else { "1" };
+    let across = 1.0 + size(F::Anisotropic);
     all += &match has(F::Potential) {
+        false if has(F::Anisotropic) => format!(
+            "material = {{ young = [{young}, {across}, 1], poisson = [0.3, 0.3, 0.3], shear = {:?}, \
+             state = \"plane-strain\"{expansion} }}\n",
+            1.0 / 2.6
+        ),
         true => "equation = { kind = \"poisson\" }\n".to_owned(),
         false => format!(
             "material = {{ young = {young}, poisson = 0.3, state = \"plane-strain\"{expansion} }}\n"
@@ -180,6 +187,7 @@ fn is_allowed(features: &[Feature]) -> bool {
 fn has_meaning(pair: &[Feature; 2]) -> bool {
     let elastic = [
         F::VaryingMaterial,
+        F::Anisotropic,
         F::GivenStrains,
         F::GivenShear,
         F::SolvedTemperature,

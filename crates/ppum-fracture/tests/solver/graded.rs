@@ -42,7 +42,7 @@ impl Grading {
         let young = format!("{bind} exp({}*p + {}*q) + {b}*p*q", a.x, a.y);
         let poisson = format!("{bind} 0.3 + 0.1*sin({}*p + {}*q)", c.x, c.y);
         let [young, poisson] = [young, poisson].map(|text| text.parse().expect("a formula"));
-        Elasticity { young, poisson, state: self.state, eigenstrain: None }
+        Elasticity { young, poisson, state: self.state, eigenstrain: None, anisotropy: None }
     }
 
     fn at_tip(&self) -> Material {

@@ -1,6 +1,7 @@
 //! The solver against exact solutions and independent reference values.
 
 mod adaptive;
+mod anisotropy;
 mod arcs;
 mod awkward;
 mod contact;

@@ -181,7 +181,7 @@ fn constants(equation: &Equation, elastic: bool) -> Vec<(&'static str, String)> 
         expression.constant().map(|_| (name, expression.text().to_owned()))
     };
     match (equation, elastic) {
-        (Equation::Elasticity(Elasticity { state, .. }), true) => {
+        (Equation::Elasticity(Elasticity { state, anisotropy: None, .. }), true) => {
             let texts = match state {
                 StressState::PlaneStrain => PLANE_STRAIN,
                 StressState::PlaneStress => PLANE_STRESS,

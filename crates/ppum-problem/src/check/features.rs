@@ -4,11 +4,12 @@
 //! that of the second, and ends with a remedy for either. A requirement is a pair, too: of the
 //! feature, and of the property of problems without the required one.
 
+use ppum::crack::Crack;
 use ppum::vec2::Vec2;
 
 use crate::data::{
-    Adaptivity, Enrichment, GrowthLaw, GrowthRule, Keyword as _, LoadControl, LocalEnrichment,
-    ProblemData, SolverKind, StepsKept, Symmetry,
+    Adaptivity, Criterion, Enrichment, GrowthLaw, GrowthRule, Keyword as _, LoadControl,
+    LocalEnrichment, ProblemData, SolverKind, StepsKept, Symmetry,
 };
 use crate::file::{Key, KeyError};
 
@@ -50,6 +51,17 @@ features! {
     /// E or ν vary.
     VaryingMaterial: "material", "give numbers for `young` and `poisson`" =>
         |p| p.equation.elastic().is_some() && !p.equation.has_uniform_material();
+    /// The body is anisotropic.
+    Anisotropic: "material", "give numbers for `young` and `poisson`" => |p| p.equation.anisotropy().is_some();
+    /// Its axes are not those of the crack on the border.
+    ObliqueFibres: "material.axis", "turn the axes along the crack" => |p| {
+        p.border_cracks().any(|(_, line)| !is_aligned(p, line.ends))
+    };
+    /// A tip is on an arc.
+    TipOnArc: "crack.points", "give the edge at the tip as a segment" => |p| arc_at_tip(p).is_some();
+    /// The criterion rests on functions of kinks in isotropic bodies.
+    OtherCriterion: "growth.criterion", "write `criterion = \"hoop\"`" =>
+        |p| grows(p, |rule| rule.criterion != Criterion::Hoop);
     /// Strains are given, or made by a temperature.
     GivenStrains: "material.expansion", "leave [temperature] and [strain] out" =>
         |p| p.dataset_equation().eigenstrains().next().is_some();
@@ -103,6 +115,8 @@ features! {
     CriticalLoad: "growth.load", "leave `load` out" => |p| grows(p, |rule| rule.load == LoadControl::Critical);
     /// No toughness is known.
     NoToughness: "growth.toughness", "add a `toughness`" => |p| grows(p, |rule| rule.toughness.is_none());
+    /// It depends on the direction of growth.
+    DirectedToughness: "growth.toughness", "leave `direction` out" => |p| grows(p, GrowthRule::is_directed);
     /// They grow by a law.
     GrowthLaw: "growth.rate", "leave the law out" => |p| has_law(p, |_| true);
     /// The law has no rate without a toughness.
@@ -120,6 +134,7 @@ excluded! {
     // cells as small as there may be do not stand for functions of cracks
     Accuracy, NoJumps => "no accuracy can be had with `enrichment = \"{}\"`, which leaves out how fields jump across cracks";
     CriticalLoad, NoToughness => "`load = \"critical\"` needs a `toughness`, which the load is chosen to reach";
+    DirectedToughness, OtherCriterion => "a `toughness` by `direction` goes with the largest hoop stress over it alone";
     CriticalLoad, GrowthLaw => "`load = \"critical\"` is for one load that grows, a law of growth for many cycles of the same";
     ToughnessRate, NoToughness => "the law of growth needs a `toughness`, which its rate depends on";
     OpeningRate, NoClosure => "the law of growth needs a `closure`, which its rate depends on";
@@ -133,6 +148,11 @@ excluded! {
     Multilevel, Contact => "faces that touch need the direct solver, since coarser levels do not see them";
     Forces, Contact => "no force at a point can act beside faces that touch";
     Forces, Potential => "the field of a force at a point is one of an elastic body";
+    Forces, Anisotropic => "the field of a force at a point is known in isotropic bodies alone";
+    TipOnArc, Anisotropic => "the fields of tips on arcs are known in isotropic bodies alone";
+    SolvedTemperature, Anisotropic => "a temperature that is solved for strains a body alike in all directions";
+    OtherCriterion, Anisotropic => "the functions of kinks that the criterion needs are those of isotropic bodies";
+    ObliqueFibres, PartialModel => "the halves of an anisotropic body are alike only if the crack on its border is along an axis";
     Forces, VaryingMaterial => "the field of a force is known where E and ν are constants alone";
     OtherTipFunctions, PartialModel => "a crack on the border needs the functions of `enrichment = \"williams\"`";
     VaryingMaterial, PartialModel => "a crack on the border needs a material that is the same everywhere";
@@ -142,6 +162,25 @@ excluded! {
     UserFunctions, PartialModel => "user-defined functions do not satisfy the symmetry of a border with a crack";
     Growth, SlidingPart => "a crack that slides turns off the line that it lies on";
     Growth, ObliquePart => "a crack grows along an edge, or along a side of an outline that is horizontal or vertical";
+}
+
+/// The first crack with a tip on an arc.
+fn arc_at_tip(problem: &ProblemData) -> Option<usize> {
+    let is_line = |crack: &Crack| crack.points.len() > 1;
+    let has = |crack: &Crack| is_line(crack) && crack.tips().any(|end| crack.edge_to(end).is_arc());
+    problem.cracks().iter().position(has)
+}
+
+/// Part of the stiffness that is rounding of angles.
+const ALIGNED: f64 = 1e-9;
+
+/// True if the axes of the material are those of a line, where it is the same everywhere.
+fn is_aligned(problem: &ProblemData, [a, b]: [Vec2; 2]) -> bool {
+    let axis = (b - a).unit();
+    problem.equation.anisotropy().is_none_or(|law| {
+        let [c11, _, c16, c22, c26, _] = law.at_tip(a, axis).stiffness();
+        c16.abs().max(c26.abs()) <= ALIGNED * (c11 + c22)
+    })
 }
 
 fn grows(problem: &ProblemData, is: fn(&GrowthRule) -> bool) -> bool {
@@ -200,7 +239,11 @@ impl Feature {
             Some(("crack", name)) => {
                 let contact = problem.body.contacts().next().map_or(0, |(crack, _)| crack);
                 let border = on_border.map_or(0, |(crack, _)| crack);
-                let crack = if self == Self::Contact { contact } else { border };
+                let crack = match self {
+                    Self::Contact => contact,
+                    Self::TipOnArc => arc_at_tip(problem).unwrap_or(0),
+                    _ => border,
+                };
                 Key::new("crack").index(crack).name(name)
             }
             _ => Key::new(path),

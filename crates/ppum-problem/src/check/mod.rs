@@ -11,6 +11,7 @@ mod refinement;
 mod support;
 mod symmetry;
 
+use ppum::anisotropy::STIFFNESS;
 use ppum::border::touch;
 use ppum::dataset::{EIGENSTRAINS, EXPANSION, Equation};
 use ppum::domain::{Domain, Hole};
@@ -245,6 +246,11 @@ fn check_equation(equation: &Equation, domain: &Domain) -> Option<KeyError> {
     if EIGENSTRAINS.contains(&name) || name == EXPANSION {
         let message = format!("`{name}` {message}; correct [temperature] or [strain]");
         return Some(Key::new("material.expansion").error(message));
+    }
+    if STIFFNESS.contains(&name) {
+        // the constants follow from keys of other names
+        let message = format!("`{name}` {message}; correct the moduli in [material]");
+        return Some(Key::new("material").error(message));
     }
     Some(Key::new("material").name(name).error(format!("`{name}` {message}")))
 }

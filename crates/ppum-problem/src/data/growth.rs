@@ -1,7 +1,9 @@
 //! How cracks grow, step by step.
 
 use ppum::expression::Expression;
+use ppum::vec2::Vec2;
 
+use super::scopes::DIRECTION;
 use super::{GrowthLaw, word_table};
 
 /// A quasi-static series: solve, let the tips go on, again.
@@ -14,12 +16,29 @@ pub struct GrowthRule {
     pub increment: Option<f64>,
     /// Most increments.
     pub steps: usize,
-    /// K_c > 0 of the place: the strength of a tip that grows \[stress·length^½\].
+    /// K_c > 0 of the place: the strength of a tip that grows \[stress·length^½\]. A formula may use
+    /// `direction`, the angle of the new path from the x axis in radians.
     pub toughness: Option<Expression>,
     /// The control of the load.
     pub load: LoadControl,
     /// How fast tips grow; none where growth has no time.
     pub law: Option<GrowthLaw>,
+}
+
+impl GrowthRule {
+    /// True if the toughness depends on the direction of a new path.
+    #[must_use]
+    pub fn is_directed(&self) -> bool {
+        self.toughness.as_ref().is_some_and(|toughness| toughness.formula().uses(DIRECTION))
+    }
+
+    /// The toughness of a new path, by the angle of its direction.
+    #[must_use]
+    pub fn toughness_at(&self, p: Vec2, direction: f64) -> Option<f64> {
+        let toughness = self.toughness.as_ref()?;
+        let inputs = [p.x, p.y, direction];
+        Some(toughness.constant().unwrap_or_else(|| toughness.formula().evaluate(&inputs)))
+    }
 }
 
 /// The direction in which a tip grows, and the factor that is compared with the toughness.

@@ -24,6 +24,14 @@ pub(crate) fn position(tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
     Scope::cartesian().with_tables(tables)
 }
 
+/// Names of a toughness: the position, and the direction of a new path.
+pub(crate) fn toughness(tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
+    Scope::new(&["x", "y", DIRECTION])?.with_tables(tables)
+}
+
+/// The angle of a new path from the x axis, in radians.
+pub(crate) const DIRECTION: &str = "direction";
+
 /// Names of a weight function.
 pub(crate) fn weight(tables: &[Arc<Table>]) -> Result<Scope, ScopeError> {
     Scope::new(&["t"])?.with_tables(tables)

@@ -433,6 +433,11 @@ impl<'a> DocumentValue<'a> {
         self.item.get_ref().as_array().into_iter().flatten().map(element).collect()
     }
 
+    /// True of an array.
+    pub(crate) fn is_list(&self) -> bool {
+        self.item.get_ref().is_array()
+    }
+
     /// The values of an array of any length.
     pub(crate) fn list(&self) -> Option<Vec<DocumentValue<'a>>> {
         if !self.item.get_ref().is_array() {

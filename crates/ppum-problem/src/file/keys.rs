@@ -96,6 +96,9 @@ fn equation_of(text: &str) -> EquationKind {
     EquationKind::WORDS.iter().find(names).map_or(Elasticity, |(_, kind)| *kind)
 }
 
+/// Values along the axes of an anisotropic body.
+const BY_AXES: Kind = List("numbers or formulas", &Value);
+
 /// Tables by their names, each with an example if it is written inline, and a row for each key:
 /// `key: kind, what else there is to say => "its meaning";`.
 macro_rules! tables {
@@ -162,13 +165,27 @@ tables! {
     }
 
     static MATERIAL = "[material]", "" {
-        young: Value, required("1.0"), range(POSITIVE), only(Elasticity, &["conductivity"]) => "Young's modulus E > 0.";
-        poisson: Value, required("0.3"), only(Elasticity, &["conductivity"]) =>
-            "Poisson's ratio, −1 < ν < 0.5 in plane strain, −1 < ν ≤ 0.5 in plane stress.";
+        young: Either(&[Value, BY_AXES]), required("1.0"), range(POSITIVE), only(Elasticity, &["conductivity"]) =>
+            "Young's modulus E > 0; of an anisotropic body [E1, E2], in plane strain [E1, E2, E3].";
+        poisson: Either(&[Value, BY_AXES]), required("0.3"), only(Elasticity, &["conductivity"]) =>
+            "Poisson's ratio, −1 < ν < 0.5 in plane strain, −1 < ν ≤ 0.5 in plane stress; of an anisotropic body "
+            "[ν12], in plane strain [ν12, ν13, ν23], with ν12/E1 = ν21/E2.";
+        shear: Value, example("9.66"), range(POSITIVE), only(Elasticity, &["conductivity"]) =>
+            "Shear modulus G12 of an anisotropic body.";
+        axis: Value, default(|| "0".into()), example("30"), only(Elasticity, &[]) =>
+            "Angle of the first axis of an anisotropic body from the x axis, in degrees; a formula where fibres are "
+            "curved.";
+        stiffness: List("three rows of moduli", &List("three moduli", &Value)), only(Elasticity, &["conductivity"]),
+            example("[[10, 3, 0], [3, 8, 0], [0, 0, 2]]") =>
+            "Instead of `young`, `poisson` and `shear`: [[c11, c12, c16], [c12, c22, c26], [c16, c26, c66]] along the "
+            "axes, of stresses to the strains ε11, ε22 and 2ε12.";
+        out_of_plane: List("moduli", &Value), only(Elasticity, &[]), example("[4, 3, 0, 9]") =>
+            "With `stiffness` in plane strain: [c13, c23, c36, c33].";
         state: Word(words::<StressState>), required("\"plane-strain\""), only(Elasticity, &[]) =>
             "The assumption about the third direction: ε_zz = 0 or σ_zz = 0.";
-        expansion: Value, default(|| "none".into()), example("1.2e-5"), only(Elasticity, &[]) =>
-            "Coefficient α of thermal expansion, for `[temperature]`.";
+        expansion: Either(&[Value, BY_AXES]), default(|| "none".into()), example("1.2e-5"), only(Elasticity, &[]) =>
+            "Coefficient α of thermal expansion, for `[temperature]`; of an anisotropic body also [α1, α2] or "
+            "[α1, α2, α3] along its axes.";
         conductivity: Value, range(POSITIVE), default(|| "1".into()), only(Poisson, &["young", "poisson", "state"]) =>
             "Conductivity κ > 0.";
     }
@@ -446,7 +463,8 @@ tables! {
             "tip, at most 1/50 of the plate's shorter side, but less where paths turn by more than 0.1 (5.7°) in it, "
             "down to an eighth of that; from one step to the next it changes by a factor of two at most.";
         toughness: Value, range(POSITIVE), default(|| "none".into()) =>
-            "K_c > 0 at a point: a tip whose strength is less stays. Without it every tip advances. A formula that is "
+            "K_c > 0 at a point: a tip whose strength is less stays. A formula may use `direction`, the angle of the new "
+            "path from the x axis in radians: then the hoop stress over it is largest. Without it every tip advances. A formula that is "
             "not positive and finite at a tip is an error in the first step; later it ends the series.";
         load: Word(words::<LoadControl>), default(|| toml(LoadControl::default().word())) =>
             "`\"critical\"`: the loads of each step are multiplied by the factor at which the strongest tip, relative "

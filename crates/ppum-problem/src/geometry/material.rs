@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use ppum::dataset::{Elasticity, Material};
+use ppum::dataset::Elasticity;
 use ppum::vec2::{Vec2, vec2};
 
 /// Directions in which interfaces are looked for, and steps in each: one that passes at the
@@ -21,8 +21,8 @@ const NOTABLE: f64 = 0.01;
 
 /// True if the material jumps at a point: if it differs at a distance that is next to nothing.
 pub(super) fn jumps(body: &Elasticity, p: Vec2, distance: f64) -> bool {
-    let own = body.at(p);
-    rays().any(|ray| change(&own, &body.at(p + ray * distance)) > JUMP)
+    let own = constants(body, p);
+    rays().any(|ray| change(&own, &constants(body, p + ray * distance)) > JUMP)
 }
 
 /// Distance of a point to the nearest interface across which the material jumps notably, if it is
@@ -31,7 +31,7 @@ pub fn interface_distance(body: &Elasticity, p: Vec2, reach: f64) -> Option<f64>
     if body.uniform().is_some() {
         return None;
     }
-    let along = |ray: Vec2| first_jump(&|r| body.at(p + ray * r), &change, reach);
+    let along = |ray: Vec2| first_jump(&|r| constants(body, p + ray * r), &change, reach);
     rays().filter_map(along).reduce(f64::min)
 }
 
@@ -52,10 +52,22 @@ fn rays() -> impl Iterator<Item = Vec2> {
     (0..RAYS).map(move |k| vec2(angle(k).cos(), angle(k).sin()))
 }
 
-/// Relative change of E or change of ν, the larger one.
-fn change(a: &Material, b: &Material) -> f64 {
-    let young = (a.young - b.young).abs() / a.young.max(b.young);
-    young.max((a.poisson - b.poisson).abs())
+/// E and ν; of an anisotropic body the sum of its stiffnesses in the world's axes, and the parts of
+/// each in it.
+fn constants(body: &Elasticity, p: Vec2) -> [f64; 7] {
+    let Some(law) = &body.anisotropy else {
+        return [body.young.value(p), body.poisson.value(p), 0.0, 0.0, 0.0, 0.0, 0.0];
+    };
+    let plane @ [c11, _, _, c22, _, c66] = law.plane_at(p);
+    let sum = c11 + c22 + c66;
+    let [a, b, c, d, e, f] = plane.map(|entry| entry / sum);
+    [sum, a, b, c, d, e, f]
+}
+
+/// Relative change of the first constant or change of the others, the largest one.
+fn change(a: &[f64; 7], b: &[f64; 7]) -> f64 {
+    let first = (a[0] - b[0]).abs() / a[0].max(b[0]);
+    (1..7).map(|k| (a[k] - b[k]).abs()).fold(first, f64::max)
 }
 
 /// The least distance below `reach` at which there is a jump. A change over a step that vanishes as
@@ -87,7 +99,8 @@ mod tests {
 
     fn body(young: &str, poisson: &str) -> Elasticity {
         let [young, poisson] = [young, poisson].map(|text| text.parse().expect("a formula"));
-        Elasticity { young, poisson, state: StressState::PlaneStrain, eigenstrain: None }
+        let state = StressState::PlaneStrain;
+        Elasticity { young, poisson, state, eigenstrain: None, anisotropy: None }
     }
 
     #[test]

@@ -12,6 +12,7 @@ macro_rules! with_keys {
     }};
 }
 
+mod anisotropy;
 mod body;
 mod boundary;
 mod curve;
@@ -45,6 +46,7 @@ use crate::file::{
     DiagnosticList, DocumentValue, FileSource, FromValue as _, MAX_LENGTH, ProblemDocument,
     Section, all,
 };
+use anisotropy::{anisotropy, is_anisotropic};
 use body::BodyShape;
 
 impl Problem {
@@ -297,8 +299,17 @@ fn equation(root: &Section<'_>, kind: EquationKind) -> Equation {
         return Equation::Poisson { conductivity: conductivity.unwrap_or(1.0.into()) };
     }
     let section = root.required_section("material");
+    if let Some(material) = section.as_ref().filter(|section| is_anisotropic(section)) {
+        let state = material.require("state").unwrap_or(StressState::PlaneStress);
+        if let Some(law) = anisotropy(material, state) {
+            let eigenstrain = temperature::eigenstrain(root, Some(material));
+            return Equation::Elasticity(law.body(state, eigenstrain));
+        }
+        return EquationKind::Elasticity.example();
+    }
     let constant = |key| section.as_ref()?.require::<Expression>(key);
     Equation::Elasticity(Elasticity {
+        anisotropy: None,
         young: constant("young").unwrap_or(1.0.into()),
         poisson: constant("poisson").unwrap_or(0.0.into()),
         state: section

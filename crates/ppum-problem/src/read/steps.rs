@@ -1,10 +1,11 @@
 //! The tables `[adaptivity]`, `[growth]` and `[[refine]]`.
 
+use ppum::expression::Expression;
 use ppum::vec2::{Rect, vec2};
 
 use crate::data::{
     Adaptivity, Closure, GrowthLaw, GrowthRule, LoadBlock, LocalRefinement, NAMED_LAWS, NamedLaw,
-    RefinementRegion, Wheeler,
+    RefinementRegion, Wheeler, scopes,
 };
 use crate::file::{DocumentValue, FromValue as _, Section, all};
 
@@ -22,10 +23,15 @@ pub(super) fn growth(section: &Section<'_>) -> GrowthRule {
     let rule = GrowthRule::new(section.require("steps").unwrap_or(1));
     GrowthRule {
         increment: section.get("increment"),
-        toughness: section.get("toughness"),
+        toughness: toughness(section),
         law: law(section),
         ..with_keys!(section, rule, criterion, load)
     }
+}
+
+fn toughness(section: &Section<'_>) -> Option<Expression> {
+    let scope = scopes::toughness(section.document.tables()).ok()?;
+    section.value("toughness")?.expression(&scope)
 }
 
 /// The law of growth; what goes with one is an error without it.

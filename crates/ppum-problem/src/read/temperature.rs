@@ -6,8 +6,9 @@ use ppum::dataset::{Eigenstrain, Equation};
 use ppum::expression::Expression;
 use toml::de::DeTable;
 
+use super::anisotropy::{angle, is_anisotropic};
 use crate::data::{Body, Problem, ProblemData, ProblemError, SolvedTemperature};
-use crate::file::{DocumentValue, FileSource, MAX_LENGTH, Section};
+use crate::file::{DocumentValue, FileSource, FromValue as _, MAX_LENGTH, Section, all};
 
 /// Reads the problem of a text that begins at a line and column of a file.
 type TemperatureReader<'r> =
@@ -31,24 +32,56 @@ pub(super) fn eigenstrain(
         section.error::<()>(message);
     }
     let is_solved = |section: &&Section<'_>| section.mentions("problem");
-    let alpha: Option<Expression> = material.and_then(|material| material.get("expansion"));
+    let value = material.and_then(|material| material.value("expansion"));
+    let by_axes = value.as_ref().filter(|value| value.is_list());
+    let along: [Option<String>; 4] = match (by_axes, material) {
+        (Some(value), Some(material)) => by_axes_of(value, material)?.map(Some),
+        _ => [None, None, Some("0".into()), None],
+    };
+    let alpha = value.filter(|value| !value.is_list()).and_then(|value| Expression::read(&value));
     let alpha = alpha.unwrap_or(0.0.into());
     let formula = temperature.as_ref().filter(|section| !is_solved(section));
-    let swelling =
-        formula.map(|section| format!("({})*({})", alpha.text(), text_of(section, "value")));
-    let component = |name: &'static str| {
+    let change = formula.map(|section| text_of(section, "value"));
+    let component = |(name, along): (&'static str, Option<String>)| {
+        let swelling = change.as_ref().filter(|_| along.as_deref() != Some("0"));
+        let along = along.as_deref().unwrap_or(alpha.text());
+        let swelling = swelling.map(|change| format!("({along})*({change})"));
         let beside = given.as_ref().filter(|section| section.mentions(name));
         let beside =
             beside.map(|section| text_of(section, name)).filter(|text| text.parse() != Ok(0.0));
-        let parts = swelling.iter().filter(|_| name != "xy").chain(&beside);
+        let parts = swelling.iter().chain(&beside);
         let parts: Vec<&str> = parts.map(String::as_str).collect();
         let text = if parts.is_empty() { "0".to_owned() } else { parts.join(" + ") };
         // the parts are formulas, so that their sum is one except for its size
         Expression::parse_in(&text, root.document.scope()?).ok()
     };
-    let strains = ["xx", "yy", "xy", "zz"].map(|name| component(name).unwrap_or(0.0.into()));
-    let expansion = temperature.as_ref().filter(is_solved).map(|_| alpha);
+    let mut of_names = ["xx", "yy", "xy", "zz"].into_iter().zip(along);
+    let strains = std::array::from_fn(|_| {
+        of_names.next().and_then(component).unwrap_or(Expression::number(0.0))
+    });
+    let expansion = temperature.as_ref().filter(is_solved).map(|_| alpha.clone());
     Some(Box::new(Eigenstrain { strains, expansion }))
+}
+
+/// The coefficients of expansion α_xx, α_yy, α_xy and α_zz of a body with those of [α₁, α₂] or
+/// [α₁, α₂, α₃] along its axes.
+fn by_axes_of(value: &DocumentValue<'_>, material: &Section<'_>) -> Option<[String; 4]> {
+    if !is_anisotropic(material) {
+        return value.error("is a list, but the body is isotropic; give one number");
+    }
+    let list = all(value.list()?.iter().map(Expression::read))?;
+    let [a, b, rest @ ..] = &*list else {
+        return value.error("must be [α1, α2] or [α1, α2, α3]");
+    };
+    let axis = angle(material)?;
+    let (a, b, axis) = (a.text(), b.text(), axis.text());
+    let out = rest.first().map_or("0", Expression::text);
+    Some([
+        format!("({a})*cos({axis})^2 + ({b})*sin({axis})^2"),
+        format!("({a})*sin({axis})^2 + ({b})*cos({axis})^2"),
+        format!("(({a}) - ({b}))*sin({axis})*cos({axis})"),
+        out.to_owned(),
+    ])
 }
 
 /// The text of an expression that must be there; zero if it is missing or wrong.

@@ -1,5 +1,6 @@
 //! Problem files: good ones mean what they say, bad ones are reported where they are wrong.
 
+mod anisotropy;
 mod bad_files;
 mod formulas;
 mod holes;

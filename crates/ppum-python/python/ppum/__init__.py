@@ -22,7 +22,7 @@ from ._export import Export as _Export, TriangleMesh
 from ._facts import Crack, Hole, Tip
 from ._field import Field
 from ._links import link
-from ._problem import Elastic, Poisson, Problem, solve
+from ._problem import Anisotropic, Elastic, Poisson, Problem, solve
 from ._sample import Sample as _Sample
 from ._sections import arc, ellipse
 from ._sweep import Sweep, sweep
@@ -38,7 +38,7 @@ __version__ = _core.VERSION
 COLORMAPS: tuple[str, ...] = tuple(_core.colormaps())
 
 __all__ = [
-    "COLORMAPS", "Animation", "BuildError", "Crack", "Dataset", "Diagnostic", "Elastic", "Field", "Figure", "FormatError",
+    "COLORMAPS", "Animation", "Anisotropic", "BuildError", "Crack", "Dataset", "Diagnostic", "Elastic", "Field", "Figure", "FormatError",
     "Hole", "InternalError", "Poisson", "PpumError", "Problem", "ProblemError", "QuantityError", "RenderError", "SolveError",
     "Step", "Sweep", "Tip", "TriangleMesh", "View", "arc", "basis", "build", "ellipse", "link", "meshes",
     "plots", "results", "solve", "sweep",

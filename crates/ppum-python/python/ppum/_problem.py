@@ -41,6 +41,40 @@ class Elastic:
 
 
 @dataclass(frozen=True)
+class Anisotropic:
+    """A linear elastic, anisotropic material: engineering constants along its axes, or a stiffness.
+
+    Attributes:
+        young: (E1, E2) in plane stress, (E1, E2, E3) in plane strain; numbers or formulas of x and y.
+        poisson: (ν12,) or (ν12, ν13, ν23), with ν12/E1 = ν21/E2.
+        shear: The shear modulus G12.
+        axis: Angle of the first axis from the x axis, in degrees; a formula where fibres are curved.
+        stiffness: Instead of the three: ((c11, c12, c16), (c12, c22, c26), (c16, c26, c66)).
+        out_of_plane: With `stiffness` in plane strain: (c13, c23, c36, c33).
+        state: ``plane-strain`` or ``plane-stress``.
+        expansion: Coefficient of thermal expansion, or (α1, α2) or (α1, α2, α3) along the axes.
+        eigenstrain: The given strains ε⁰_xx, ε⁰_yy, ε⁰_xy, ε⁰_zz of the x and y axes that make no stress.
+
+    Example:
+        >>> ply = ppum.Anisotropic((144.8, 11.7), (0.21,), 9.66, axis=60, state="plane-stress")
+        >>> plate = ppum.Problem(((-1, -1), (1, 1)), ply).crack((-0.5, 0), (0.5, 0))
+        >>> plate = plate.boundary("bottom", traction=(0, -1)).boundary("top", traction=(0, 1))
+        >>> plate.discretization(level=4).check()
+        ()
+    """
+
+    young: tuple[float | str, ...] | None = None
+    poisson: tuple[float | str, ...] | None = None
+    shear: float | str | None = None
+    axis: float | str = 0.0
+    stiffness: tuple[tuple[float | str, ...], ...] | None = None
+    out_of_plane: tuple[float | str, ...] | None = None
+    state: str = "plane-strain"
+    expansion: float | str | tuple[float | str, ...] | None = None
+    eigenstrain: tuple[float | str, float | str, float | str, float | str] | None = None
+
+
+@dataclass(frozen=True)
 class Poisson:
     """The material of Poisson's equation, −∇·(κ ∇u) = f, with the conductivity κ."""
 
@@ -69,10 +103,10 @@ class Problem:
     """
 
     def __init__(
-        self, domain: Iterable[Iterable[float]] | Mapping[str, Any], material: Elastic | Poisson, *, title: str = ""
+        self, domain: Iterable[Iterable[float]] | Mapping[str, Any], material: Elastic | Anisotropic | Poisson, *, title: str = ""
     ) -> None:
-        if not isinstance(material, (Elastic, Poisson)):
-            raise TypeError(f"material: ppum.Elastic or ppum.Poisson is needed, not {type(material).__name__}")
+        if not isinstance(material, (Elastic, Anisotropic, Poisson)):
+            raise TypeError(f"material: ppum.Elastic, ppum.Anisotropic or ppum.Poisson is needed, not {type(material).__name__}")
         spec: dict[str, Any] = {"title": title} if title else {}
         spec["domain"] = _domain(domain)
         # those that are None are left out

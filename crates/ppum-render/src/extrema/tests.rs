@@ -352,6 +352,7 @@ fn at_an_interface_and_at_corners() {
         poisson,
         state: StressState::PlaneStrain,
         eigenstrain: None,
+        anisotropy: None,
     });
     dataset.domain.holes =
         vec![Hole::polygon([[1.0, 0.3], [1.2, 0.3], [1.1, 0.5]].map(Vec2::from).to_vec())];
@@ -381,6 +382,7 @@ fn at_a_round_interface() {
         poisson,
         state: StressState::PlaneStrain,
         eigenstrain: None,
+        anisotropy: None,
     });
     let field = Field::new(&dataset, 0).expect("a field");
     let view = View::fit(dataset.domain.bounds, [91, 72]).expect("a view");

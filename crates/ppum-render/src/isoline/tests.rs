@@ -353,6 +353,7 @@ fn interfaces_cut_lines() {
         poisson: 0.0.into(),
         state: StressState::PlaneStrain,
         eigenstrain: None,
+        anisotropy: None,
     });
     let field = Field::new(&dataset, 0).expect("a field");
     let view = View::new(center, 0.6, [90, 80]).expect("a view");

@@ -194,9 +194,15 @@ impl<'f> Pieces<'f> {
             let at = middle + step;
             let moduli = self.equation.moduli(self.anchor, [at.x, at.y]);
             let [xx, yy, xy, zz] = moduli.eigenstrain;
-            [moduli.young, moduli.poisson, moduli.conductivity, xx, yy, xy, zz]
+            let [a, b, c, d] = moduli.anisotropy;
+            let (first, second) = (moduli.lambda, moduli.mu);
+            let isotropic = [moduli.young, moduli.poisson, moduli.conductivity];
+            [isotropic, [xx, yy, xy], [zz, first, second], [a, b, c], [d, 0.0, 0.0]]
         });
-        a.into_iter().zip(b).any(|(a, b)| (a - b).abs() > JUMP * (a.abs() + b.abs()))
+        a.into_iter()
+            .flatten()
+            .zip(b.into_iter().flatten())
+            .any(|(a, b)| (a - b).abs() > JUMP * (a.abs() + b.abs()))
     }
 
     /// True if an arc comes near a rectangle of offsets.

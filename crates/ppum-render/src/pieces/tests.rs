@@ -317,6 +317,7 @@ fn two_materials(young: &str, strain: &str) -> Dataset {
         poisson,
         state: StressState::PlaneStrain,
         eigenstrain: (strain != "0").then(|| Box::new(given().into())),
+        anisotropy: None,
     });
     dataset
 }

@@ -8,6 +8,7 @@ use crate::quadrature::{CrackFace, EdgeRule};
 use crate::space::{ANGULAR, Origin, SeriesFunctions, TrialSpace};
 use faer::linalg::matmul::matmul;
 use faer::{Accum, Mat, MatRef, Par};
+use ppum::complex::Complex;
 use ppum::crack::Side;
 use ppum::dataset::{MAX_DEGREE, monomials as monomials_of};
 use ppum::formula::BlockScratch;
@@ -314,6 +315,8 @@ struct TipTerms {
     frame: PatchTipFrame,
     /// From the tip to the anchor.
     from_tip: Vec2,
+    /// The roots of an anisotropic body.
+    roots: Option<[Complex<f64>; 2]>,
 }
 
 impl ShapeEvaluator<'_> {
@@ -355,7 +358,8 @@ impl ShapeEvaluator<'_> {
     ) -> Option<(Range<usize>, TipTerms)> {
         let Origin::Tip(tip, _) = series.origin else { return None };
         let frame = PatchTipFrame::new(self.space.step(), patch as usize, tip);
-        let terms = TipTerms { count: series.terms(), frame, from_tip: anchor - frame.at };
+        let roots = frame.roots(self.space.equation());
+        let terms = TipTerms { count: series.terms(), frame, from_tip: anchor - frame.at, roots };
         self.series.then(|| (series.blocks.clone(), terms))
     }
 
@@ -508,7 +512,8 @@ impl PointFill<'_, '_> {
 
     /// Writes c, s, C and S of all terms of a tip, from a function on; returns their number. With z
     /// in the frame of the tip they are zⁿ √r e^{iθ/2} and zⁿ √r e^{−3iθ/2}, made of the functions
-    /// of the tip as [`Origin::Tip`] has it.
+    /// of the tip as [`Origin::Tip`] has it; of an anisotropic body w₁ z₁ⁿ and the divided
+    /// differences of w_k z_kⁿ.
     #[inline(always)]
     fn terms<R: Real<Scalar = f64>>(
         &mut self,
@@ -530,8 +535,10 @@ impl PointFill<'_, '_> {
                 j += 1;
             }
             let two = phi[k].v.broadcast(2.0);
-            f[2] = f[0].minus::<1>(f[2].scaled::<1>(two));
-            f[3] = f[1].minus::<1>(f[3].scaled::<1>(two));
+            if terms.roots.is_none() {
+                f[2] = f[0].minus::<1>(f[2].scaled::<1>(two));
+                f[3] = f[1].minus::<1>(f[3].scaled::<1>(two));
+            }
             let z = terms.z(points[k]);
             let mut function = first;
             while function < first + ANGULAR * terms.count {
@@ -540,8 +547,15 @@ impl PointFill<'_, '_> {
                     self.out.set(function + j, k * R::LANES, [f[j].v, f[j].x, f[j].y]);
                     j += 1;
                 }
-                let ([c, s], [c2, s2]) = (complex(z, [f[0], f[1]]), complex(z, [f[2], f[3]]));
-                (f, function) = ([c, s, c2, s2], function + ANGULAR);
+                f = match &terms.roots {
+                    Some(roots) => next_divided(z, roots, f),
+                    None => {
+                        let [c, s] = complex(z, [f[0], f[1]]);
+                        let [c2, s2] = complex(z, [f[2], f[3]]);
+                        [c, s, c2, s2]
+                    }
+                };
+                function += ANGULAR;
             }
             k += 1;
         }
@@ -560,6 +574,25 @@ impl TipTerms {
         let re = Jet { v: c * x + s * y, x: c, y: s, ..zero };
         [re, Jet { v: c * y - s * x, x: x.broadcast(0.0) - s, y: c, ..zero }]
     }
+}
+
+/// w₁ z₁ and z₂ D + y w₁ from w₁ and D.
+#[inline(always)]
+fn next_divided<R: Real>(
+    [x, y]: [Jet<R>; 2],
+    [s1, s2]: &[Complex<f64>; 2],
+    [w, v, d, e]: [Jet<R>; GROUP],
+) -> [Jet<R>; GROUP] {
+    let (z1, z2) = (from_root(x, y, s1), from_root(x, y, s2));
+    let ([re, im], [d, e]) = (complex(z1, [w, v]), complex(z2, [d, e]));
+    [re, im, d.plus::<1>(y.times::<1>(w)), e.plus::<1>(y.times::<1>(v))]
+}
+
+/// x + s y.
+#[inline(always)]
+fn from_root<R: Real>(x: Jet<R>, y: Jet<R>, s: &Complex<f64>) -> [Jet<R>; 2] {
+    let (a, b) = (y.v.broadcast(s.0), y.v.broadcast(s.1));
+    [x.plus::<1>(y.scaled::<1>(a)), y.scaled::<1>(b)]
 }
 
 /// The product of two complex functions.

@@ -25,6 +25,8 @@ use super::transform::FunctionCombinations;
 use crate::corner::WedgeTerm;
 use crate::space::{ANGULAR, Origin, SeriesFunctions, TrialSpace};
 use faer::Mat;
+use ppum::anisotropy::TipLaw;
+use ppum::complex::Complex;
 use ppum::crack::TipId;
 use ppum::dataset::{BoxPartition, Elasticity, Equation, Step, monomials};
 use ppum::polynomial::exponents;
@@ -89,7 +91,7 @@ pub(super) fn stored(space: &TrialSpace<'_>, patch: usize, mut evaluated: &[f64]
         let (before, after) = evaluated.split_at(series.functions.start - out.len());
         let (own, after) = after.split_at(series.evaluated());
         out.extend(before);
-        out.extend(times(angular(space.step(), patch, tip, series).as_ref(), own));
+        out.extend(times(angular(space, patch, tip, series).as_ref(), own));
         evaluated = after;
     }
     out.extend(evaluated);
@@ -130,6 +132,9 @@ fn of_tip(
     body: &Elasticity,
 ) -> Vec<TermFactors> {
     let frame = PatchTipFrame::new(step, patch, tip);
+    if let Some(law) = &body.anisotropy {
+        return anisotropic(&law.at_tip(frame.at, frame.axis), only, series.terms(), frame.axis);
+    }
     let (kappa, bend) = (body.at(frame.at).kolosov(), frame.scaled_curvature());
     let modes = |n: usize| {
         let lambda = exponent(n);
@@ -139,6 +144,25 @@ fn of_tip(
         wanted.map(move |of| world(bent(kappa, &term(of), [n, series.terms()], bend), frame.axis))
     };
     (0..series.terms()).flat_map(modes).collect()
+}
+
+/// The fields of a tip of an anisotropic body, in the functions Re w₁, Im w₁, Re D and Im D of each
+/// term: those of the first with z_kⁿ in the potentials, z₁ⁿ w₁ and their divided difference.
+fn anisotropic(law: &TipLaw, only: Option<Symmetry>, terms: usize, axis: Vec2) -> Vec<TermFactors> {
+    let [opening, sliding] = law.modes();
+    let both = [(Symmetry::Symmetric, opening), (Symmetry::Antisymmetric, sliding)];
+    let wanted = both.into_iter().filter(|(own, _)| only.is_none_or(|only| *own == only));
+    let wanted: Vec<_> = wanted.map(|(_, mode)| mode).collect();
+    let scale = 2.0 / law.compliance()[0];
+    let field = |n: usize, mode: &[[Complex<f64>; 2]; 2]| {
+        let mut factors = [vec![0.0; ANGULAR * terms], vec![0.0; ANGULAR * terms]];
+        for (own, [a, b]) in factors.iter_mut().zip(mode) {
+            let of_term = [a.0, -a.1, b.0, -b.1].map(|factor| scale * factor);
+            own[ANGULAR * n..ANGULAR * (n + 1)].copy_from_slice(&of_term);
+        }
+        world(factors, axis)
+    };
+    (0..terms).flat_map(|n| wanted.iter().map(move |mode| field(n, mode))).collect()
 }
 
 /// The field of a corner.
@@ -198,7 +222,12 @@ fn placed(part: &[f64], first: usize, n: usize) -> Vec<f64> {
 /// units of the farthest distance in the patch: \[4N, 4 monomials(N − 1)\].
 ///
 /// √r e^{iθ/2} = F₁ + iF₂ and √r e^{−3iθ/2} = (F₁ − 2F₃) + i(F₂ − 2F₄).
-fn angular(step: &Step, patch: usize, tip: TipId, series: &SeriesFunctions) -> Mat<f64> {
+fn angular(space: &TrialSpace<'_>, patch: usize, tip: TipId, series: &SeriesFunctions) -> Mat<f64> {
+    let step = space.step();
+    let frame = PatchTipFrame::new(step, patch, tip);
+    if let Some(roots) = frame.roots(space.equation()) {
+        return divided(step, patch, &frame, roots, series);
+    }
     let size = monomials(series.degree);
     let mut rows = Mat::zeros(ANGULAR * series.terms(), ANGULAR * size);
     for (n, power) in powers(step, patch, tip, series).iter().enumerate() {
@@ -215,6 +244,51 @@ fn angular(step: &Step, patch: usize, tip: TipId, series: &SeriesFunctions) -> M
                 }
             }
         }
+    }
+    rows
+}
+
+/// z₁ⁿ w₁ and the divided difference of z_kⁿ w_k as combinations of the tip's functions w₁ and D
+/// times monomials: D_n = A_n D + B_n w₁ with A_n = z₂ⁿ and B_{n+1} = z₂ B_n + y z₁ⁿ.
+fn divided(
+    step: &Step,
+    patch: usize,
+    frame: &PatchTipFrame,
+    [s1, s2]: [Complex<f64>; 2],
+    series: &SeriesFunctions,
+) -> Mat<f64> {
+    let size = monomials(series.degree);
+    let mut rows = Mat::zeros(ANGULAR * series.terms(), ANGULAR * size);
+    let linear = frame.linear(step, patch);
+    let of_root = |s: Complex<f64>| linear.map(|[x, y]| [x + s.0 * y, s.1 * y]);
+    let (z1, z2, y) = (of_root(s1), of_root(s2), linear.map(|[_, y]| [y, 0.0]));
+    let times = |of: &ComplexPolynomial, by: &[[f64; 2]; 3]| product(of, by, series.degree);
+    let mut one = vec![[0.0; 2]; size];
+    let mut joint = one.clone();
+    one[0] = [1.0, 0.0];
+    let mut powers = [one.clone(), one];
+    for n in 0..series.terms() {
+        let [first, second] = &powers;
+        for k in 0..size {
+            let (w, d, [re, im]) = (first[k], second[k], joint[k]);
+            let of_term = [
+                [w[0], -w[1], 0.0, 0.0],
+                [w[1], w[0], 0.0, 0.0],
+                [re, -im, d[0], -d[1]],
+                [im, re, d[1], d[0]],
+            ];
+            for (j, factors) in of_term.iter().enumerate() {
+                for (f, factor) in factors.iter().enumerate() {
+                    rows[(ANGULAR * n + j, f * size + k)] = *factor;
+                }
+            }
+        }
+        let added = times(first, &y);
+        joint = times(&joint, &z2);
+        joint.iter_mut().zip(added).for_each(|(sum, part)| {
+            (sum[0], sum[1]) = (sum[0] + part[0], sum[1] + part[1]);
+        });
+        powers = [times(first, &z1), times(second, &z2)];
     }
     rows
 }
@@ -241,6 +315,19 @@ impl PatchTipFrame {
         Self { at, axis: crack.growth_direction(tip.end), unit, curvature }
     }
 
+    /// The roots s₁ and s₂ of an anisotropic body in this frame.
+    pub(super) fn roots(&self, equation: &Equation) -> Option<[Complex<f64>; 2]> {
+        Some(equation.anisotropy()?.at_tip(self.at, self.axis).roots)
+    }
+
+    /// x and y in this frame and its unit as c₀ + c₁ ξ + c₂ η.
+    fn linear(&self, step: &Step, patch: usize) -> [[f64; 2]; 3] {
+        let BoxPartition { origin, scale, .. } = step.partition.boxes();
+        let (from_tip, scale) = (origin[patch] - self.at, scale[patch]);
+        let turned = |v: Vec2| [self.axis.dot(v) * self.unit, self.axis.cross(v) * self.unit];
+        [from_tip, Vec2 { x: scale.x, y: 0.0 }, Vec2 { x: 0.0, y: scale.y }].map(turned)
+    }
+
     /// The curvature of the crack in the unit of lengths.
     fn scaled_curvature(&self) -> f64 {
         self.curvature / self.unit
@@ -254,12 +341,7 @@ fn powers(
     tip: TipId,
     series: &SeriesFunctions,
 ) -> Vec<ComplexPolynomial> {
-    let (origin, scale) =
-        (step.partition.boxes().origin[patch], step.partition.boxes().scale[patch]);
-    let PatchTipFrame { at, axis, unit, .. } = PatchTipFrame::new(step, patch, tip);
-    let from_tip = origin - at;
-    let turned = |v: Vec2| [axis.dot(v) * unit, axis.cross(v) * unit];
-    let linear = [from_tip, Vec2 { x: scale.x, y: 0.0 }, Vec2 { x: 0.0, y: scale.y }].map(turned);
+    let linear = PatchTipFrame::new(step, patch, tip).linear(step, patch);
     let mut one = vec![[0.0; 2]; monomials(series.degree)];
     one[0] = [1.0, 0.0];
     let next = |last: &ComplexPolynomial| Some(product(last, &linear, series.degree));

@@ -10,7 +10,8 @@
 //!
 //! Angles between arcs are those of their tangents. The fields of a wedge leave tractions of the
 //! order κ r on sides of curvature κ: they are the leading part of the field there, and what the
-//! curvature adds is smoother by one power of r, which polynomials see.
+//! curvature adds is smoother by one power of r, which polynomials see. In anisotropic bodies cells
+//! are divided by the exponents of an isotropic one, and no fields are taken.
 
 mod exponent;
 mod sectors;
@@ -172,7 +173,8 @@ pub fn corners(problem: &Problem) -> Vec<SingularCorner> {
 fn with_functions(problem: &Problem, mut corners: Vec<SingularCorner>) -> Vec<SingularCorner> {
     corners.iter_mut().filter(|corner| corner.is_mild()).for_each(|corner| corner.wedge = None);
     let count = corners.iter().filter(|corner| corner.wedge.is_some()).count();
-    if count > MOST || !problem.has_series() {
+    let is_anisotropic = problem.equation.anisotropy().is_some();
+    if count > MOST || !problem.has_series() || is_anisotropic {
         corners.iter_mut().for_each(|corner| corner.wedge = None);
     }
     corners

@@ -59,6 +59,9 @@ impl<'a> EnergySlope<'a> {
     /// them as [`plane_eigenstrain`](ppum::equation::Moduli::plane_eigenstrain) has them.
     fn eigenstrain(&self, x: Vec2, axis: Vec2, material: &MaterialGradient) -> Strain {
         let moduli = self.law.equation.moduli(x, [0.0; 2]);
+        if let Some(strain) = material.anisotropic_eigenstrain(x, &moduli) {
+            return Strain::symmetric(strain.map(|gradient| gradient.dot(axis)));
+        }
         let [xx, yy, xy, zz] = material.eigenstrain(x).map(|gradient| gradient.dot(axis));
         let out_of_plane = material.at(x, &moduli).out_of_plane.dot(axis);
         let through = moduli.out_of_plane * zz + out_of_plane * moduli.eigenstrain[3];
@@ -81,8 +84,13 @@ mod tests {
             for eigenstrain in [None, Some(Box::new(given.clone()))] {
                 let [young, poisson] = ["2 + x*y", "0.25 + 0.05*sin(x + 2*y)"]
                     .map(|text| text.parse().expect("a formula"));
-                let equation =
-                    Equation::Elasticity(Elasticity { young, poisson, state, eigenstrain });
+                let equation = Equation::Elasticity(Elasticity {
+                    young,
+                    poisson,
+                    state,
+                    eigenstrain,
+                    anisotropy: None,
+                });
                 let law = Law::new(&equation);
                 let (at, axis) = (vec2(0.3, 0.2), vec2(0.6, 0.8));
                 let slope = EnergySlope::new(law.clone(), at, 0.1).expect("no jump");
@@ -104,8 +112,13 @@ mod tests {
     fn jumps_have_no_slope() {
         let [young, poisson] = ["if(y > 0.3, 2, 1)", "0.3"].map(|t| t.parse().expect("a formula"));
         let state = StressState::PlaneStrain;
-        let equation =
-            Equation::Elasticity(Elasticity { young, poisson, state, eigenstrain: None });
+        let equation = Equation::Elasticity(Elasticity {
+            young,
+            poisson,
+            state,
+            eigenstrain: None,
+            anisotropy: None,
+        });
         let slope = |radius| EnergySlope::new(Law::new(&equation), vec2(0.0, 0.0), radius);
         assert!(slope(0.2).is_some() && slope(0.4).is_none());
     }

@@ -19,8 +19,9 @@ type Tensor = [[[[f64; OPERATORS]; 2]; OPERATORS]; 2];
 /// with the given strains ε⁰ and C = Σ_m a_m(x) T_m, constant tensors T_m times coefficients a_m of
 /// position.
 ///
-/// Elasticity: C = λ δ_ik δ_jl + μ (δ_ij δ_kl + δ_il δ_jk) with the plane λ; Poisson: κ δ_kl. Where
-/// the constants are the same everywhere there is one term with coefficient 1.
+/// Elasticity: C = λ δ_ik δ_jl + μ (δ_ij δ_kl + δ_il δ_jk) with the plane λ; Poisson: κ δ_kl. An
+/// anisotropic body has four terms beside these, of [`Moduli::anisotropy`]. Where the constants are
+/// the same everywhere there is one term with coefficient 1.
 #[derive(Clone, Debug)]
 pub struct Law<'e> {
     /// Components of u.
@@ -34,7 +35,7 @@ pub struct Law<'e> {
 }
 
 /// Largest number of terms.
-const TERMS: usize = 2;
+const TERMS: usize = 6;
 
 /// The coefficients of the terms.
 pub type Coefficients<R = f64> = [R; TERMS];
@@ -44,7 +45,9 @@ impl<'e> Law<'e> {
     #[must_use]
     pub fn new(equation: &'e Equation) -> Self {
         let components = equation.components();
-        let (terms, uniform, temperature) = (units(components), false, None);
+        let mut terms = units(components);
+        terms.extend(equation.anisotropy().iter().flat_map(|_| anisotropic_units()));
+        let (uniform, temperature) = (false, None);
         let mut law = Self { components, equation, temperature, terms, uniform };
         if equation.has_uniform_material() {
             (law.terms, law.uniform) = (vec![law.linear_at(Vec2::ZERO)], true);
@@ -136,7 +139,7 @@ impl<'e> Law<'e> {
     /// The coefficients a_m at a point, one per term.
     pub fn coefficients(&self, x: Vec2) -> Coefficients {
         if self.uniform {
-            return [1.0, 0.0];
+            return [1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
         }
         self.coefficients_of(&self.equation.moduli(x, [0.0, 0.0]))
     }
@@ -158,9 +161,10 @@ impl<'e> Law<'e> {
     /// The coefficients by the moduli at a point, or their slopes by those of the moduli; moduli
     /// that an equation does not have are zero.
     fn coefficients_of<R: Copy>(&self, moduli: &Moduli<R>) -> Coefficients<R> {
+        let [a, b, c, d] = moduli.anisotropy;
         match self.equation {
-            Equation::Poisson { .. } => [moduli.conductivity, moduli.mu],
-            _ => [moduli.lambda, moduli.mu],
+            Equation::Poisson { .. } => [moduli.conductivity, moduli.mu, a, b, c, d],
+            _ => [moduli.lambda, moduli.mu, a, b, c, d],
         }
     }
 
@@ -169,8 +173,8 @@ impl<'e> Law<'e> {
         let [a, b] = points.map(|p| self.coefficients(p));
         let (mut jump, mut sum) = (0.0, 0.0);
         for (k, term) in self.terms.iter().enumerate() {
-            jump += term.modulus(0) * (a[k] - b[k]).abs();
-            sum += term.modulus(0) * (a[k].abs() + b[k].abs());
+            jump += term.size() * (a[k] - b[k]).abs();
+            sum += term.size() * (a[k].abs() + b[k].abs());
         }
         jump / sum
     }
@@ -220,6 +224,22 @@ fn units(components: usize) -> Vec<LawAt> {
     vec![term(&|a, b| unit(a) * unit(b)), term(&|a, b| same(a, b) + same(a, transposed(b)))]
 }
 
+/// The tensors of the coefficients that an anisotropic body has beside λ and μ.
+fn anisotropic_units() -> Vec<LawAt> {
+    let (xx, yy, shear) = ([[0, 0]], [[1, 1]], [[0, 1], [1, 0]]);
+    let term = |rows: &[[usize; 2]], columns: &[[usize; 2]]| {
+        let mut law = LawAt::zero(2);
+        for &[i, k] in rows {
+            for &[j, l] in columns {
+                law.tensor[i][k][j][l] = 1.0;
+                law.tensor[j][l][i][k] = 1.0;
+            }
+        }
+        law
+    };
+    vec![term(&xx, &xx), term(&yy, &yy), term(&xx, &shear), term(&yy, &shear)]
+}
+
 /// The law at a point, as one tensor.
 #[derive(Clone, Copy, Debug)]
 pub struct LawAt {
@@ -267,6 +287,12 @@ impl LawAt {
     #[must_use]
     pub fn modulus(&self, i: usize) -> f64 {
         self.tensor[i][i][i][i]
+    }
+
+    /// The largest entry.
+    fn size(&self) -> f64 {
+        let entries = self.tensor.as_flattened().as_flattened().as_flattened();
+        entries.iter().fold(0.0, |most, entry| entry.abs().max(most))
     }
 
     /// λ: the stress along one axis of a unit stretch along the other.

@@ -299,12 +299,15 @@ impl CellIntegration<'_> {
     }
 }
 
-/// Points without those that are not apart from one before them, which takes their growth.
+/// Points without those that are not apart from one before them, which takes their traits.
 pub(super) fn distinct(points: Vec<Singularity>, apart: f64) -> Vec<Singularity> {
     let mut distinct: Vec<Singularity> = Vec::new();
     for p in points {
         match distinct.iter_mut().find(|q| (p.point - q.point).length() <= apart) {
-            Some(known) => known.growth = known.growth.and(p.growth),
+            Some(known) => {
+                known.growth = known.growth.and(p.growth);
+                known.branches = known.branches.or(p.branches);
+            }
             None => distinct.push(p),
         }
     }

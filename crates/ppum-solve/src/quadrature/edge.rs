@@ -8,7 +8,7 @@ use super::geometry::{CrackFace, KinkLine, Singularity};
 use super::graded_interval::{GradedInterval, LONGEST, LineParameter};
 use super::orders::ActiveFunctions;
 use super::rule::EdgeRule;
-use super::singular::panels;
+use super::singular::{panels, resolved};
 use super::split::{TOLERANCE, breaks, divided, kinks, varies};
 use ppum::edge::{Edge, EdgeFrame};
 use ppum::vec2::{Rect, Vec2};
@@ -254,7 +254,10 @@ impl LineIntegration<'_> {
             let foot = self.line.foot_from(at.point, frame.tangent.left());
             let (path, frame) = (LineParameter::Beside(d), EdgeFrame { foot, ..frame });
             let beside = |interval| GradedInterval { path, frame, interval };
-            return panels(lo, hi, d).map(beside).collect();
+            let branches = at.branches.iter().flatten();
+            let zeros: Vec<_> = branches.map(|z| z.zero(frame.foot, frame.tangent * d)).collect();
+            let all = panels(lo, hi, d).flat_map(|panel| resolved(panel, &zeros));
+            return all.map(beside).collect();
         }
         let grading = at.growth.along_lines(order);
         let frame = EdgeFrame { foot: Vec2::ZERO, ..frame };

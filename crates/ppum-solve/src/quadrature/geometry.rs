@@ -5,7 +5,7 @@ use ppum::crack::{Crack, SegmentId, Side};
 use ppum::dataset::BoxPartition;
 use ppum::domain::Hole;
 use ppum::edge::Edge;
-use ppum::vec2::Vec2;
+use ppum::vec2::{Vec2, vec2};
 use std::fmt;
 use std::sync::Arc;
 
@@ -145,6 +145,42 @@ pub(crate) struct Singularity {
     pub point: Vec2,
     /// The growth of functions there.
     pub growth: SingularGrowth,
+    /// The coordinates whose roots functions are made of; none of smooth functions of the angle.
+    pub branches: Option<[BranchCoordinate; 2]>,
+}
+
+/// The complex coordinate z = re·x + i im·x of a tip in an anisotropic body. It vanishes beside the
+/// tip where one of x and y is complex, the nearer the more it stretches.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct BranchCoordinate {
+    re: Vec2,
+    im: Vec2,
+}
+
+impl BranchCoordinate {
+    /// x + (a + ib) y in a frame with this x axis.
+    #[must_use]
+    pub(crate) fn new(axis: Vec2, [a, b]: [f64; 2]) -> Self {
+        Self { re: axis + axis.left() * a, im: axis.left() * b }
+    }
+
+    /// z of an offset from the point.
+    pub(super) fn at(&self, offset: Vec2) -> Vec2 {
+        vec2(self.re.dot(offset), self.im.dot(offset))
+    }
+
+    /// u = re + i im, im > 0, for which z of foot + d sinh u vanishes: asinh of −z(foot)/z(d).
+    pub(super) fn zero(&self, foot: Vec2, d: Vec2) -> [f64; 2] {
+        let (foot, d) = (self.at(foot), self.at(d));
+        // of the right half plane, where nothing cancels: asinh is odd
+        let ratio = vec2(-foot.dot(d), foot.cross(d)) / d.dot(d);
+        let (a, b) = (ratio.x.abs(), if ratio.x < 0.0 { -ratio.y } else { ratio.y });
+        let (re, im) = (a * a - b * b + 1.0, 2.0 * a * b);
+        let size = re.hypot(im);
+        let (x, y) = ((0.5 * (size + re)).max(0.0).sqrt(), (0.5 * (size - re)).max(0.0).sqrt());
+        let (x, y) = (a + x, b + y.copysign(im));
+        [x.hypot(y).ln().copysign(ratio.x), y.atan2(x).abs()]
+    }
 }
 
 /// Growth of functions with the distance r of a singular point, times smooth functions of the angle
@@ -174,7 +210,7 @@ impl Singularity {
     /// The tip of a crack.
     #[must_use]
     pub(crate) const fn tip(point: Vec2) -> Self {
-        Self { point, growth: SingularGrowth::HalfPowers }
+        Self { point, growth: SingularGrowth::HalfPowers, branches: None }
     }
 }
 

@@ -56,7 +56,8 @@ pub use gauss::gauss;
 pub use gauss::{GaussRule, closed};
 pub use geometry::CrackFace;
 pub(crate) use geometry::{
-    KinkLine, LevelFunction, Probes, SingularGrowth, Singularity, SmoothnessGeometry,
+    BranchCoordinate, KinkLine, LevelFunction, Probes, SingularGrowth, Singularity,
+    SmoothnessGeometry,
 };
 pub(crate) use orders::Orders;
 pub(crate) use roots::{clamp_non_finite, sign_changes, zero};

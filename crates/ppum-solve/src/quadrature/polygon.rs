@@ -118,6 +118,11 @@ impl ConvexPolygon {
         self.edges().map(|(a, b)| segment::distance([a, b], p)).fold(f64::INFINITY, f64::min)
     }
 
+    /// The polygon through a linear map that keeps its sense of rotation.
+    pub(super) fn mapped(&self, map: &dyn Fn(Vec2) -> Vec2) -> Self {
+        Self(self.0.iter().map(|&v| map(v)).collect())
+    }
+
     /// The polygon seen from an anchor moved by `shift`.
     pub(super) fn seen_from(&self, shift: Vec2) -> Self {
         Self(self.0.iter().map(|&v| v - shift).collect())

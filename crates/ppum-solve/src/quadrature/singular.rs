@@ -15,7 +15,7 @@ use super::adapt::{IntegrandDemand, refined};
 use super::arcs::ArcRun;
 use super::chart::{ApexTriangle, CellChart, quadrilaterals};
 use super::curve::{ChartWindow, cut_all};
-use super::geometry::{LevelFunction, Singularity};
+use super::geometry::{BranchCoordinate, LevelFunction, Singularity};
 use super::holes::{self, PlacedHole};
 use super::local_curve::LocalCurve;
 use super::piece::SmoothPiece;
@@ -120,7 +120,16 @@ fn near(anchor: Vec2, polygon: &ConvexPolygon, singular: &[Singularity]) -> Vec<
         return Vec::new();
     }
     let diameter = polygon.diameter();
-    let is_near = |s: &&Singularity| polygon.distance(s.point - anchor) < diameter;
+    let is_near = |s: &&Singularity| {
+        let own = || polygon.seen_from(s.point - anchor);
+        // also as far as it is stretched in a coordinate of the functions
+        let is_stretched = |z: &BranchCoordinate| {
+            let seen = own().mapped(&|p| z.at(p));
+            seen.distance(Vec2::ZERO) < seen.diameter()
+        };
+        polygon.distance(s.point - anchor) < diameter
+            || s.branches.iter().flatten().any(is_stretched)
+    };
     singular.iter().filter(is_near).copied().collect()
 }
 
@@ -139,7 +148,26 @@ fn apex_triangle<'c>(at: &Singularity, a: Vec2, b: Vec2, n: usize) -> Vec<ChartW
         chart: Rc::clone(&chart),
         range: Rect::new(vec2(from, 0.0), vec2(to, 1.0)),
     };
-    panels(tangent.dot(a), tangent.dot(b), height).map(window).collect()
+    let branches = at.branches.iter().flatten();
+    let zeros: Vec<_> = branches.map(|z| z.zero(foot, tangent * height)).collect();
+    let ends = [tangent.dot(a), tangent.dot(b)];
+    panels(ends[0], ends[1], height).flat_map(|panel| resolved(panel, &zeros)).map(window).collect()
+}
+
+/// Length of a panel in parts of its distance to a complex branch point: with it 8
+/// points keep ten digits whatever the body.
+const BRANCH_PANEL: f64 = 1.2;
+
+/// Parts of a panel that are short against the distances to branch points re + i im.
+pub(super) fn resolved((from, to): (f64, f64), zeros: &[[f64; 2]]) -> Vec<(f64, f64)> {
+    let middle = 0.5 * (from + to);
+    let apart = |[re, im]: &[f64; 2]| (re - re.clamp(from, to)).hypot(*im);
+    let nearest = zeros.iter().map(apart).fold(f64::INFINITY, f64::min);
+    if to - from <= BRANCH_PANEL * nearest || to - from < FLAT {
+        return vec![(from, to)];
+    }
+    let halves = [(from, middle), (middle, to)];
+    halves.into_iter().flat_map(|half| resolved(half, zeros)).collect()
 }
 
 /// Intervals of u for \[lo, hi\], where x = d sinh u is the coordinate along a line at distance d >

@@ -110,7 +110,7 @@ fn the_cut_of_the_polar_angle_is_a_kink() {
     let [KinkLine::Segment([a, b])] = found.kinks.as_slice() else { panic!("{:?}", found.kinks) };
     assert_eq!(*a, vec2(0.5, 0.0));
     assert!((b.x - 0.5).abs() < 1e-14 && b.y < -10.0, "{b:?}");
-    let [Singularity { point, growth: SingularGrowth::Powers { least } }] = found.singular[..]
+    let [Singularity { point, growth: SingularGrowth::Powers { least }, .. }] = found.singular[..]
     else {
         panic!("{:?}", found.singular)
     };
@@ -178,7 +178,7 @@ fn declared_places() {
     };
     let function = Function { name: "declared".into(), kind };
     let found = surroundings().traits(&function).expect("a function");
-    let [Singularity { point, growth: SingularGrowth::HalfPowers }] = found.singular[..] else {
+    let [Singularity { point, growth: SingularGrowth::HalfPowers, .. }] = found.singular[..] else {
         panic!("{:?}", found.singular)
     };
     assert!((point - vec2(0.0, 0.0)).length() < 1e-15);

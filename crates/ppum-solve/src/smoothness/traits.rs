@@ -3,7 +3,8 @@
 use super::growth::{Behaviour, growth};
 use super::pieces::{SmoothPieces, rays};
 use super::probe::Probe;
-use crate::quadrature::{KinkLine, SingularGrowth, Singularity};
+use crate::quadrature::{BranchCoordinate, KinkLine, SingularGrowth, Singularity};
+use ppum::anisotropy::TIP_FUNCTIONS;
 use ppum::crack::Crack;
 use ppum::dataset::{BoxPartition, Step};
 use ppum::expression::Expression;
@@ -33,7 +34,7 @@ pub(super) struct Traits {
 
 impl Traits {
     fn add_singular(&mut self, point: Vec2, growth: SingularGrowth) {
-        self.singular.push(Singularity { point, growth });
+        self.singular.push(Singularity { growth, ..Singularity::tip(point) });
     }
 }
 
@@ -73,6 +74,19 @@ impl<'s> TraitContext<'s> {
         match &function.kind {
             FunctionKind::Formula { text, frame, .. } if native(text, *frame).is_some() => {
                 let singular = vec![Singularity::tip(self.axes(*frame).origin)];
+                Ok(Traits { singular, ..Traits::default() })
+            }
+            FunctionKind::Formula { text, frame, parameters, .. }
+                if TIP_FUNCTIONS.contains(&&**text) =>
+            {
+                let axes = self.axes(*frame);
+                let number = |name: &str| parameters.iter().find(|(own, _)| own == name);
+                let root = |names: [&str; 2]| {
+                    let root = names.map(|name| number(name).map_or(1.0, |(_, value)| *value));
+                    BranchCoordinate::new(axes.x, root)
+                };
+                let branches = Some([root(["a1", "b1"]), root(["a2", "b2"])]);
+                let singular = vec![Singularity { branches, ..Singularity::tip(axes.origin) }];
                 Ok(Traits { singular, ..Traits::default() })
             }
             FunctionKind::Formula { text, frame, parameters, declared, .. } => {

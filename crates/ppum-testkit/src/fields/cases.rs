@@ -201,6 +201,7 @@ pub fn equations() -> Vec<DrawingCase> {
         poisson: expression("if(x^2 + y^2 < 0.5, 0.2, 0.3)"),
         state: StressState::PlaneStress,
         eigenstrain: None,
+        anisotropy: None,
     });
     let stress = Material { young: 1.0, poisson: 0.35, state: StressState::PlaneStress };
     let one = Recipe { components: 1, ..coarse.clone() };
@@ -210,7 +211,13 @@ pub fn equations() -> Vec<DrawingCase> {
         let expansion = Some(expression("0.5 + 0.25*y"));
         let eigenstrain = Some(Box::new(Eigenstrain { strains, expansion }));
         let (young, poisson) = (1.5.into(), 0.3.into());
-        let equation = Equation::Elasticity(Elasticity { young, poisson, state, eigenstrain });
+        let equation = Equation::Elasticity(Elasticity {
+            young,
+            poisson,
+            state,
+            eigenstrain,
+            anisotropy: None,
+        });
         move |d: &mut Dataset| {
             let names = equation.component_names().iter().map(|&name| name.to_owned());
             d.steps[0].fields[0].components = names.collect();

@@ -174,6 +174,7 @@ mod tests {
             poisson: 0.3.into(),
             state: StressState::PlaneStrain,
             eigenstrain: None,
+            anisotropy: None,
         })
     }
 

@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use super::reflection::Reflection;
 use super::sample::{Sample, Source};
+use crate::anisotropy::STIFFNESS;
 use crate::dataset::NamedQuantity;
 use crate::equation::{EIGENSTRAINS, EXPANSION, Equation, Moduli, StressState, TEMPERATURE};
 use crate::field::Field;
-use crate::library::{Definition, EIGENSTRAIN, ELASTICITY, POISSON, STRAINS};
+use crate::library::{ANISOTROPY, Definition, EIGENSTRAIN, ELASTICITY, POISSON, STRAINS};
 use ppum_formula::real::{LaneNumber, Real};
 use ppum_formula::{
     Block, BlockScratch, DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError,
@@ -47,7 +48,8 @@ impl<'a> Vocabulary<'a> {
 /// …; the constants of the equation, `young`, `poisson`, `mu`, `lambda`, `out_of_plane` (= σ_zz /
 /// (σ_xx + σ_yy)) or `conductivity`; the [given strains](crate::equation::EIGENSTRAINS), and
 /// `expansion` where the field has a temperature; the
-/// [library's](crate::library::ELASTICITY) quantities, `-` in names written as `_`; the dataset's
+/// [library's](crate::library::ELASTICITY) quantities, of an anisotropic body [its
+/// constants](crate::anisotropy::STIFFNESS) in place of those above; `-` in names written as `_`; the dataset's
 /// named quantities and tables.
 #[derive(Clone, Debug)]
 pub struct QuantityFormula {
@@ -118,6 +120,7 @@ impl<'a> Vocabulary<'a> {
     /// The inputs of a formula.
     fn inputs(&self) -> Vec<(String, QuantityInput)> {
         let constants = match self.equation {
+            Equation::Elasticity(body) if body.anisotropy.is_some() => &[],
             Equation::Elasticity(_) => ELASTIC_CONSTANTS.as_slice(),
             Equation::Poisson { .. } => &[("conductivity", QuantityInput::Conductivity)],
             Equation::None => &[],
@@ -173,6 +176,9 @@ impl<'a> Vocabulary<'a> {
         let is_solution = self.components == self.equation.component_names();
         let library: [&[Definition]; 2] = match self.equation {
             _ if !is_solution => [&[], &[]],
+            Equation::Elasticity(body) if body.anisotropy.is_some() => {
+                [&ELASTICITY[..STRAINS], &ANISOTROPY]
+            }
             Equation::Elasticity(body) if body.eigenstrain.is_some() => {
                 [&ELASTICITY[..STRAINS], &EIGENSTRAIN]
             }
@@ -186,8 +192,9 @@ impl<'a> Vocabulary<'a> {
         self.given(is_solution).chain(library).chain(named)
     }
 
-    /// The coefficient of expansion and the given strains; those by a temperature are strains of
-    /// the solution alone, which has one.
+    /// The coefficient of expansion, the given strains, and the constants of an anisotropic body,
+    /// without which its quantities have zeros; strains by a temperature are those of the solution
+    /// alone, which has one.
     fn given(&self, is_solution: bool) -> impl Iterator<Item = (String, Cow<'a, str>)> {
         let expansion = self.equation.expansion().filter(|_| is_solution);
         let state = self.equation.elastic().map(|body| body.state);
@@ -204,7 +211,18 @@ impl<'a> Vocabulary<'a> {
         };
         let strains = self.equation.eigenstrains();
         let strains = strains.map(move |(name, e)| (name.to_owned(), text(name, e.text())));
-        expansion.map(|e| (EXPANSION.to_owned(), e.text().into())).into_iter().chain(strains)
+        let expansion = expansion.map(|e| (EXPANSION.to_owned(), e.text().into())).into_iter();
+        let stiffness =
+            self.equation.stiffness().map(|(name, e)| (name.to_owned(), e.text().into()));
+        let mut given: Vec<_> = expansion.chain(strains).chain(stiffness).collect();
+        if self.equation.anisotropy().is_some() && is_solution {
+            for name in EIGENSTRAINS.into_iter().chain(STIFFNESS) {
+                if given.iter().all(|(known, _)| known != name) {
+                    given.push((name.to_owned(), "0".into()));
+                }
+            }
+        }
+        given.into_iter()
     }
 }
 
@@ -248,7 +266,9 @@ impl QuantityFormula {
             .collect();
         let (scope, n_inputs) = (Scope::new(&names)?.with_tables(vocabulary.tables)?, names.len());
         // given strains are known where the field is; all others are made of the reflected field
-        let is_given = |name: &str| name == EXPANSION || EIGENSTRAINS.contains(&name);
+        let is_given = |name: &str| {
+            name == EXPANSION || EIGENSTRAINS.contains(&name) || STIFFNESS.contains(&name)
+        };
         let given = texts.iter().take_while(|(name, _)| is_given(name)).count();
         texts.splice(given..given, reflected);
         let parse = |(_, text): &(String, Cow<'_, str>)| Formula::parse(text, &scope);
@@ -360,9 +380,14 @@ fn reflected<'a>(
         return Vec::new();
     }
     let [x, y] = at.axes();
-    for (name, text) in texts.iter_mut().filter(|(name, _)| EIGENSTRAINS.contains(&&**name)) {
-        let sign = if *name == EIGENSTRAINS[2] { x * y } else { 1.0 };
-        if sign * at.sign() < 0.0 {
+    for (name, text) in texts {
+        let sign = match &**name {
+            name if name == EIGENSTRAINS[2] => x * y * at.sign(),
+            name if EIGENSTRAINS.contains(&name) => at.sign(),
+            "axis" | "c16" | "c26" | "c36" => x * y,
+            _ => 1.0,
+        };
+        if sign < 0.0 {
             *text = format!("-({text}\n)").into();
         }
     }

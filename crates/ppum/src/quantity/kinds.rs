@@ -1,5 +1,6 @@
 //! The quantities: their names, what they need, and their values.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::formula::{QuantityFormula, QuantityFormulaError, Vocabulary};
@@ -10,6 +11,7 @@ use crate::dataset::NamedQuantity;
 use crate::equation::{Equation, Moduli, TEMPERATURE};
 use crate::field::{Field, LocalField};
 use crate::jet::Jet;
+use crate::library::ANISOTROPY;
 use crate::text::hint;
 use crate::vec2::Vec2;
 use ppum_formula::real::Real;
@@ -135,6 +137,9 @@ pub(super) const ELASTIC: [NamedRow; 15] = [
     ("hydrostatic", "hydrostatic stress", Q::Hydrostatic),
 ];
 
+/// The quantities of [`ELASTIC`] before those of stresses.
+const STRAINS_ALONE: usize = 5;
+
 /// All names with a meaning for a field with these components, with their quantities; the φ of a
 /// patch, `phi:N`, comes on top.
 #[must_use]
@@ -147,10 +152,13 @@ pub fn names(equation: &Equation, components: &[String]) -> Vec<(String, Quantit
     }
     let solves = components.len() == equation.components();
     let elastic: &[_] = if solves && equation.elastic().is_some() { &ELASTIC } else { &[] };
+    // those of stresses in an anisotropic body are formulas of the library
+    let is_isotropic = equation.anisotropy().is_none();
+    let elastic = if is_isotropic { elastic } else { &elastic[..elastic.len().min(STRAINS_ALONE)] };
     // a temperature is no part of a size: of a field with one, sizes are formulas of the library
     let has_sizes = !solves || equation.expansion().is_none();
     let has = |quantity: &Quantity| match quantity {
-        Q::EnergyDensity => solves,
+        Q::EnergyDensity => solves && is_isotropic,
         Q::Magnitude | Q::GradientNorm => has_sizes,
         _ => true,
     };
@@ -167,12 +175,25 @@ pub fn available(field: &Field<'_>) -> Vec<String> {
     let usable = all.into_iter().filter(|(_, quantity)| quantity.check(field).is_ok());
     let usable = usable.map(|(name, _)| name);
     let sizes = ["magnitude", "gradient"].into_iter().filter(|_| field.has_temperature());
+    let has_formulas = field.is_displacement() && field.equation.anisotropy().is_some();
+    let stresses = ANISOTROPY.iter().map(|(name, _)| *name).filter(|_| has_formulas);
+    let sizes = sizes.chain(stresses);
     let named = field
         .quantities
         .iter()
         .map(|quantity| quantity.name.clone())
         .filter(|name| Quantity::parse(name, field).is_ok());
-    usable.chain(sizes.map(str::to_owned)).chain(named).chain(["phi:N".into()]).collect()
+    usable
+        .chain(sizes.map(|name| name.replace('_', "-")))
+        .chain(named)
+        .chain(["phi:N".into()])
+        .collect()
+}
+
+/// The name of a formula's quantity, with `_` for `-`; formulas as they are.
+fn underscored(text: &str) -> Cow<'_, str> {
+    let is_name = ELASTIC.iter().any(|(name, ..)| *name == text);
+    if is_name { text.replace('-', "_").into() } else { text.into() }
 }
 
 impl QuantityError {
@@ -226,7 +247,15 @@ impl Quantity {
         }
         let is_name = text.starts_with(char::is_alphabetic)
             && text.chars().all(|c| c.is_alphanumeric() || "_-:".contains(c));
-        match QuantityFormula::new(text, &vocabulary) {
+        match QuantityFormula::new(&underscored(text), &vocabulary) {
+            Ok(formula) if field.equation.anisotropy().is_some() => {
+                let row = ELASTIC.iter().chain(&GENERAL).find(|(name, ..)| *name == text);
+                let symbol = row.map(|(_, symbol, _)| *symbol);
+                Ok(Self::Formula(Arc::new(match symbol {
+                    Some(symbol) => formula.named(symbol, ""),
+                    None => formula,
+                })))
+            }
             Ok(formula) => Ok(Self::Formula(Arc::new(formula))),
             Err(_) if is_name => Err(QuantityError::unknown(text, available(field))),
             Err(error) => Err(error.into()),

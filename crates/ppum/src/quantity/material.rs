@@ -1,6 +1,7 @@
 //! Gradients of a material's constants.
 
 use super::formula::QuantityFormulaError;
+use crate::anisotropy::{Anisotropy, LawSlopes, STIFFNESS};
 use crate::equation::{Equation, Moduli, StressState};
 use crate::expression::Expression;
 use crate::library::{PLANE_STRAIN, PLANE_STRESS};
@@ -10,9 +11,12 @@ use ppum_formula::{Formula, FormulaJets, Scope};
 /// The gradients of an equation's moduli: those of its formulas through the moduli's own.
 #[derive(Clone, Debug)]
 pub struct MaterialGradient {
-    /// young and poisson, or conductivity, then the given strains; `None` of what is the same
-    /// everywhere.
+    /// young and poisson, or conductivity, or those of an anisotropic body, then the given strains;
+    /// `None` of what is the same everywhere.
     constants: Vec<Option<FormulaJets>>,
+    /// The law of an anisotropic body, and its state.
+    anisotropy: Option<Box<Anisotropy>>,
+    state: StressState,
     /// mu, lambda and out_of_plane as functions of young and poisson.
     law: Option<FormulaJets>,
 }
@@ -28,13 +32,41 @@ impl MaterialGradient {
         }
         let constants: Result<_, _> = equation.constants().map(|(_, e)| constant(e)).collect();
         let law = equation.elastic().map(|elastic| law(elastic.state)).transpose()?;
-        Ok(Some(Self { constants: constants?, law }))
+        let anisotropy = equation.elastic().and_then(|elastic| elastic.anisotropy.clone());
+        let state = equation.elastic().map_or(StressState::PlaneStress, |elastic| elastic.state);
+        Ok(Some(Self { constants: constants?, anisotropy, state, law }))
     }
 
     /// The gradients of the given strains at a point, in the order of [`Moduli::eigenstrain`].
     #[must_use]
     pub fn eigenstrain(&self, p: Vec2) -> [Vec2; 4] {
-        std::array::from_fn(|k| self.gradient(2 + k, p))
+        let first = self.constants.len().saturating_sub(4);
+        std::array::from_fn(|k| self.gradient(first + k, p))
+    }
+
+    /// The gradients of the strains of the plane under which the stresses of an anisotropic body
+    /// vanish, as [`Moduli::plane_eigenstrain`] has them; none of other bodies.
+    #[must_use]
+    pub fn anisotropic_eigenstrain(&self, p: Vec2, moduli: &Moduli<f64>) -> Option<[Vec2; 3]> {
+        let law = self.anisotropy.as_ref()?;
+        let (ratio, slopes) = (law.ratio_at(p), self.slopes(law, p));
+        let [xx, yy, xy, zz] = self.eigenstrain(p);
+        let through = |k: usize| {
+            zz * ratio[k] + vec2(slopes[0].ratio[k], slopes[1].ratio[k]) * moduli.eigenstrain[3]
+        };
+        Some([xx + through(0), yy + through(1), xy + through(2) * 0.5])
+    }
+
+    /// How the law of an anisotropic body changes along x and along y.
+    fn slopes(&self, law: &Anisotropy, p: Vec2) -> [LawSlopes; 2] {
+        let count = law.constants(self.state).count();
+        // the angle is the last one
+        let index = |k: usize| if k == STIFFNESS.len() - 1 { count - 1 } else { k };
+        let is_there = |k: &usize| *k == STIFFNESS.len() - 1 || *k < count - 1;
+        let all = (0..STIFFNESS.len())
+            .map(|k| Some(k).filter(is_there).map_or(Vec2::ZERO, |k| self.gradient(index(k), p)));
+        let all: Vec<Vec2> = all.collect();
+        [law.slopes(p, |k| all[k].x), law.slopes(p, |k| all[k].y)]
     }
 
     fn gradient(&self, constant: usize, p: Vec2) -> Vec2 {
@@ -51,6 +83,13 @@ impl MaterialGradient {
         let of = |k: usize| self.gradient(k, p);
         let zero = Vec2::ZERO;
         let none = Moduli::all(zero);
+        if let Some(law) = &self.anisotropy {
+            let [x, y] = self.slopes(law, p).map(|slopes| slopes.plane);
+            let [c11, c12, c16, c22, c26, c66] = std::array::from_fn(|k| vec2(x[k], y[k]));
+            let both = c12 + c66 * 2.0;
+            let anisotropy = [c11 - both, c22 - both, c16, c26];
+            return Moduli { lambda: c12, mu: c66, anisotropy, ..none };
+        }
         let Some(law) = &self.law else { return Moduli { conductivity: of(0), ..none } };
         let (young, poisson) = (of(0), of(1));
         let law = evaluate::<9>(law, [moduli.young, moduli.poisson]);

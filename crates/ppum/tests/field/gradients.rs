@@ -55,6 +55,7 @@ fn heterogeneous(state: StressState) -> Equation {
         poisson: parse(poisson),
         state,
         eigenstrain: None,
+        anisotropy: None,
     })
 }
 

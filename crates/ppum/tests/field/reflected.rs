@@ -39,6 +39,7 @@ fn elastic(has_strains: bool, is_heated: bool, at: &Reflection) -> Equation {
         poisson: expression("0.3 - 0.1*Y", at, 1.0),
         state: StressState::PlaneStrain,
         eigenstrain: has_strains.then(|| Box::new(Eigenstrain { strains, expansion })),
+        anisotropy: None,
     })
 }
 

@@ -154,6 +154,7 @@ fn quantities_of_materials() {
                 poisson: parse(poisson),
                 state,
                 eigenstrain: None,
+                anisotropy: None,
             });
             let field = Field::new(&dataset, 0).expect("a field");
             for name in field_names(&field) {

@@ -1,5 +1,6 @@
 //! Facts that all steps of a dataset have in common, and the cracks of a step.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use ppum::crack::{self, CrackEnd};
@@ -53,6 +54,13 @@ enum EquationFacts {
         eigenstrain: Option<[Constant; 4]>,
         #[serde(skip_serializing_if = "Option::is_none")]
         expansion: Option<Constant>,
+    },
+    Anisotropic {
+        #[serde(flatten)]
+        stiffness: BTreeMap<&'static str, Constant>,
+        state: &'static str,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        eigenstrain: Option<[Constant; 4]>,
     },
     Poisson {
         conductivity: Constant,
@@ -194,17 +202,18 @@ impl HoleFacts {
 impl EquationFacts {
     fn new(equation: &dataset::Equation) -> Self {
         match equation {
+            dataset::Equation::Elasticity(material) if material.anisotropy.is_some() => {
+                Self::Anisotropic {
+                    stiffness: equation.stiffness().map(|(name, e)| (name, e.into())).collect(),
+                    state: state(material),
+                    eigenstrain: eigenstrain(material),
+                }
+            }
             dataset::Equation::Elasticity(material) => Self::Elasticity {
                 young: (&material.young).into(),
                 poisson: (&material.poisson).into(),
-                state: match material.state {
-                    StressState::PlaneStrain => "plane-strain",
-                    StressState::PlaneStress => "plane-stress",
-                },
-                eigenstrain: material
-                    .eigenstrain
-                    .as_ref()
-                    .map(|given| given.strains.each_ref().map(Constant::from)),
+                state: state(material),
+                eigenstrain: eigenstrain(material),
                 expansion: equation.expansion().map(Constant::from),
             },
             dataset::Equation::Poisson { conductivity } => {
@@ -215,15 +224,35 @@ impl EquationFacts {
     }
 }
 
+fn state(body: &dataset::Elasticity) -> &'static str {
+    match body.state {
+        StressState::PlaneStrain => "plane-strain",
+        StressState::PlaneStress => "plane-stress",
+    }
+}
+
+fn eigenstrain(body: &dataset::Elasticity) -> Option<[Constant; 4]> {
+    body.eigenstrain.as_ref().map(|given| given.strains.each_ref().map(Constant::from))
+}
+
+fn write_strains(f: &mut fmt::Formatter<'_>, given: Option<&[Constant; 4]>) -> fmt::Result {
+    let Some([xx, yy, xy, zz]) = given else { return Ok(()) };
+    write!(f, ", given strains xx {xx}, yy {yy}, xy {xy}, zz {zz}")
+}
+
 impl fmt::Display for EquationFacts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Elasticity { young, poisson, state, eigenstrain, expansion } => {
                 write!(f, "elasticity, E {young}, ν {poisson}, {state}")?;
-                let Some([xx, yy, xy, zz]) = eigenstrain else { return Ok(()) };
-                write!(f, ", given strains xx {xx}, yy {yy}, xy {xy}, zz {zz}")?;
+                write_strains(f, eigenstrain.as_ref())?;
                 let Some(alpha) = expansion else { return Ok(()) };
                 write!(f, ", and those of the temperature with α {alpha}")
+            }
+            Self::Anisotropic { stiffness, state, eigenstrain } => {
+                write!(f, "anisotropic elasticity, {state}")?;
+                stiffness.iter().try_for_each(|(name, value)| write!(f, ", {name} {value}"))?;
+                write_strains(f, eigenstrain.as_ref())
             }
             Self::Poisson { conductivity } => write!(f, "Poisson, κ {conductivity}"),
             Self::None => f.write_str("none"),

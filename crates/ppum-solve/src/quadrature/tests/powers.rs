@@ -117,7 +117,7 @@ fn points_in_one_place_take_the_weaker_exponent() {
     let cell = Rect::new(vec2(0.1, 0.2), vec2(0.4, 0.5));
     let rules = |growths: &[SingularGrowth]| {
         let singular: Vec<_> =
-            growths.iter().map(|&growth| Singularity { point: tip, growth }).collect();
+            growths.iter().map(|&growth| Singularity { growth, ..Singularity::tip(tip) }).collect();
         let lists = vec![(0..singular.len() as u32).collect::<Vec<_>>()];
         let case = alone(cell, Vec::new(), Vec::new());
         let geometry =

@@ -17,6 +17,7 @@ use std::sync::OnceLock;
 use super::williams::of_corner;
 use crate::corner::corners;
 use crate::terms::known_fields;
+use ppum::anisotropy::TIP_FUNCTIONS;
 use ppum::border::touch;
 use ppum::crack::{Crack, End, SegmentId, TipId, tips};
 use ppum::dataset::BoxPartition;
@@ -164,7 +165,23 @@ impl<'p> Enrichments<'p> {
                 (_, None) => Patches::All,
             };
             let degree = new.degree.map_or(zone.degree, |degree| Degree::Fixed(degree as u8));
-            self.push(functions(new, &zone, role), patches, degree);
+            let mut functions = functions(new, &zone, role);
+            if let (Role::Tip, Frame::Tip(tip)) = (role, zone.frame) {
+                self.take_anisotropy(&mut functions, tip);
+            }
+            self.push(functions, patches, degree);
+        }
+    }
+
+    /// Makes the functions of a tip those of an anisotropic body, if it is in one.
+    fn take_anisotropy(&self, functions: &mut [Function], tip: TipId) {
+        let Some(body) = self.problem.equation.anisotropy() else { return };
+        let crack = &self.problem.cracks()[tip.crack as usize];
+        let law = body.at_tip(crack.end_point(tip.end), crack.growth_direction(tip.end));
+        for (function, new) in functions.iter_mut().zip(TIP_FUNCTIONS) {
+            if let FunctionKind::Formula { text, parameters, .. } = &mut function.kind {
+                (*text, *parameters) = (new.to_owned(), law.parameters());
+            }
         }
     }
 

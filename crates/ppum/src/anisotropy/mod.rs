@@ -1,0 +1,293 @@
+//! Anisotropic elasticity in the plane: a stiffness in axes that may turn from place to place, and
+//! the fields at a tip in it.
+//!
+//! Stresses are σ = c e with σ = (σ_11, σ_22, σ_12) and e = (ε_11, ε_22, 2ε_12); plane strain has
+//! beside it σ_33 = c_13 e_1 + c_23 e_2 + c_36 e_3 + c_33 ε_33. In the frame of a tip, with the
+//! compliance a = c⁻¹, fields without body forces are made of functions of z_k = x + s_k y with the
+//! roots of
+//!
+//! ```text
+//! a₁₁ s⁴ − 2a₁₆ s³ + (2a₁₂ + a₆₆) s² − 2a₂₆ s + a₂₂ = 0      Im s > 0
+//! ```
+//!
+//! (Lekhnitskii 1963; Sih, Paris & Irwin 1965). Those at a tip are w_k = √z_k and, instead of the
+//! difference of both, which says nothing where s₁ = s₂, the divided difference
+//! D = (w₁ − w₂)/(s₁ − s₂) = y/(w₁ + w₂), which has a value there.
+
+mod tip;
+
+use crate::equation::{Eigenstrain, Elasticity, Moduli, StressState};
+use crate::expression::Expression;
+use crate::vec2::{Vec2, vec2};
+use ppum_formula::real::{Lanes, Real};
+pub use tip::{TIP_FUNCTIONS, TipFields, TipGradients, TipLaw, weakest_direction};
+
+/// The names of the constants in files and in formulas: of the plane, of plane strain, and the
+/// angle of the first axis.
+pub const STIFFNESS: [&str; 11] =
+    ["c11", "c12", "c16", "c22", "c26", "c66", "c13", "c23", "c36", "c33", "axis"];
+
+/// Constants of the plane.
+const PLANE: usize = 6;
+
+/// Numbers that the moduli of a point are made of.
+const MODULI: usize = 11;
+
+/// c₁₁, c₁₂, c₁₆, c₂₂, c₂₆, c₆₆.
+pub type PlaneStiffness<R = f64> = [R; PLANE];
+
+/// The law of an anisotropic body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Anisotropy {
+    /// c₁₁, c₁₂, c₁₆, c₂₂, c₂₆, c₆₆ in the material's axes.
+    pub plane: [Expression; PLANE],
+    /// c₁₃, c₂₃, c₃₆, c₃₃ of plane strain; zero in plane stress, where they have no effect.
+    pub through: [Expression; 4],
+    /// The angle of the material's first axis from the x axis, radians.
+    pub axis: Expression,
+}
+
+impl Anisotropy {
+    /// The expressions with their names; those through the plane of plane strain alone.
+    pub fn constants(
+        &self,
+        state: StressState,
+    ) -> impl Iterator<Item = (&'static str, &Expression)> {
+        let through = self.through.iter().filter(move |_| state == StressState::PlaneStrain);
+        let names = STIFFNESS.into_iter();
+        let (of_plane, rest) = (names.clone().take(PLANE), names.skip(PLANE));
+        let through = rest.zip(through);
+        of_plane.zip(&self.plane).chain(through).chain([(STIFFNESS[10], &self.axis)])
+    }
+
+    /// The body of this law. Its `young` and `poisson` are those of the isotropic body that is as
+    /// stiff in the mean of both axes.
+    #[must_use]
+    pub fn body(self, state: StressState, eigenstrain: Option<Box<Eigenstrain>>) -> Elasticity {
+        let [c11, c12, _, c22, ..] = self.plane.each_ref().map(|e| e.value(Vec2::ZERO));
+        let (mean, ratio) = (0.5 * (c11 + c22), 2.0 * c12 / (c11 + c22));
+        let (young, poisson) = match state {
+            StressState::PlaneStress => (mean * (1.0 - ratio * ratio), ratio),
+            StressState::PlaneStrain => {
+                let nu = ratio / (1.0 + ratio);
+                (mean * (1.0 + nu) * (1.0 - 2.0 * nu) / (1.0 - nu), nu)
+            }
+        };
+        let (young, poisson) = (Expression::number(young), Expression::number(poisson));
+        Elasticity { young, poisson, state, eigenstrain, anisotropy: Some(Box::new(self)) }
+    }
+
+    /// The plane's constants in the world's axes.
+    #[must_use]
+    pub fn plane_at(&self, p: Vec2) -> PlaneStiffness {
+        let (s, c) = self.axis.value(p).sin_cos();
+        turned(self.plane.each_ref().map(|e| e.value(p)), [c, s])
+    }
+
+    /// The law in the frame of a tip, whose direction of growth is `axis`.
+    #[must_use]
+    pub fn at_tip(&self, tip: Vec2, axis: Vec2) -> TipLaw {
+        TipLaw::new(&turned(self.plane_at(tip), [axis.x, -axis.y]))
+    }
+
+    /// The moduli at points `anchor + offset`, with the strains that are given there.
+    #[inline(always)]
+    pub(crate) fn moduli<R: Real>(
+        &self,
+        anchor: Vec2,
+        offset: [R; 2],
+        eigenstrain: Option<&Eigenstrain>,
+    ) -> Moduli<R> {
+        let [x, y] = offset;
+        let all = self.moduli_of_lanes(anchor, [x.lanes(), y.lanes()], R::LANES, eigenstrain);
+        let [c12, c16, c26, c66, first, second, young, xx, yy, xy, zz] = all;
+        Moduli {
+            lambda: x.with_lanes(|k| c12[k]),
+            mu: x.with_lanes(|k| c66[k]),
+            anisotropy: [
+                x.with_lanes(|k| first[k]),
+                x.with_lanes(|k| second[k]),
+                x.with_lanes(|k| c16[k]),
+                x.with_lanes(|k| c26[k]),
+            ],
+            young: x.with_lanes(|k| young[k]),
+            eigenstrain: [
+                x.with_lanes(|k| xx[k]),
+                x.with_lanes(|k| yy[k]),
+                x.with_lanes(|k| xy[k]),
+                x.with_lanes(|k| zz[k]),
+            ],
+            ..Moduli::all(x.broadcast(0.0))
+        }
+    }
+
+    fn moduli_of_lanes(
+        &self,
+        anchor: Vec2,
+        [xs, ys]: [Lanes; 2],
+        lanes: usize,
+        eigenstrain: Option<&Eigenstrain>,
+    ) -> [Lanes; MODULI] {
+        let mut all = [Lanes::default(); MODULI];
+        for lane in 0..lanes {
+            let at = self.moduli_at(anchor + vec2(xs[lane], ys[lane]), eigenstrain);
+            all.iter_mut().zip(at).for_each(|(of_lanes, value)| of_lanes[lane] = value);
+        }
+        all
+    }
+
+    /// c₁₂, c₁₆, c₂₆ and c₆₆ in the world's axes, c₁₁ − c₁₂ − 2c₆₆ and c₂₂ − c₁₂ − 2c₆₆, the modulus
+    /// of the third direction, and the given strains: those of the plane under which its stresses
+    /// vanish, and ε⁰_zz.
+    fn moduli_at(&self, p: Vec2, eigenstrain: Option<&Eigenstrain>) -> [f64; MODULI] {
+        let plane = self.plane_at(p);
+        let [c11, c12, c16, c22, c26, c66] = plane;
+        let given = eigenstrain.map(|given| given.strains.each_ref().map(|e| e.value(p)));
+        let [xx, yy, xy, zz] = given.unwrap_or_default();
+        let (s, c) = self.axis.value(p).sin_cos();
+        let [c13, c23, c36, c33] = self.through.each_ref().map(|e| e.value(p));
+        let through = turned_through([c13, c23, c36], [c, s]);
+        let ratio = times(&inverse(&plane), through);
+        let young = c33 - (0..3).map(|k| ratio[k] * through[k]).sum::<f64>();
+        let [xx, yy, xy] = [xx + ratio[0] * zz, yy + ratio[1] * zz, xy + 0.5 * ratio[2] * zz];
+        let apart = [c11 - c12 - 2.0 * c66, c22 - c12 - 2.0 * c66];
+        [c12, c16, c26, c66, apart[0], apart[1], young, xx, yy, xy, zz]
+    }
+
+    /// a·(c₁₃, c₂₃, c₃₆) in the world's axes: the strains under which the stresses of the plane
+    /// vanish where ε_33 = −1.
+    pub(crate) fn ratio_at(&self, p: Vec2) -> [f64; 3] {
+        let (s, c) = self.axis.value(p).sin_cos();
+        let [c13, c23, c36, _] = self.through.each_ref().map(|e| e.value(p));
+        times(&inverse(&self.plane_at(p)), turned_through([c13, c23, c36], [c, s]))
+    }
+
+    /// The change of the law along a line on which each constant changes by a slope.
+    pub(crate) fn slopes(&self, p: Vec2, slope: impl Fn(usize) -> f64) -> LawSlopes {
+        let (s, c) = self.axis.value(p).sin_cos();
+        let (own, turn) = (self.plane_at(p), slope(STIFFNESS.len() - 1));
+        let [c11, c12, c16, c22, c26, c66] = own;
+        let apart = 2.0 * (c16 - c26);
+        // those of the axes, as a turn changes the constants in the world's
+        let turning =
+            [-4.0 * c16, apart, c11 - c12 - 2.0 * c66, 4.0 * c26, c12 + 2.0 * c66 - c22, apart];
+        let mut plane = turned(std::array::from_fn(&slope), [c, s]);
+        plane.iter_mut().zip(turning).for_each(|(sum, part)| *sum += turn * part);
+        let ratio = self.ratio_at(p);
+        let [c13, c23, c36, _] = self.through.each_ref().map(|e| e.value(p));
+        let [a, b, shear] = turned_through([c13, c23, c36], [c, s]);
+        let mut through = turned_through(std::array::from_fn(|k| slope(PLANE + k)), [c, s]);
+        let turning = [-2.0 * shear, 2.0 * shear, a - b];
+        let change = times(&plane, ratio);
+        for (k, sum) in through.iter_mut().enumerate() {
+            *sum += turn * turning[k] - change[k];
+        }
+        LawSlopes { plane, ratio: times(&inverse(&own), through) }
+    }
+
+    /// The error in the constants at a point, if there is one: the name, and the reason.
+    pub(crate) fn invalid(&self, state: StressState, p: Vec2) -> Option<(&'static str, String)> {
+        let values = self.constants(state).map(|(name, e)| (name, e.value(p)));
+        let infinite = values.into_iter().find(|(_, value)| !value.is_finite());
+        if let Some((name, value)) = infinite {
+            return Some((name, format!("is {value}, but must be finite")));
+        }
+        let [c11, c12, c16, c22, c26, c66] = self.plane.each_ref().map(|e| e.value(p));
+        let [c13, c23, c36, c33] = self.through.each_ref().map(|e| e.value(p));
+        let least = |matrix: &[f64], n| least_eigenvalue(matrix, n);
+        let plane = least(&[c11, c12, c16, c12, c22, c26, c16, c26, c66], 3);
+        let (what, least) = match state {
+            StressState::PlaneStress => ("the stiffness", plane),
+            StressState::PlaneStrain => {
+                let whole = [
+                    [c11, c12, c16, c13],
+                    [c12, c22, c26, c23],
+                    [c16, c26, c66, c36],
+                    [c13, c23, c36, c33],
+                ];
+                ("the stiffness with the third direction", least(whole.as_flattened(), 4))
+            }
+        };
+        let size = c11.abs() + c22.abs() + c66.abs();
+        let message = format!("makes {what} indefinite: its least eigenvalue is {least:.3e}");
+        (least.is_nan() || least <= 1e-12 * size).then_some(("c11", message))
+    }
+}
+
+/// How a law changes along a line, in the world's axes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LawSlopes {
+    pub(crate) plane: PlaneStiffness,
+    pub(crate) ratio: [f64; 3],
+}
+
+/// c₁₃, c₂₃ and c₃₆ in axes that the first axis has an angle with this cosine and sine from.
+fn turned_through([c13, c23, c36]: [f64; 3], [c, s]: [f64; 2]) -> [f64; 3] {
+    let shear = 2.0 * c36 * s * c;
+    [
+        c13 * c * c + c23 * s * s - shear,
+        c13 * s * s + c23 * c * c + shear,
+        (c13 - c23) * s * c + c36 * (c * c - s * s),
+    ]
+}
+
+/// The least eigenvalue of a symmetric matrix by Jacobi's rotations.
+fn least_eigenvalue(matrix: &[f64], n: usize) -> f64 {
+    let mut a = matrix.to_vec();
+    for _ in 0..30 {
+        for i in 0..n {
+            for j in 0..i {
+                let theta = 0.5 * (2.0 * a[i * n + j]).atan2(a[j * n + j] - a[i * n + i]);
+                let (s, c) = theta.sin_cos();
+                for k in 0..n {
+                    let (x, y) = (a[i * n + k], a[j * n + k]);
+                    (a[i * n + k], a[j * n + k]) = (c * x - s * y, s * x + c * y);
+                }
+                for k in 0..n {
+                    let (x, y) = (a[k * n + i], a[k * n + j]);
+                    (a[k * n + i], a[k * n + j]) = (c * x - s * y, s * x + c * y);
+                }
+            }
+        }
+    }
+    (0..n).map(|k| a[k * n + k]).fold(f64::INFINITY, f64::min)
+}
+
+/// The constants in axes that those given are turned from by an angle with this cosine and sine,
+/// as the angle of the given first axis from the new one.
+#[must_use]
+pub fn turned([c11, c12, c16, c22, c26, c66]: PlaneStiffness, [c, s]: [f64; 2]) -> PlaneStiffness {
+    let (cc, ss, sc) = (c * c, s * s, s * c);
+    let (sum, difference) = (c12 + 2.0 * c66, cc - ss);
+    [
+        c11 * cc * cc + 2.0 * sum * cc * ss + c22 * ss * ss - 4.0 * sc * (c16 * cc + c26 * ss),
+        c12 + (c11 + c22 - 2.0 * sum) * cc * ss + 2.0 * (c16 - c26) * sc * difference,
+        sc * (c11 * cc - c22 * ss - sum * difference)
+            + c16 * cc * (cc - 3.0 * ss)
+            + c26 * ss * (3.0 * cc - ss),
+        c11 * ss * ss + 2.0 * sum * cc * ss + c22 * cc * cc + 4.0 * sc * (c16 * ss + c26 * cc),
+        sc * (c11 * ss - c22 * cc + sum * difference)
+            + c16 * ss * (3.0 * cc - ss)
+            + c26 * cc * (cc - 3.0 * ss),
+        c66 + (c11 + c22 - 2.0 * sum) * cc * ss + 2.0 * (c16 - c26) * sc * difference,
+    ]
+}
+
+/// The compliance a₁₁, a₁₂, a₁₆, a₂₂, a₂₆, a₆₆.
+fn inverse([c11, c12, c16, c22, c26, c66]: &PlaneStiffness) -> PlaneStiffness {
+    let minors = [
+        c22 * c66 - c26 * c26,
+        c16 * c26 - c12 * c66,
+        c12 * c26 - c16 * c22,
+        c11 * c66 - c16 * c16,
+        c12 * c16 - c11 * c26,
+        c11 * c22 - c12 * c12,
+    ];
+    let determinant = c11 * minors[0] + c12 * minors[1] + c16 * minors[2];
+    minors.map(|minor| minor / determinant)
+}
+
+/// A symmetric matrix times a vector.
+fn times([a, b, c, d, e, f]: &PlaneStiffness, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    [a * x + b * y + c * z, b * x + d * y + e * z, c * x + e * y + f * z]
+}
