@@ -6,7 +6,7 @@ use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 use crate::commands::{
     check, compare, completions, demo, export, formula, import, info, man, plot, probe, render,
-    sample, sif, solve, view,
+    sample, sif, solve, view, weight,
 };
 use crate::output::StandardStream;
 
@@ -25,6 +25,7 @@ Examples:
   ppum import part.dxf                       a problem file of a drawing or a mesh
   ppum solve plate.toml                      solve a problem; writes plate.h5
   ppum sif plate.h5                          stress intensity factors of all tips
+  ppum weight plate.toml -o weights.h5       weight functions: K of any load by an integral
   ppum probe plate.h5 --at 0.25,-0.1         values at a point
   ppum sample plate.h5 --crack 0 -o crack.csv    numbers for plots, here along a crack
   ppum render plate.h5 -o plate.png --figure
@@ -43,6 +44,7 @@ pub(crate) enum Command {
     Info(info::InfoArgs),
     Check(check::CheckArgs),
     Sif(sif::SifArgs),
+    Weight(weight::WeightArgs),
     Probe(probe::ProbeArgs),
     Sample(sample::SampleArgs),
     Render(Box<render::RenderArgs>),
@@ -88,6 +90,7 @@ impl Command {
             Self::Info(args) => args.run(out),
             Self::Check(args) => args.run(out),
             Self::Sif(args) => args.run(out),
+            Self::Weight(args) => args.run(out),
             Self::Probe(args) => args.run(out),
             Self::Sample(args) => args.run(out),
             Self::Render(args) => args.run(out),

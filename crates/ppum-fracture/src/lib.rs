@@ -47,6 +47,7 @@
 //! - [`solve`]: [`Plan`](solve::Plan) tells what a solution takes before it is made;
 //!   [`solve()`](solve::solve) does both; [`spectrum`](solve::spectrum) measures the condition of a
 //!   discretisation.
+//! - [`weight`]: weight functions, which give the stress intensity factors of any load.
 //! - [`intensity`]: stress intensity factors of any field. [`diagnostics`]: they and all warnings
 //!   once more, from a dataset.
 //! - [`ppum_solve`]: the discretisation, with [`norms`](ppum_solve::norms) of energies and errors.
@@ -61,7 +62,7 @@
 //! # Modules, from below
 //!
 //! ```text
-//! growth                                           cracks that grow, step by step
+//! growth                          weight           cracks that grow, step by step; K of any load
 //! solve                                            plan, system, solution, dataset
 //! diagnostics                                      warnings
 //! intensity                                        K_I, K_II, J, T
@@ -74,3 +75,4 @@ mod estimate;
 pub mod growth;
 pub mod intensity;
 pub mod solve;
+pub mod weight;

@@ -25,6 +25,7 @@ mod probe;
 mod problem;
 mod values;
 mod watch;
+mod weights;
 
 /// The compiled part of ppum; import `ppum` instead.
 #[pyo3::pymodule]
@@ -46,6 +47,7 @@ mod _core {
         probe::probe,
         problem::{check, solve},
         watch::panic_for_tests,
+        weights::{derivative, factor, influence, polynomials, rate, weight_functions},
     };
 
     /// The version of the package, that of all crates.

@@ -14,7 +14,7 @@ LAYERS = {
     "field": ["_views", "_values", "_styles", "_field"],
     "accessors": ["_sample", "_compare", "_axes", "_draw", "_export"],
     "datasets": ["_dataset", "results"],
-    "problem": ["_sections", "_problem", "_sweep"],
+    "problem": ["_sections", "_problem", "_sweep", "_weights"],
     "arrays": [
         "_checks", "_arrays", "_shapes", "_blocks", "_functions", "_cover", "_mesh", "_state", "_head", "_verify",
         "build", "basis",

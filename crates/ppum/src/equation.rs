@@ -170,14 +170,11 @@ impl Equation {
     /// [`TipIntensity::growth_angle`].
     #[must_use]
     pub fn growth_angle(&self, factors: &TipIntensity, [tip, axis]: [Vec2; 2]) -> Option<f64> {
-        let isotropic = factors.growth_angle()?;
-        let law = self.anisotropy().map(|law| law.at_tip(tip, axis));
-        let k = [factors.k1.max(0.0), factors.k2];
-        Some(
-            law.map_or(isotropic, |law| {
-                weakest_direction(|theta| law.hoop_stress(k, theta), |_| 1.0)
-            }),
-        )
+        let Some(law) = self.anisotropy().map(|law| law.at_tip(tip, axis)) else {
+            return factors.growth_angle();
+        };
+        let hoop = |theta| law.hoop_stress([factors.k1, factors.k2], theta);
+        law.opens(factors).then(|| weakest_direction(hoop, |_| 1.0))
     }
 
     /// The constants of an anisotropic body with their names.

@@ -16,3 +16,4 @@ pub(crate) mod sample;
 pub(crate) mod sif;
 pub(crate) mod solve;
 pub(crate) mod view;
+pub(crate) mod weight;

@@ -85,7 +85,7 @@ impl JudgedTip<'_> {
     }
 
     fn negative(&self, factors: &TipIntensity) -> Option<Warning> {
-        let (k1, crack) = (factors.k1, self.result.tip.crack);
+        let (k1, crack) = (self.result.opening, self.result.tip.crack);
         // closed faces have none except for its error
         let touches = self.problem.is_some_and(|all| face_law(all, crack).is_some());
         let error = if touches { CLOSED * factors.error.unwrap_or(0.0) } else { 0.0 };

@@ -97,8 +97,14 @@ impl Drive {
         law: Option<&TipLaw>,
         strength: impl Fn(f64) -> f64,
     ) -> Option<Self> {
-        factors.growth_angle()?;
-        let k = [factors.k1.max(0.0), factors.k2];
+        let opens = match law {
+            Some(law) => law.opens(factors),
+            None => factors.growth_angle().is_some(),
+        };
+        if !opens {
+            return None;
+        }
+        let k = [factors.k1, factors.k2];
         let hoop = |angle: f64| match law {
             Some(law) => law.hoop_stress(k, angle),
             None => hoop_strength(angle, k),

@@ -460,10 +460,11 @@ pub(super) fn life_step(
     strengths: impl Iterator<Item = (TipId, f64)>,
 ) -> LifeStep {
     let state = |(tip, strength): (TipId, f64)| {
-        let at = cracks[tip.crack as usize].end_point(tip.end);
+        let crack = &cracks[tip.crack as usize];
+        let (at, axis) = (crack.end_point(tip.end), crack.growth_direction(tip.end));
         let found = factors.iter().find(|found| found.tip == tip);
         let found = found.map(|k| [k.k1, k.k2, k.t_stress.unwrap_or(f64::NAN)]);
-        let toughness = rule.toughness.as_ref().map_or(f64::INFINITY, |law| law.value(at));
+        let toughness = rule.toughness_at(at, axis.y.atan2(axis.x)).unwrap_or(f64::INFINITY);
         let factors = found.unwrap_or([f64::NAN; 3]);
         (tip, TipState { at, strength, factors, extension: 0.0, toughness })
     };

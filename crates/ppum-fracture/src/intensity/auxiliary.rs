@@ -43,6 +43,8 @@ pub(super) struct TipMaterialBody {
     pub(super) modulus: f64,
     /// The parts of σ_12 and σ_22 at the tip in T.
     pub(super) faces: [f64; 2],
+    /// C₁₂/C₁₁: faces stay closed where K_I is −C₁₂/C₁₁ K_II. Zero of an isotropic body.
+    pub(super) coupling: f64,
     /// The fields of an anisotropic body.
     anisotropic: Option<TipFields>,
     /// 1 / (2μ √(2π)) and 1 / (8πμ).
@@ -56,7 +58,8 @@ impl TipMaterialBody {
         let (kolosov, modulus) = (material.kolosov(), material.effective_young());
         let moduli = [lambda, mu, 0.0, 0.0, 0.0, 0.0];
         let (faces, anisotropic) = ([0.0, 1.0], None);
-        Self { moduli, kolosov, curvature, modulus, faces, anisotropic, scale }
+        let coupling = 0.0;
+        Self { moduli, kolosov, curvature, modulus, faces, coupling, anisotropic, scale }
     }
 
     /// The body at a tip with a direction of growth.
@@ -68,6 +71,7 @@ impl TipMaterialBody {
             moduli: coefficients(law.stiffness()),
             modulus: 1.0 / law.compliance()[0],
             faces: law.faces(),
+            coupling: law.opening([0.0, 1.0]),
             anisotropic: Some(law.fields()),
             ..isotropic
         }

@@ -94,6 +94,7 @@ mod loads;
 mod path;
 mod resolve;
 mod sensitivity;
+mod singular;
 mod sums;
 #[cfg(test)]
 mod tests;
@@ -116,6 +117,7 @@ use ppum_solve::space::TrialSpace;
 pub use ppum_solve::terms::FaceLaw;
 use ppum_solve::watched::WorkPhase;
 pub(crate) use sensitivity::{Sensitivity, TipDisc};
+pub(crate) use singular::{WEIGHT, is_weight, singular_functions};
 use sums::RINGS;
 
 /// Radii in parts of the tip's [`TipClearance`]; the last one is preferred, its integral averages
@@ -146,8 +148,11 @@ pub struct TipResult {
     pub interface: Option<f64>,
     /// Its factors; none if the clearance is too small for them, see [`TipResult::needed`].
     pub factors: Option<TipIntensity>,
-    /// True if faces that may touch do so at the tip, so that K_I is nothing but an error.
+    /// True if faces that may touch do so at the tip, so that what opens them is nothing but an error.
     pub touches: bool,
+    /// The factor of the opening of the faces: K_I, of an anisotropic body K_I + C₁₂/C₁₁ K_II. Zero
+    /// without factors.
+    pub opening: f64,
     /// √(E′ W/R) with twice the strain energy W in the largest disc, of radius R: of the size that
     /// K has where the crack concentrates stress, and far above K where nothing does. Zero
     /// without factors.
@@ -210,6 +215,9 @@ pub(crate) fn intensities_by(
     let outcome =
         |tip| stage.advance(0).map(|()| TipResult::new(dataset, field, tip, loads.symmetry(tip)));
     let mut tips = tips(&field.step.cracks).map(outcome).collect::<Result<Vec<_>, _>>()?;
+    if is_weight(field) {
+        return Ok(tips);
+    }
     let wanted: Vec<_> = tips.iter_mut().filter(|outcome| outcome.has_room()).collect();
     let discs = wanted.iter().map(|o| (o.tip, RADII.map(|part| part * o.clearance.radius)));
     let integrals: Vec<_> = discs
@@ -220,7 +228,9 @@ pub(crate) fn intensities_by(
         outcome.touches = integral.touches(outcome.cell);
         outcome.energy_scale = found.energy_scale;
         outcome.doubt = found.doubt;
-        outcome.factors = Some(found.factors(outcome.tip));
+        let factors = found.factors(outcome.tip);
+        outcome.opening = factors.k1 + integral.body.coupling * factors.k2;
+        outcome.factors = Some(factors);
     }
     Ok(tips)
 }
@@ -240,6 +250,26 @@ pub(crate) fn sensitivities<'a>(
     let outcomes = tips(&field.step.cracks)
         .map(|tip| TipResult::new(dataset, field, tip, loads.symmetry(tip)));
     outcomes.filter(TipResult::has_room).filter_map(of_tip).map(Sensitivity).collect()
+}
+
+/// The functional of one tip over a disc in which its crack has no bend; none if that is too small
+/// for the cells at the tip.
+pub(crate) fn straight_sensitivity<'a>(
+    dataset: &Dataset,
+    field: &'a Field<'a>,
+    space: &'a TrialSpace<'a>,
+    law: &'a Law<'a>,
+    tip: TipId,
+    loads: &'a dyn TipLoads,
+) -> Option<Sensitivity<'a>> {
+    let outcome = TipResult::new(dataset, field, tip, loads.symmetry(tip));
+    let edge = field.step.cracks[tip.crack as usize].edge_to(tip.end);
+    let largest = (RADII[RINGS - 1] * outcome.clearance.radius).min(edge.length());
+    if largest < RADII[RINGS - 1] * outcome.needed() {
+        return None;
+    }
+    let radii = RADII.map(|part| part / RADII[RINGS - 1] * largest);
+    Interaction::new(field, space, law, tip, radii, loads).map(Sensitivity)
 }
 
 /// The reason why there are no factors on a circle.
@@ -331,7 +361,7 @@ fn on_plain(
         return Err(CircleError::Disturbed(TipClearance::NONE));
     }
     let Dataset { domain, equation, tables, .. } = dataset;
-    if !field.is_displacement() {
+    if !field.is_displacement() || is_weight(&field) {
         return Err(CircleError::NoDisplacement);
     }
     let space = TrialSpace::new(field.step, domain, equation, tables).map_err(FieldError::from)?;
@@ -376,6 +406,7 @@ impl TipResult {
             interface,
             factors: None,
             touches: false,
+            opening: 0.0,
             energy_scale: 0.0,
             doubt: QuadratureErrorEstimate::default(),
         }

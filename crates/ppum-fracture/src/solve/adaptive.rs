@@ -5,7 +5,7 @@ use super::clock::Clock;
 use super::diagnosed::{Diagnosed, GoalError};
 use super::plan::{Plan, most_cells};
 use super::solved::Solved;
-use ppum::dataset::Dataset;
+use ppum::dataset::{Dataset, Step};
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
 use ppum_problem::{Adaptivity, StepsKept};
@@ -23,24 +23,51 @@ pub(super) fn solve_adaptively(
     set: &Adaptivity,
     watcher: &dyn Watcher,
 ) -> Result<Dataset, SolveError> {
-    let (mut plan, mut kept, mut step) = (first, Vec::new(), 0);
-    loop {
-        let here = StepWatcher { watcher, step };
-        let diagnosed = Diagnosed::new(Solved::new(plan, &here)?, &here)?;
-        step += 1;
-        match diagnosed.next(set, step, &StepWatcher { watcher, step })? {
-            Ok(next) => {
-                if set.keep == StepsKept::All {
-                    kept.append(&mut diagnosed.dataset(None, &here)?.steps);
+    let Adapted { last, stop, mut kept, step } = Adapted::new(first, set, watcher)?;
+    let mut dataset = last.dataset(Some(stop), &StepWatcher { watcher, step })?;
+    kept.append(&mut dataset.steps);
+    dataset.steps = kept;
+    Ok(dataset)
+}
+
+/// The mesh of the last step.
+///
+/// # Errors
+/// See [`SolveError`].
+pub(super) fn adapted_mesh(
+    first: Plan<'_>,
+    set: &Adaptivity,
+    watcher: &dyn Watcher,
+) -> Result<CoverMesh, SolveError> {
+    let set = &Adaptivity { keep: StepsKept::Last, ..*set };
+    Adapted::new(first, set, watcher).map(|adapted| adapted.last.solved.plan.mesh)
+}
+
+/// The last step of an adaptation, with its number, what ended it, and the steps before it that
+/// are kept.
+struct Adapted<'p> {
+    last: Diagnosed<'p>,
+    stop: StopReason,
+    kept: Vec<Step>,
+    step: usize,
+}
+
+impl<'p> Adapted<'p> {
+    fn new(first: Plan<'p>, set: &Adaptivity, watcher: &dyn Watcher) -> Result<Self, SolveError> {
+        let (mut plan, mut kept, mut step) = (first, Vec::new(), 0);
+        loop {
+            let here = StepWatcher { watcher, step };
+            let last = Diagnosed::new(Solved::new(plan, &here)?, &here)?;
+            match last.next(set, step + 1, &StepWatcher { watcher, step: step + 1 })? {
+                Ok(next) => {
+                    if set.keep == StepsKept::All {
+                        kept.append(&mut last.dataset(None, &here)?.steps);
+                    }
+                    plan = next;
                 }
-                plan = next;
+                Err(stop) => return Ok(Self { last, stop, kept, step }),
             }
-            Err(stop) => {
-                let mut dataset = diagnosed.dataset(Some(stop), &here)?;
-                kept.append(&mut dataset.steps);
-                dataset.steps = kept;
-                return Ok(dataset);
-            }
+            step += 1;
         }
     }
 }

@@ -2,7 +2,8 @@
 
 use super::SolveError;
 use super::plan::Plan;
-use crate::intensity::{LoadCase, Sensitivity, TipDisc, sensitivities};
+use crate::intensity::{LoadCase, Sensitivity, TipDisc, sensitivities, straight_sensitivity};
+use ppum::crack::TipId;
 use ppum::field::Field;
 use ppum::progress::{Phase, Watcher};
 use ppum_problem::Problem;
@@ -28,6 +29,8 @@ pub(super) struct Assembled {
     pub(super) contacts: FaceContacts,
     /// The discs of the tips whose factors are functionals of the system.
     pub(super) tips: Vec<TipDisc>,
+    /// True if each tip has dual solutions of its own, which are exact and without rigid motions.
+    pub(super) are_exact: bool,
 }
 
 impl Assembled {
@@ -40,12 +43,30 @@ impl Assembled {
         law: &Law<'_>,
         watcher: &dyn Watcher,
     ) -> Result<Self, SolveError> {
+        Self::with(plan, law, None, watcher)
+    }
+
+    /// The system with the functionals of some tips, each its own, or with the sums of those of
+    /// all tips.
+    pub(super) fn with(
+        plan: &mut Plan<'_>,
+        law: &Law<'_>,
+        tips: Option<&[TipId]>,
+        watcher: &dyn Watcher,
+    ) -> Result<Self, SolveError> {
+        let are_exact = tips.is_some();
         let (given, plate) = plan.loaded(watcher)?;
         let Plan { problem, dataset, space, clock, .. } = plan;
         let field = Field::new(dataset, 0)?;
         // loads change no sensitivity
         let loads = LoadCase { problem: Some(problem), factor: 0.0 };
-        let tips = sensitivities(dataset, &field, space, law, &loads);
+        let tips = match tips {
+            None => sensitivities(dataset, &field, space, law, &loads),
+            Some(tips) => {
+                let of_tip = |&tip| straight_sensitivity(dataset, &field, space, law, tip, &loads);
+                tips.iter().filter_map(of_tip).collect()
+            }
+        };
         let basis = stable_basis(problem, space, law, watcher)?;
         clock.lap(Phase::Basis);
         let assembly = Assembly { problem, space, basis: &basis, law };
@@ -53,6 +74,7 @@ impl Assembled {
         let free = FreeModes::new(&plate);
         let duals =
             DualLoads::new(tips.iter().map(|tip| tip as &dyn LinearFunctional).collect(), space);
+        let duals = if are_exact { duals.separate() } else { duals };
         let functionals = Functionals { free: &free, duals: &duals };
         let system = System::new(assembly, &given, functionals, &stage);
         let mut system = system.map_err(SolveError::of_data)?;
@@ -65,7 +87,7 @@ impl Assembled {
         let constraint = constraint.with_supports(&problem.supports, &conditions, &values);
         clock.lap(Phase::Assembly);
         let tips = tips.iter().map(Sensitivity::disc).collect();
-        Ok(Self { plate, basis, system, constraint, contacts, tips })
+        Ok(Self { plate, basis, system, constraint, contacts, tips, are_exact })
     }
 }
 

@@ -124,7 +124,7 @@ impl FactorErrors {
         // the factors themselves tell of their errors, too
         let own = results.iter().filter_map(|tip| Some((tip, tip.factors.as_ref()?)));
         let errors = sums.into_iter().zip(own).map(|([one, two], (tip, factors))| {
-            let of_tip = if tip.touches { factors.k1.abs() } else { 0.0 };
+            let of_tip = if tip.touches { tip.opening.abs() } else { 0.0 };
             let of_discs = OF_DISCS * factors.largest_difference().max(0.0);
             one.error().hypot(two.error()) + (of_discs + of_tip)
         });

@@ -12,10 +12,13 @@ mod assembled;
 mod clock;
 mod contact;
 mod diagnosed;
+mod duals;
 mod goal;
 mod plan;
 mod solved;
 mod unknowns;
+
+pub(crate) use duals::DualSolutions;
 
 pub use crate::error::SolveError;
 pub use crate::estimate::Estimate;

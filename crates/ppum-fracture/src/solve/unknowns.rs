@@ -46,7 +46,7 @@ impl Unknowns {
     fn of_kind(
         kind: LinearKind,
         Plan { problem, mesh, space, .. }: &Plan<'_>,
-        Assembled { plate, basis, system, constraint, contacts, .. }: &mut Assembled,
+        Assembled { plate, basis, system, constraint, contacts, are_exact, .. }: &mut Assembled,
         watcher: &dyn Watcher,
     ) -> Result<Self, SolveError> {
         let located = |error| located(error, space);
@@ -83,7 +83,13 @@ impl Unknowns {
             contacts.report(&stresses, &mut report);
         }
         let mut all = vec![solution.unknowns];
-        if !system.duals.is_empty() {
+        if *are_exact {
+            for mut dual in solver.solve_all(&system.duals).map_err(located)? {
+                let unknowns = &mut dual.unknowns;
+                constraint.center(solver, &system.matrix, unknowns).map_err(located)?;
+                all.push(dual.unknowns);
+            }
+        } else if !system.duals.is_empty() {
             all.append(&mut solver.solve_roughly(&system.duals).map_err(located)?);
         }
         let contact = contacts.errors(&system.matrix, &all);

@@ -55,6 +55,7 @@ mod tip_terms;
 mod visible;
 mod warnings;
 mod watched;
+mod weight_functions;
 mod weights;
 mod williams;
 

@@ -137,6 +137,7 @@ excluded! {
     DirectedToughness, OtherCriterion => "a `toughness` by `direction` goes with the largest hoop stress over it alone";
     CriticalLoad, GrowthLaw => "`load = \"critical\"` is for one load that grows, a law of growth for many cycles of the same";
     ToughnessRate, NoToughness => "the law of growth needs a `toughness`, which its rate depends on";
+    ToughnessRate, DirectedToughness => "the law of growth takes one `toughness` at a point, and none by `direction`";
     OpeningRate, NoClosure => "the law of growth needs a `closure`, which its rate depends on";
     CriticalLoad, GivenStrains => "`load = \"critical\"` multiplies the loads by a factor, but not temperatures and given strains";
     SolvedTemperature, Contact => "a temperature that is solved for jumps across cracks whose faces touch";

@@ -27,6 +27,7 @@ from ._sample import Sample as _Sample
 from ._sections import arc, ellipse
 from ._sweep import Sweep, sweep
 from ._views import View
+from ._weights import Factors, Influence, Weight, weight as _weight
 from ._warnings import renamed as _renamed
 
 # of `ppum.` alone: `from ppum import *` leaves Python's own as it is
@@ -38,9 +39,10 @@ __version__ = _core.VERSION
 COLORMAPS: tuple[str, ...] = tuple(_core.colormaps())
 
 __all__ = [
-    "COLORMAPS", "Animation", "Anisotropic", "BuildError", "Crack", "Dataset", "Diagnostic", "Elastic", "Field", "Figure", "FormatError",
-    "Hole", "InternalError", "Poisson", "PpumError", "Problem", "ProblemError", "QuantityError", "RenderError", "SolveError",
-    "Step", "Sweep", "Tip", "TriangleMesh", "View", "arc", "basis", "build", "ellipse", "link", "meshes",
+    "COLORMAPS", "Animation", "Anisotropic", "BuildError", "Crack", "Dataset", "Diagnostic", "Elastic", "Factors", "Field", "Figure",
+    "FormatError", "Hole", "Influence", "InternalError", "Poisson", "PpumError", "Problem", "ProblemError", "QuantityError",
+    "RenderError", "SolveError", "Step", "Sweep", "Tip", "TriangleMesh", "View", "Weight", "arc", "basis", "build", "ellipse",
+    "link", "meshes",
     "plots", "results", "solve", "sweep",
 ]  # fmt: skip
 
@@ -66,6 +68,7 @@ def _viewer(*args: _Any, **options: _Any) -> _Any:
 
 
 # attributes of lower layers that are of upper ones
+Dataset.weight = _weight
 Dataset._parsed, Field._viewer = staticmethod(Problem.parse), staticmethod(_viewer)
 for _kind in (_Sample, _Draw, _Export, _Compare):
     setattr(Field, _kind.__name__.lower(), _Accessor(_kind))

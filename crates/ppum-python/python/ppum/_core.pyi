@@ -17,13 +17,14 @@ _Data = dict[str, Any]
 _Finding = tuple[str, int | None, int | None, str]
 _Point = tuple[float, float]
 _Extremum = tuple[float, _Point, _Point, str, str | None]
+_ProblemText = tuple[str, str, Path]
 _Norms = tuple[list[float], list[float], list[int]]
 
 __all__ = [
     "VERSION", "Curves", "Dataset", "Field", "Triangles", "_panic", "animation", "build", "check", "check_request",
-    "check_target", "colormap", "colormaps", "compare", "default_request", "extrema", "figure", "frame", "from_bytes",
-    "intensities", "option_texts", "page", "probe", "profiles", "read", "render", "replace", "reports", "resample", "rgba",
-    "scattered", "solve", "triangles", "vtkhdf",
+    "check_target", "colormap", "colormaps", "compare", "default_request", "derivative", "extrema", "factor", "figure", "frame",
+    "from_bytes", "influence", "intensities", "option_texts", "page", "polynomials", "probe", "profiles", "rate", "read",
+    "render", "replace", "reports", "resample", "rgba", "scattered", "solve", "triangles", "vtkhdf", "weight_functions",
 ]  # fmt: skip
 
 VERSION: Final[str]
@@ -107,6 +108,16 @@ def extrema(this: Field, name: str, view: View) -> tuple[_Extremum, _Extremum] |
 def intensities(
     this: Field, on: tuple[int, float] | None, progress: _Progress | None
 ) -> tuple[list[_Data], list[str], list[str]]: ...
+def weight_functions(
+    dataset: Dataset, step: int, tip: int | None, memory: int | None, progress: _Progress | None
+) -> tuple[Dataset, list[int]]: ...
+def factor(weights: Dataset, loads: _ProblemText) -> list[float]: ...
+def influence(
+    weights: Dataset, step: int, loads: _ProblemText, condition: int | None
+) -> tuple[_Floats, _Floats, NDArray[np.bool_], _Floats, _Floats, _Floats]: ...
+def polynomials(weights: Dataset, count: int) -> list[list[float]]: ...
+def rate(weights: Dataset, parts: list[tuple[int, float]]) -> Dataset: ...
+def derivative(weights: Dataset, solution: Dataset, loads: list[_ProblemText], between: float) -> list[float]: ...
 def vtkhdf(steps: list[Triangles]) -> bytes: ...
 def triangles(
     this: Field, names: list[str] | None, tolerance: float, radius: float | None, most: int, order: int, average: bool,

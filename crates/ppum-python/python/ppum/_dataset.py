@@ -24,6 +24,7 @@ from ._text import plural
 
 if TYPE_CHECKING:
     from ._problem import Problem
+    from ._weights import Weight
     from ._widget import Viewer
 
 
@@ -134,6 +135,8 @@ class Dataset:
 
     #: Makes problems of their texts, which are of an upper layer; bound by the package.
     _parsed: ClassVar[Any]
+    #: Computes the weight functions of a tip, `Weight`; bound by the package.
+    weight: ClassVar[Callable[..., Weight]]
 
     def __init__(self, core: _core.Dataset) -> None:
         if not isinstance(core, _core.Dataset):

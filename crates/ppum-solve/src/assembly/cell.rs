@@ -89,6 +89,7 @@ impl<'s> CellAssembler<'s> {
             self.load(rule, shared, &mut system);
             self.prestress(rule, &mut system);
         }
+        self.add_own_duals(cell, &mut plain);
         system.add_functionals(&plain, self.assembly.basis, self.assembly.components());
         system.known =
             plain.moments.iter().map(|m| self.known_value(&plain.functions, m)).collect();
@@ -228,6 +229,18 @@ impl<'s> CellAssembler<'s> {
         let (numbers, shapes) = (plain.functions.numbers(&rule.patches), self.evaluator.plain());
         all.free.add(rule, shapes, &numbers, self.assembly.components(), &mut plain.moments);
         all.duals.add((cell, rule), shapes, &numbers, &mut plain.duals);
+    }
+}
+
+impl CellAssembler<'_> {
+    /// Adds the functionals of tips that have rules of their own.
+    fn add_own_duals(&mut self, cell: usize, plain: &mut CellSystem) {
+        let Some(Functionals { duals, .. }) = self.functionals else { return };
+        for (tip, rule) in duals.own_rules(cell) {
+            self.evaluator.see(&rule);
+            let numbers = plain.functions.numbers(&rule.patches);
+            duals.add_tip((tip, &rule), self.evaluator.plain(), &numbers, &mut plain.duals);
+        }
     }
 }
 

@@ -24,6 +24,7 @@ mod spring;
 mod stiffness;
 mod system;
 mod template;
+mod work;
 
 pub use cell::Functionals;
 pub use contact::{CellErrors, FaceContacts, FaceState, RowFactors};
@@ -34,3 +35,4 @@ pub use null_space::{FreeModes, NullSpaceConstraint};
 pub use point::values_at;
 pub use prescribed::PrescribedData;
 pub use system::{System, pattern, slivers};
+pub use work::{Influence, PENALTY, WorkOnField};

@@ -50,6 +50,8 @@ struct CellFacts {
     doubt: QuadratureErrorEstimate,
     /// Seconds that one core took to find its points and integrate.
     seconds: f64,
+    /// Nitsche's β over the modulus.
+    penalty: f64,
 }
 
 /// Nitsche's β in units of (λ + 2μ) / width from which on a cell's boundary is cut into slivers;
@@ -155,7 +157,8 @@ impl System {
                 let stiffness = made.or(template).expect("it is made unless there is a template");
                 let doubt = doubt_of(&rules, &pieces);
                 let seconds = start.elapsed().as_secs_f64();
-                Ok((CellFacts { points, doubt, seconds }, part, stiffness))
+                let facts = CellFacts { points, doubt, seconds, penalty: part.penalty };
+                Ok((facts, part, stiffness))
             },
             |cell, (facts, part, stiffness)| {
                 system.cells.push(facts);
@@ -191,6 +194,11 @@ impl System {
     /// Returns the seconds that one core took for each cell.
     pub fn seconds(&self) -> Vec<f64> {
         self.cells.iter().map(|cell| cell.seconds).collect()
+    }
+
+    /// Returns Nitsche's β of each cell over the largest modulus on its boundary.
+    pub fn penalties(&self) -> Vec<f64> {
+        self.cells.iter().map(|cell| cell.penalty).collect()
     }
 
     /// Bytes of the matrix and of all right-hand sides.

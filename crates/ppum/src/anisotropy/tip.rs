@@ -3,6 +3,7 @@
 use super::{PlaneStiffness, inverse};
 use crate::complex::Complex;
 use crate::crack::TipPoint;
+use crate::dataset::TipIntensity;
 use ppum_formula::real::Real;
 use std::f64::consts::{PI, TAU};
 
@@ -99,6 +100,20 @@ impl TipLaw {
     pub fn energy_release(&self, [k1, k2]: [f64; 2]) -> f64 {
         let [a, b, c] = self.energy();
         0.5 * (a * k1 * k1 + 2.0 * b * k1 * k2 + c * k2 * k2)
+    }
+
+    /// The factor of the opening of the faces, K_I + C₁₂/C₁₁ K_II: they are closed where it is zero.
+    #[must_use]
+    pub fn opening(&self, [k1, k2]: [f64; 2]) -> f64 {
+        let [along, across, _] = self.energy();
+        k1 + across / along * k2
+    }
+
+    /// True unless the faces overlap by more than the error of the factors.
+    #[must_use]
+    pub fn opens(&self, factors: &TipIntensity) -> bool {
+        let opening = self.opening([factors.k1, factors.k2]);
+        opening >= -factors.tolerance() && factors.k1.hypot(factors.k2) > 0.0
     }
 
     /// √(2πr) σ_θθ in a direction, of factors.

@@ -94,11 +94,15 @@ impl TipIntensity {
     #[must_use]
     pub fn growth_angle(&self) -> Option<f64> {
         let (k1, k2) = (self.k1, self.k2);
-        let error = (NOISE * k1.hypot(k2)).max(self.error.unwrap_or(0.0));
-        let opens = k1 >= -error && k1.hypot(k2) > 0.0;
+        let opens = k1 >= -self.tolerance() && k1.hypot(k2) > 0.0;
         let k1 = k1.max(0.0);
         let root = k1.hypot(8f64.sqrt() * k2);
         opens.then(|| 2.0 * (-2.0 * k2).atan2(k1 + root))
+    }
+
+    /// How negative the factor of an opening may be where it should be zero.
+    pub(crate) fn tolerance(&self) -> f64 {
+        (NOISE * self.k1.hypot(self.k2)).max(self.error.unwrap_or(0.0))
     }
 
     /// The largest difference of two rings, |ΔK| / |K| with K = (K_I, K_II) and the preferred
