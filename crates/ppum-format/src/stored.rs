@@ -254,7 +254,7 @@ macro_rules! words {
 }
 
 words! {
-    StressState: PlaneStrain "plane-strain", PlaneStress "plane-stress";
+    StressState: PlaneStrain "plane-strain", PlaneStress "plane-stress", Axisymmetric "axisymmetric";
     End: Start "start", Last "last";
     GrowthStop: NoTips "no-tips", AllHeld "all-held", Fracture "fracture",
         PieceComesOff "piece-comes-off", Unsolvable "unsolvable";
@@ -279,7 +279,8 @@ macro_rules! kinds {
 }
 
 kinds! {
-    EquationKind: Elasticity "elasticity", Eigenstrain "eigenstrain", Anisotropic "anisotropic", Poisson "poisson", None "none";
+    EquationKind: Elasticity "elasticity", Eigenstrain "eigenstrain", Anisotropic "anisotropic", Poisson "poisson",
+        None "none", AxisymmetricPoisson "axisymmetric-poisson";
     HoleKind: Circle "circle", Polygon "polygon", Outside "outside",
         CurvedPolygon "curved-polygon", CurvedOutside "curved-outside";
     // readers of files before 1.2 know the first alone

@@ -1,7 +1,8 @@
 //! The equation behind a field and its material, the same everywhere or given by formulas.
 
-use crate::anisotropy::{Anisotropy, weakest_direction};
-use crate::dataset::TipIntensity;
+mod anisotropic;
+
+use crate::anisotropy::Anisotropy;
 use crate::domain::Domain;
 use crate::expression::Expression;
 use crate::vec2::{Vec2, vec2};
@@ -19,6 +20,8 @@ pub enum Equation {
     Poisson {
         /// κ > 0, at every point of the domain.
         conductivity: Expression,
+        /// True if the plane is the half-plane of a body of revolution, x the radius.
+        axisymmetric: bool,
     },
     /// No equation: a field of any number of components, without a material.
     None,
@@ -31,7 +34,7 @@ pub struct Elasticity {
     pub young: Expression,
     /// Poisson's ratio ν; see [`Material::poisson`] for its range.
     pub poisson: Expression,
-    /// Plane strain or plane stress.
+    /// Plane strain, plane stress, or a body of revolution.
     pub state: StressState,
     /// Strains ε⁰ that make no stress where the body takes them: σ = C(ε − ε⁰).
     pub eigenstrain: Option<Box<Eigenstrain>>,
@@ -44,7 +47,7 @@ pub struct Elasticity {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Eigenstrain {
     /// ε⁰_xx, ε⁰_yy, ε⁰_xy and ε⁰_zz, such as α ΔT of a temperature given by a formula. ε⁰_zz has
-    /// no effect in plane stress.
+    /// no effect in plane stress, and is the hoop strain in a body of revolution.
     pub strains: [Expression; 4],
     /// The coefficient α of thermal expansion, if the third component of the field is a change of
     /// temperature T: it strains the body by α T in all directions, beside `strains`.
@@ -85,18 +88,6 @@ impl Elasticity {
     }
 }
 
-impl Elasticity {
-    /// The energy that a tip at a place with a direction of growth releases by its factors, per
-    /// length of growth and thickness.
-    #[must_use]
-    pub fn energy_release(&self, factors: &TipIntensity, [tip, axis]: [Vec2; 2]) -> f64 {
-        match &self.anisotropy {
-            Some(law) => law.at_tip(tip, axis).energy_release([factors.k1, factors.k2]),
-            None => factors.energy_release(&self.at(tip)),
-        }
-    }
-}
-
 impl From<Material> for Elasticity {
     fn from(material: Material) -> Self {
         let Material { young, poisson, state } = material;
@@ -115,7 +106,17 @@ impl Equation {
     /// Poisson's equation with one conductivity κ.
     #[must_use]
     pub fn poisson(conductivity: f64) -> Self {
-        Self::Poisson { conductivity: conductivity.into() }
+        Self::Poisson { conductivity: conductivity.into(), axisymmetric: false }
+    }
+
+    /// True if the body is one of revolution about x = 0, of which the plane is the half x ≥ 0.
+    #[must_use]
+    pub fn is_axisymmetric(&self) -> bool {
+        match self {
+            Self::Elasticity(body) => body.state == StressState::Axisymmetric,
+            Self::Poisson { axisymmetric, .. } => *axisymmetric,
+            Self::None => false,
+        }
     }
 
     /// The names of the components of the field: ux and uy, and `temperature` of an elastic body
@@ -153,7 +154,7 @@ impl Equation {
         let list = match self {
             Self::Elasticity(Elasticity { anisotropy: Some(_), .. }) | Self::None => [None, None],
             Self::Elasticity(e) => [Some(("young", &e.young)), Some(("poisson", &e.poisson))],
-            Self::Poisson { conductivity } => [Some(("conductivity", conductivity)), None],
+            Self::Poisson { conductivity, .. } => [Some(("conductivity", conductivity)), None],
         };
         let expansion = self.expansion().map(|expansion| (EXPANSION, expansion));
         let isotropic = list.into_iter().flatten();
@@ -166,21 +167,12 @@ impl Equation {
         self.elastic()?.anisotropy.as_deref()
     }
 
-    /// The angle from the crack's direction in which the hoop stress beside a tip is largest, see
-    /// [`TipIntensity::growth_angle`].
-    #[must_use]
-    pub fn growth_angle(&self, factors: &TipIntensity, [tip, axis]: [Vec2; 2]) -> Option<f64> {
-        let Some(law) = self.anisotropy().map(|law| law.at_tip(tip, axis)) else {
-            return factors.growth_angle();
-        };
-        let hoop = |theta| law.hoop_stress([factors.k1, factors.k2], theta);
-        law.opens(factors).then(|| weakest_direction(hoop, |_| 1.0))
-    }
-
     /// The constants of an anisotropic body with their names.
     pub fn stiffness(&self) -> impl Iterator<Item = (&'static str, &Expression)> {
         let body = self.elastic();
-        body.into_iter().flat_map(|e| e.anisotropy.iter().flat_map(|a| a.constants(e.state)))
+        body.into_iter().flat_map(|e| {
+            e.anisotropy.iter().flat_map(|a| a.constants(e.state == StressState::PlaneStrain))
+        })
     }
 
     /// The expressions of the given strains with their names.
@@ -261,19 +253,25 @@ impl Equation {
             (!(value > 0.0 && value.is_finite())).then(message)
         };
         match self {
+            Self::Elasticity(Elasticity {
+                anisotropy: Some(_),
+                state: StressState::Axisymmetric,
+                ..
+            }) => Some(("state", "is axisymmetric, but anisotropic bodies are plane".into())),
             Self::Elasticity(Elasticity { anisotropy: Some(law), state, .. }) => {
-                law.invalid(*state, p)
+                law.invalid(*state == StressState::PlaneStrain, p)
             }
             Self::Elasticity(e) => positive("young", &e.young).or_else(|| {
                 let nu = e.poisson.value(p);
                 let (possible, rule) = match e.state {
                     StressState::PlaneStrain => (nu < 0.5, "-1 < ν < 0.5 in plane strain"),
                     StressState::PlaneStress => (nu <= 0.5, "-1 < ν ≤ 0.5 in plane stress"),
+                    StressState::Axisymmetric => (nu < 0.5, "-1 < ν < 0.5 in a body of revolution"),
                 };
                 let message = || ("poisson", format!("is {nu}, but {rule}"));
                 (!(possible && nu > -1.0)).then(message)
             }),
-            Self::Poisson { conductivity } => positive("conductivity", conductivity),
+            Self::Poisson { conductivity, .. } => positive("conductivity", conductivity),
             Self::None => None,
         }
     }
@@ -306,7 +304,8 @@ impl Equation {
             Self::Elasticity(e) => {
                 let (young, poisson) =
                     (e.young.values(anchor, offset), e.poisson.values(anchor, offset));
-                let moduli = Moduli::new(young, poisson, e.state);
+                let axisymmetric = e.state == StressState::Axisymmetric;
+                let moduli = Moduli { axisymmetric, ..Moduli::new(young, poisson, e.state) };
                 match &e.eigenstrain {
                     None => moduli,
                     Some(given) => {
@@ -324,7 +323,7 @@ impl Equation {
                     }
                 }
             }
-            Self::Poisson { conductivity } => {
+            Self::Poisson { conductivity, .. } => {
                 let zero = offset[0].broadcast(0.0);
                 let conductivity = conductivity.values(anchor, offset);
                 Moduli { conductivity, ..Moduli::all(zero) }
@@ -360,6 +359,8 @@ pub struct Moduli<R> {
     pub expansion: R,
     /// α of the third direction: zero in plane stress.
     pub expansion_out: R,
+    /// True if the third direction has the hoop strain of a body of revolution.
+    pub axisymmetric: bool,
 }
 
 impl<R: Copy> Moduli<R> {
@@ -377,6 +378,7 @@ impl<R: Copy> Moduli<R> {
             eigenstrain: [value; 4],
             expansion: value,
             expansion_out: value,
+            axisymmetric: false,
         }
     }
 }
@@ -389,7 +391,7 @@ impl<R: Real> Moduli<R> {
         let (zero, one) = (young.broadcast(0.0), young.broadcast(1.0));
         let mu = young / (one.broadcast(2.0) * (one + poisson));
         let (denominator, out_of_plane) = match state {
-            StressState::PlaneStrain => {
+            StressState::PlaneStrain | StressState::Axisymmetric => {
                 ((one + poisson) * (one - one.broadcast(2.0) * poisson), poisson)
             }
             StressState::PlaneStress => (one - poisson * poisson, zero),
@@ -403,7 +405,7 @@ impl<R: Real> Moduli<R> {
         let [xx, yy, xy, zz] = self.eigenstrain;
         let (zz, out) = match state {
             StressState::PlaneStress => (zz.broadcast(0.0), zz.broadcast(0.0)),
-            StressState::PlaneStrain => (zz, self.expansion),
+            StressState::PlaneStrain | StressState::Axisymmetric => (zz, self.expansion),
         };
         Self { eigenstrain: [xx, yy, xy, zz], expansion_out: out, ..self }
     }
@@ -415,6 +417,15 @@ impl<R: Real> Moduli<R> {
         let [xx, yy, xy, zz] = self.eigenstrain;
         let (plane, out) = (self.expansion * temperature, self.expansion_out * temperature);
         Self { eigenstrain: [xx + plane, yy + plane, xy, zz + out], ..*self }
+    }
+
+    /// The moduli where the third direction takes a hoop strain: that of plane strain, of which it
+    /// is given away, has the same stresses.
+    #[inline(always)]
+    #[must_use]
+    pub fn with_hoop_strain(&self, hoop: R) -> Self {
+        let [xx, yy, xy, zz] = self.eigenstrain;
+        Self { eigenstrain: [xx, yy, xy, zz - hoop], ..*self }
     }
 
     /// The strains in the plane under which σ_xx, σ_yy and σ_xy vanish: those given, and in plane
@@ -435,7 +446,7 @@ pub struct Material {
     pub young: f64,
     /// Poisson's ratio, −1 < ν < 1/2 (plane stress: −1 < ν ≤ 1/2).
     pub poisson: f64,
-    /// Plane strain or plane stress.
+    /// Plane strain, plane stress, or a body of revolution.
     pub state: StressState,
 }
 
@@ -446,6 +457,9 @@ pub enum StressState {
     PlaneStrain,
     /// σ_zz = 0.
     PlaneStress,
+    /// The third direction is that around the axis x = 0 of a body of revolution, with the strain
+    /// u_x/x. The moduli are those of plane strain, as the fields of cracks are.
+    Axisymmetric,
 }
 
 impl Material {
@@ -466,7 +480,7 @@ impl Material {
     #[must_use]
     pub fn kolosov(&self) -> f64 {
         match self.state {
-            StressState::PlaneStrain => 3.0 - 4.0 * self.poisson,
+            StressState::PlaneStrain | StressState::Axisymmetric => 3.0 - 4.0 * self.poisson,
             StressState::PlaneStress => (3.0 - self.poisson) / (1.0 + self.poisson),
         }
     }
@@ -475,8 +489,8 @@ impl Material {
     #[must_use]
     pub fn effective_young(&self) -> f64 {
         match self.state {
-            StressState::PlaneStrain => self.young / (1.0 - self.poisson * self.poisson),
             StressState::PlaneStress => self.young,
+            _ => self.young / (1.0 - self.poisson * self.poisson),
         }
     }
 

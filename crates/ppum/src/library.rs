@@ -206,8 +206,8 @@ pub const EIGENSTRAIN: [Definition; 14] = [
 ];
 
 /// The quantities of stresses in an anisotropic body, in place of those of [`ELASTICITY`]: of the
-/// elastic strains along its axes, with its constants `c11`, … and the angle `axis`. In plane stress
-/// the constants of the third direction are zero, and so is σ_zz.
+/// elastic strains along its axes, with its constants `c11`, … and the angle `axis`. In plane
+/// stress the constants of the third direction are zero, and so is σ_zz.
 pub const ANISOTROPY: [Definition; 20] = [
     ("elastic_xx", "exx - eigenstrain_xx"),
     ("elastic_yy", "eyy - eigenstrain_yy"),
@@ -230,6 +230,11 @@ pub const ANISOTROPY: [Definition; 20] = [
     ("hydrostatic", "(s11 + s22 + szz)/3"),
     ("energy", "(s11*e11 + s22*e22 + 2*s12*e12 - szz*eigenstrain_zz)/2"),
 ];
+
+/// The hoop strain of a body of revolution, u_x/x. The third direction of plane strain is given it
+/// away, ε⁰_zz − u_x/x in place of ε⁰_zz: so all formulas of [`EIGENSTRAIN`] hold, with σ_zz the
+/// hoop stress.
+pub const HOOP_STRAIN: Definition = ("ehoop", "if(x == 0, dux_dx, ux/x)");
 
 /// Number of quantities of [`ELASTICITY`] before those that [`EIGENSTRAIN`] and [`ANISOTROPY`] take
 /// the place of.

@@ -37,7 +37,7 @@ fn has(kind: EquationKind, name: &str) -> bool {
             is_isotropic || is_given || name == "state" || name == EXPANSION
         }
         EquationKind::Anisotropic => is_given || name == "state" || STIFFNESS.contains(&name),
-        EquationKind::Poisson => name == "conductivity",
+        EquationKind::Poisson | EquationKind::AxisymmetricPoisson => name == "conductivity",
         EquationKind::None => false,
     }
 }
@@ -59,6 +59,7 @@ fn put(equation: &Equation, group: &mut GroupWriter) -> EncodeResult {
                 None => EquationKind::Elasticity,
             }
         }
+        Equation::Poisson { axisymmetric: true, .. } => EquationKind::AxisymmetricPoisson,
         Equation::Poisson { .. } => EquationKind::Poisson,
         Equation::None => EquationKind::None,
     };
@@ -84,7 +85,10 @@ fn take(group: &GroupReader) -> Equation {
             }),
         }),
         EquationKind::Anisotropic => anisotropic(group),
-        EquationKind::Poisson => Equation::Poisson { conductivity: constant("conductivity") },
+        EquationKind::Poisson | EquationKind::AxisymmetricPoisson => Equation::Poisson {
+            conductivity: constant("conductivity"),
+            axisymmetric: kind == EquationKind::AxisymmetricPoisson,
+        },
         EquationKind::None => Equation::None,
     }
 }

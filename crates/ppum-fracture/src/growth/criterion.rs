@@ -98,7 +98,7 @@ impl Drive {
         strength: impl Fn(f64) -> f64,
     ) -> Option<Self> {
         let opens = match law {
-            Some(law) => law.opens(factors),
+            Some(law) => law.opens([factors.k1, factors.k2], factors.tolerance()),
             None => factors.growth_angle().is_some(),
         };
         if !opens {

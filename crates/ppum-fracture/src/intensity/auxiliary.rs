@@ -87,12 +87,18 @@ impl TipMaterialBody {
         coefficients(turned([xx + both, c12, c16, yy + both, c26, c66], [axis.x, -axis.y]))
     }
 
-    /// The fields at a point.
-    pub(super) fn fields_at(&self, point: &TipPoint<f64>) -> [Auxiliary; MODES] {
+    /// ν of plane strain, by λ and μ.
+    pub(super) fn poisson(&self) -> f64 {
+        let [lambda, mu, ..] = self.moduli;
+        0.5 * lambda / (lambda + mu)
+    }
+
+    /// The fields at a point, with derivatives up to `D`.
+    pub(super) fn fields_at<const D: usize>(&self, point: &TipPoint<f64>) -> [Auxiliary; MODES] {
         if self.curvature == 0.0 {
-            self.fields::<f64, 1>(point)
+            self.fields::<f64, D>(point)
         } else {
-            self.arc_fields::<f64, 1>(point)
+            self.arc_fields::<f64, D>(point)
         }
     }
 

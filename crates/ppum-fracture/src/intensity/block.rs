@@ -52,9 +52,9 @@ impl<'a> Interaction<'a> {
 /// Points that see a tip from one anchor.
 pub(super) struct PointBlock<'b> {
     tip: &'b Interaction<'b>,
-    local_tip: LocalTip<'b>,
-    anchor: Vec2,
-    offsets: &'b [Vec2],
+    pub(super) local_tip: LocalTip<'b>,
+    pub(super) anchor: Vec2,
+    pub(super) offsets: &'b [Vec2],
     /// None where all points are alike, and no force acts.
     locals: Option<Vec<PointTerms>>,
 }
@@ -94,7 +94,10 @@ impl<'b> PointBlock<'b> {
         for (modes, sums) in integrals.modes.iter_mut().zip(sums.chunks_exact(MODES)) {
             modes.copy_from_slice(sums);
         }
-        integrals
+        match self.tip.ring {
+            Some(_) => integrals.plus(self.tip.around_axis(self, weights, jets)),
+            None => integrals,
+        }
     }
 
     fn is_curved(&self) -> bool {
@@ -103,7 +106,9 @@ impl<'b> PointBlock<'b> {
 
     /// G of both modes, times the weights.
     pub(super) fn kernels(&self, weights: &[f64]) -> Vec<[Stress; FACTORS]> {
-        f64::dispatch(Kernels { block: self, weights })
+        let mut kernels = f64::dispatch(Kernels { block: self, weights });
+        self.tip.add_hoop_kernels(self, weights, &mut kernels);
+        kernels
     }
 
     /// The points from one on, as many as there are lanes; the last stands in for those that
@@ -350,7 +355,7 @@ impl Kernels<'_> {
                     let (x, y) = (x.lanes(), y.lanes());
                     for (k, kernel) in kernels.iter_mut().enumerate() {
                         let weight = self.weights[first + k];
-                        kernel[mode].0[component] = [weight * x[k], weight * y[k]];
+                        kernel[mode].0[component] = [weight * x[k], weight * y[k], 0.0];
                     }
                 }
             }
@@ -370,7 +375,7 @@ impl Kernels<'_> {
         let point = self.block.points(first, zero);
         let auxiliary = self.block.auxiliary::<R, D, CURVED>(&point);
         let (q, slope) = flat_cut_off(square(&point), tip.radii[RINGS - 1]);
-        let halves = tip.halves().map(|halves| zero.broadcast(0.5 * tip.modulus() * halves));
+        let halves = tip.kernel_factors().map(|factor| zero.broadcast(factor));
         let bend = zero.broadcast(tip.body.curvature);
         let at_tip = tip.body.moduli.map(|constant| zero.broadcast(constant));
         let mut densities = [[[zero; FACTORS]; 2]; 2];
@@ -415,7 +420,7 @@ fn turning<R: Real>(stress: &Gradients<R>, u: &Gradients<R>) -> R {
 }
 
 /// The gradient of a component along an axis, in the tip's frame.
-fn unit(component: usize, axis: usize, frame: Vec2) -> Gradients {
+pub(super) fn unit(component: usize, axis: usize, frame: Vec2) -> Gradients {
     let mut u = [Jet::constant(0.0); 2];
     (u[component].x, u[component].y) = if axis == 0 { (1.0, 0.0) } else { (0.0, 1.0) };
     in_frame(&u, frame)

@@ -137,7 +137,7 @@ impl Interaction<'_> {
                 element.evaluate::<1>((delta, point.offset), Side::Above, &mut jet);
                 jets.extend_from_slice(&jet[..2]);
                 offsets.push(point.offset);
-                weights.push(weight * x.cross(y).abs());
+                weights.push(weight * x.cross(y).abs() * self.circle(point.offset));
             }
         }
         PointBlock::new(self, self.center, &offsets).integrals(&weights, &jets)
@@ -215,7 +215,8 @@ impl Interaction<'_> {
         let nodes = gauss(ORDER).on(0.0, 1.0);
         let node = |(t, dt): (f64, f64)| {
             let offset = (edge.from - self.center) + edge.way(t);
-            (offset, (dt * edge.length(), edge.tangent(t).left() * out))
+            let circle = self.circle(offset);
+            (offset, (dt * edge.length() * circle, edge.tangent(t).left() * out))
         };
         let (offsets, others): (Vec<_>, Vec<_>) = nodes.map(node).unzip();
         let (weights, normals) = others.into_iter().unzip();

@@ -60,15 +60,18 @@ impl Interaction<'_> {
             let elastic = self.elastic(u, (world, Some((segment, side))), tip.axis);
             let normal = turned(tip.axis, (*normal).into());
             let (of, way) = (self.turned_field(u, world, tip.axis), self.way(world));
-            let parts = self.body.fields_at(&point).map(|auxiliary| {
+            let (hoop, hoop_energy) =
+                self.hoop_on_face(u, (world, Some((segment, side))), (&point, normal));
+            let mut parts = self.body.fields_at::<1>(&point).map(|auxiliary| {
                 let [a, b] = auxiliary.derivative;
                 -self.crossing(&of, &auxiliary.gradient, way, normal) - (t.x * a + t.y * b)
             });
+            parts.iter_mut().zip(hoop).for_each(|(part, hoop)| *part -= hoop);
             let part = |radius: f64| parts.map(|m| cut_off(square(&point), radius).0 * m);
             let modes = self.radii.map(part);
             let q = cut_off(square(&point), self.largest()).0;
             let traction = self.traction(side, world, tip.axis) + t;
-            let energy = 0.5 * work(&stress(self.moduli(world), &elastic), &elastic);
+            let energy = 0.5 * work(&stress(self.moduli(world), &elastic), &elastic) + hoop_energy;
             // E_j n_j = W w·n − t_i 𝓛u_i
             let j = q * (energy * way.dot(normal) - traction.dot(of.derivative.into()));
             sums = sums.plus(Integrals { modes, j, ..Integrals::default() }.times(weight));

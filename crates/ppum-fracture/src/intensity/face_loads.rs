@@ -9,7 +9,7 @@ use ppum::crack::{LocalTip, Side};
 use ppum::edge::Edge;
 use ppum::vec2::{Vec2, vec2};
 use ppum_problem::Symmetry;
-use ppum_solve::quadrature::{GaussRule, closed, gauss};
+use ppum_solve::quadrature::{GaussRule, circumference, closed, gauss};
 
 /// Gauss points of a panel.
 const ORDER: usize = 8;
@@ -61,6 +61,8 @@ pub(super) struct TipFaces<'a> {
     pub(super) is_balanced: bool,
     /// True if only the face above is in the body.
     pub(super) is_half: bool,
+    /// True if a point stands for the circle through it.
+    pub(super) is_axisymmetric: bool,
 }
 
 impl TipFaces<'_> {
@@ -155,10 +157,11 @@ impl TipFaces<'_> {
             let (crack, at) = (self.path.tip().crack, self.path.center() + offset);
             let traction = self.load.traction(crack, side, at).unwrap_or_default();
             let t = turned(tip.axis, traction);
-            let auxiliary = self.body.fields_at(&point);
+            let auxiliary = self.body.fields_at::<1>(&point);
             let work = auxiliary.map(|a| t.x * a.derivative[0] + t.y * a.derivative[1]);
             let q = |k: usize| cut_off(square(&point), self.radii[k]).0;
-            std::array::from_fn(|k| work.map(|w| -q(k) * w))
+            let circle = if self.is_axisymmetric { circumference(at) } else { 1.0 };
+            std::array::from_fn(|k| work.map(|w| -q(k) * w * circle))
         };
         let mut both = of_side(Side::Above);
         if !self.is_half {
@@ -241,6 +244,7 @@ mod tests {
             load,
             is_balanced: true,
             is_half: false,
+            is_axisymmetric: false,
         }
         .integrals()
     }

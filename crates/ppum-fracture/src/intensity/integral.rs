@@ -4,7 +4,7 @@ use super::auxiliary::{TipMaterialBody, difference, stress};
 use super::face_loads::{TipFaces, pressed};
 use super::loads::TipLoads;
 use super::path::{CrackPiece, PathSegment, TipPath};
-use super::sums::{Gradients, Integrals, Modes, RINGS, in_frame, tensor_in_frame, turned};
+use super::sums::{Gradients, Integrals, Modes, RINGS, TipRing, in_frame, tensor_in_frame, turned};
 use ppum::crack::{Side, TipId};
 use ppum::dataset::{Ring, TipIntensity};
 use ppum::edge::Edge;
@@ -77,6 +77,8 @@ pub(super) struct Interaction<'a> {
     pressed: Option<Vec2>,
     /// The law between the faces of the crack.
     face_law: Option<FaceLaw>,
+    /// The ring that the tip is in a body of revolution.
+    pub(super) ring: Option<TipRing>,
     /// The symmetry to the axis of a field of which one half is in the body.
     half: Option<Symmetry>,
 }
@@ -112,7 +114,7 @@ impl<'a> Interaction<'a> {
         let face_law = loads.face_law(tip.crack);
         let between =
             face_law.map_or(0.0, |of| of.pressed(field, law, path.behind_tip(0.0), radii[0]));
-        Some(Self {
+        let own = Self {
             field,
             space,
             law,
@@ -128,8 +130,11 @@ impl<'a> Interaction<'a> {
             has_force: loads.body_force(center).is_some(),
             slope,
             pressed: pressed.map(|pressed| pressed + vec2(0.0, between)),
+            ring: None,
             half,
-        })
+        };
+        let ring = own.tip_ring(displacement(field, center));
+        Some(Self { ring, ..own })
     }
 
     /// Takes the field relative to another displacement of the tip.
@@ -197,7 +202,9 @@ impl<'a> Interaction<'a> {
         let Self { path, body, radii, pressed, .. } = self;
         let (is_balanced, is_half) = (pressed.is_some(), self.half.is_some());
         self.loads.traction(path.tip().crack, Side::Above, self.center)?;
-        Some(TipFaces { path, body, radii, load: self.loads, is_balanced, is_half })
+        let is_axisymmetric = self.ring.is_some();
+        let load = self.loads;
+        Some(TipFaces { path, body, radii, load, is_balanced, is_half, is_axisymmetric })
     }
 
     fn cell(
@@ -233,6 +240,12 @@ impl<'a> Interaction<'a> {
             Some(Symmetry::Symmetric) => [2.0, 0.0],
             Some(Symmetry::Antisymmetric) => [0.0, 2.0],
         }
+    }
+
+    /// The factors of the integrals over the body in K.
+    pub(super) fn kernel_factors(&self) -> [f64; FACTORS] {
+        let circle = self.ring.map_or(1.0, |ring| ring.circumference);
+        self.halves().map(|halves| 0.5 * self.modulus() * halves / circle)
     }
 
     /// E′ at the tip.
@@ -324,7 +337,10 @@ impl<'a> Interaction<'a> {
     /// 1)/(4μ): together E′M = σ_11 − σ_22.
     pub(super) fn integrals(&self, integrals: &Integrals) -> TipIntegrals {
         let (modulus, [one, two]) = (self.modulus(), self.halves());
-        let integrals = &integrals.times(one.max(two));
+        let (circle, hoop) = self.ring.map_or((1.0, 0.0), |ring| {
+            (ring.circumference, modulus * self.body.poisson() * ring.elastic)
+        });
+        let integrals = &integrals.times(one.max(two) / circle);
         let [one, two] = [one, two].map(|halves| halves.min(1.0));
         let rings = std::array::from_fn(|k| {
             let [m1, m2, _] = integrals.modes[k];
@@ -333,7 +349,7 @@ impl<'a> Interaction<'a> {
         });
         let of_force = one * modulus * integrals.modes[RINGS - 1][2];
         let [shear, across] = self.body.faces;
-        let of_faces = |at: Vec2| of_force + (shear * at.x + across * at.y);
+        let of_faces = |at: Vec2| of_force + hoop + (shear * at.x + across * at.y);
         let energy_scale = (modulus * integrals.energy.max(0.0) / self.largest()).sqrt();
         TipIntegrals {
             rings,

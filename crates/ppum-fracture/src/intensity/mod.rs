@@ -93,6 +93,7 @@ mod integral;
 mod loads;
 mod path;
 mod resolve;
+mod ring;
 mod sensitivity;
 mod singular;
 mod sums;

@@ -162,7 +162,7 @@ mod tests {
             let functions = singular_functions(tip, &material, curvature, 1.1);
             for (x, y) in [(0.3_f64, 0.4_f64), (-0.7, 0.2), (-0.5, -0.6), (0.2, -0.9), (1.0, 1.0)] {
                 let sign = if y >= 0.0 { 1.0 } else { -1.0 };
-                let fields = body.fields_at(&TipPoint { x, y, sign, branch: 1.0 });
+                let fields = body.fields_at::<2>(&TipPoint { x, y, sign, branch: 1.0 });
                 let (q, _) = flat_cut_off(x * x + y * y, 1.1);
                 for (functions, field) in functions.iter().zip(&fields) {
                     for (function, expected) in functions.iter().zip(field.derivative) {
@@ -171,8 +171,15 @@ mod tests {
                         };
                         let scope = function_scope(parameters, 1, &[]).expect("names");
                         let formula = Formula::parse(text, &scope).expect("a formula");
-                        let mut values = vec![0.0; scope.inputs().count()];
-                        values[..4].copy_from_slice(&[x, y, x.hypot(y), y.atan2(x)]);
+                        let places = [("x", x), ("y", y), ("r", x.hypot(y)), ("theta", y.atan2(x))];
+                        let known = |name: &str| {
+                            let places = places.iter().map(|(name, value)| (*name, *value));
+                            let constants =
+                                parameters.iter().map(|(n, value)| (n.as_str(), *value));
+                            let mut all = places.chain(constants);
+                            all.find(|(known, _)| *known == name).map_or(0.0, |(_, value)| value)
+                        };
+                        let values: Vec<f64> = scope.inputs().map(known).collect();
                         let found = formula.evaluate(&values);
                         assert!((found + q * expected).abs() < 1e-14, "{found} {expected}");
                     }

@@ -31,6 +31,17 @@ pub(super) struct Integrals {
     pub(super) doubt: QuadratureErrorEstimate,
 }
 
+/// The ring that the tip is in a body of revolution.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TipRing {
+    /// 2πR
+    pub(super) circumference: f64,
+    /// The hoop strain that is given at the tip.
+    pub(super) given: f64,
+    /// The part of the tip's hoop strain that has stress.
+    pub(super) elastic: f64,
+}
+
 /// The gradient of each component, in the tip's frame.
 pub(super) type Gradients<R = f64> = [[R; 2]; 2];
 

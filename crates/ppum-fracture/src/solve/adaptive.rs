@@ -23,7 +23,7 @@ pub(super) fn solve_adaptively(
     set: &Adaptivity,
     watcher: &dyn Watcher,
 ) -> Result<Dataset, SolveError> {
-    let Adapted { last, stop, mut kept, step } = Adapted::new(first, set, watcher)?;
+    let Adaptation { last, stop, mut kept, step } = Adaptation::new(first, set, watcher)?;
     let mut dataset = last.dataset(Some(stop), &StepWatcher { watcher, step })?;
     kept.append(&mut dataset.steps);
     dataset.steps = kept;
@@ -40,19 +40,19 @@ pub(super) fn adapted_mesh(
     watcher: &dyn Watcher,
 ) -> Result<CoverMesh, SolveError> {
     let set = &Adaptivity { keep: StepsKept::Last, ..*set };
-    Adapted::new(first, set, watcher).map(|adapted| adapted.last.solved.plan.mesh)
+    Adaptation::new(first, set, watcher).map(|adapted| adapted.last.solved.plan.mesh)
 }
 
 /// The last step of an adaptation, with its number, what ended it, and the steps before it that
 /// are kept.
-struct Adapted<'p> {
+struct Adaptation<'p> {
     last: Diagnosed<'p>,
     stop: StopReason,
     kept: Vec<Step>,
     step: usize,
 }
 
-impl<'p> Adapted<'p> {
+impl<'p> Adaptation<'p> {
     fn new(first: Plan<'p>, set: &Adaptivity, watcher: &dyn Watcher) -> Result<Self, SolveError> {
         let (mut plan, mut kept, mut step) = (first, Vec::new(), 0);
         loop {

@@ -10,8 +10,8 @@
 //! tip δC must be a multiple ρ of C: another change of the tip's own material changes the auxiliary
 //! fields, too. The law may change where tractions alone load the body: then ρ C changes no K.
 
-use super::WeightError;
-use super::factor::{factor, tip_of, weight_field};
+use super::error::WeightError;
+use super::factor::{check_body, factor_of, tip_of, weight_field};
 use crate::solve::SolveError;
 use ppum::dataset::{Dataset, Elasticity, Equation};
 use ppum::expression::Expression;
@@ -40,7 +40,8 @@ pub fn derivative(
 ) -> Result<f64, WeightError> {
     let field = weight_field(weights, step)?;
     let u = Field::new(solution.0, solution.1).map_err(SolveError::from)?;
-    let [first, last] = problems.map(|problem| factor(weights, step, problem, watcher));
+    problems.iter().try_for_each(|problem| check_body(weights, step, problem, false))?;
+    let [first, last] = problems.map(|problem| factor_of(weights, step, problem, watcher));
     let laws = problems.map(|problem| &problem.equation);
     let ratio = ratio_at_tip(laws, place_of_tip(&field)?)?;
     let is_other = laws[0].elastic().map(constants) != laws[1].elastic().map(constants);

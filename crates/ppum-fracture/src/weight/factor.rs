@@ -1,6 +1,6 @@
 //! Factors of loads by a weight function.
 
-use super::{FIELDS, WeightError, material};
+use super::error::{FIELDS, WeightError, material};
 use crate::intensity::WEIGHT;
 use crate::solve::{SolveError, solve};
 use ppum::crack::{Crack, End, TipId};
@@ -29,8 +29,18 @@ pub fn factor(
     problem: &Problem,
     watcher: &dyn Watcher,
 ) -> Result<f64, WeightError> {
+    check_body(weights, step, problem, true)?;
+    factor_of(weights, step, problem, watcher)
+}
+
+/// The factor, whatever the material of the problem is.
+pub(super) fn factor_of(
+    weights: &Dataset,
+    step: usize,
+    problem: &Problem,
+    watcher: &dyn Watcher,
+) -> Result<f64, WeightError> {
     let field = weight_field(weights, step)?;
-    check_body(weights, step, problem)?;
     let heat = temperature(problem, watcher)?;
     let law = Law::new(&problem.equation).heated(heat.as_ref().map(|(heat, _)| heat));
     let of_heat = heat.as_ref().map(|(_, step)| step);
@@ -58,7 +68,7 @@ pub fn influence(
     on: Option<BoundaryPart>,
 ) -> Result<Influence, WeightError> {
     let field = weight_field(weights, step)?;
-    check_body(weights, step, problem)?;
+    check_body(weights, step, problem, true)?;
     let law = Law::new(&problem.equation);
     let space = TrialSpace::of_problem(problem, field.step.clone(), None);
     let space = space.map_err(SolveError::from)?;
@@ -184,8 +194,13 @@ fn is_restraint(condition: &BoundaryCondition) -> bool {
 }
 
 /// # Errors
-/// Another body, material or restraints than those of the weight function.
-fn check_body(weights: &Dataset, step: usize, problem: &Problem) -> Result<(), WeightError> {
+/// Another body, restraints or, if that counts, material than those of the weight function.
+pub(super) fn check_body(
+    weights: &Dataset,
+    step: usize,
+    problem: &Problem,
+    with_material: bool,
+) -> Result<(), WeightError> {
     let own = problem_of(weights, step)?;
     let restraints = |of: &Problem| {
         let all = of.boundary.iter().filter(|condition| is_restraint(condition));
@@ -194,7 +209,7 @@ fn check_body(weights: &Dataset, step: usize, problem: &Problem) -> Result<(), W
     let differs = match () {
         () if own.domain() != problem.domain() => "domain is not",
         () if weights.steps[step].cracks != problem.cracks() => "cracks are not",
-        () if material(&own) != material(problem) => "material is not",
+        () if with_material && material(&own) != material(problem) => "material is not",
         () if restraints(&own) != restraints(problem) => "restraints are not",
         () => return Ok(()),
     };

@@ -4,6 +4,7 @@ mod adaptive;
 mod anisotropy;
 mod arcs;
 mod awkward;
+mod axisymmetric;
 mod contact;
 mod corners;
 mod curved;

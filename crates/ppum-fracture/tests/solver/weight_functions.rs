@@ -144,7 +144,7 @@ fn edge_crack_under_shear() {
     let text = "[domain]\nmin = [0, 0]\nmax = [7, 16]\n[material]\nyoung = 3e7\npoisson = 0.25\n\
          state = \"plane-strain\"\n[[crack]]\npoints = [[0, 8], [3.5, 8]]\n\
          [[boundary]]\non = \"bottom\"\ndisplacement = [0, 0]\n\
-         [[boundary]]\non = \"top\"\ntraction = [1, 0]\n[discretization]\ncells = [7, 16]\norder = 4\n";
+         [[boundary]]\non = \"top\"\ntraction = [1, 0]\n[discretization]\ncells = [14, 32]\norder = 4\n";
     let weights = weights(text);
     let [k1, k2] = by_weights(&weights, text)[0];
     check("K_I", (k1 / 34.042_645 - 1.0).abs(), 1e-5);
@@ -158,7 +158,7 @@ fn cracks_on_a_line() {
     let w = 400.0;
     let text = format!(
         "[domain]\nmin = [-{w}, -{w}]\nmax = [{w}, {w}]\n{MATERIAL}[[crack]]\npoints = [[-1.8, 0], [-0.2, 0]]\n\
-         [[crack]]\npoints = [[0.2, 0], [1.8, 0]]\n[discretization]\nlevel = 5\norder = 3\n\
+         [[crack]]\npoints = [[0.2, 0], [1.8, 0]]\n[discretization]\nlevel = 5\norder = 4\n\
          [[refine]]\ncenter = [0, 0]\nradius = 3\nsize = 0.2\n"
     );
     let weights = weights(&text);
@@ -179,14 +179,14 @@ fn rates_are_differences_of_solutions() {
     let straight = |a: f64| {
         format!(
             "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n{MATERIAL}[[crack]]\npoints = [[-0.5, 0.1], [{a}, 0.1]]\n\
-             {TENSION}[discretization]\ncells = [8, 8]\norder = 4\n"
+             {TENSION}[discretization]\ncells = [16, 16]\norder = 4\n"
         )
     };
     let edge = |a: f64| {
         format!(
             "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n{MATERIAL}[[crack]]\npoints = [[-1, 0.1], [{}, 0.1]]\n\
              [[boundary]]\non = \"bottom\"\ndisplacement = [0, 0]\n\
-             [[boundary]]\non = \"top\"\ntraction = [0.5, 1]\n[discretization]\ncells = [8, 8]\norder = 4\n",
+             [[boundary]]\non = \"top\"\ntraction = [0.5, 1]\n[discretization]\ncells = [16, 16]\norder = 4\n",
             a - 0.5
         )
     };
@@ -195,7 +195,7 @@ fn rates_are_differences_of_solutions() {
         format!(
             "[domain]\nmin = [-1, -1]\nmax = [1, 1]\n{MATERIAL}[[crack]]\n\
              arc = {{ center = [0.0, -0.4], radius = 0.6, from = 150, to = {end} }}\n\
-             {TENSION}[discretization]\ncells = [8, 8]\norder = 4\n"
+             {TENSION}[discretization]\ncells = [16, 16]\norder = 4\n"
         )
     };
     let all: [(&str, &dyn Fn(f64) -> String); 3] =
@@ -239,6 +239,13 @@ fn compatible_strains_have_no_factors() {
     check("compatible strains", size(&found), 1e-5 * body.young);
 }
 
+/// The largest estimated error of the factors of a solution: those by another cut-off, as weight
+/// functions have it, are apart by a part of it.
+fn estimate(solution: &Dataset) -> f64 {
+    let errors = solution.steps[0].intensities.iter().filter_map(|tip| tip.error);
+    errors.fold(0.0, f64::max)
+}
+
 /// An insulated crack in a flux of heat: the temperature of another solution strains the body.
 #[test]
 fn insulated_crack_in_a_flux_of_heat() {
@@ -249,7 +256,7 @@ fn insulated_crack_in_a_flux_of_heat() {
     let of = |step| factor(&weights, step, &problem, unwatched()).expect("a factor");
     let found: Vec<_> = (0..4).step_by(2).map(|step| [of(step), of(step + 1)]).collect();
     let expected = factors(&solution);
-    check("K", largest(&found, &expected), 1e-4 * size(&expected));
+    check("K", largest(&found, &expected), estimate(&solution));
 }
 
 /// A random load on a body [−1, 1]² that is held at the bottom.
@@ -266,9 +273,9 @@ fn random_load(random: &mut Random) -> String {
     )
 }
 
-/// Random loads of all kinds, each by the weight functions and by a solution: apart by as much as
-/// two discs of the same solution.
-fn assert_random_loads(seed: u64, count: usize, order: usize, bound: f64) {
+/// Random loads of all kinds, each by the weight functions and by a solution: apart by a part of the
+/// solution's estimated error.
+fn assert_random_loads(seed: u64, count: usize, order: usize) {
     let mut random = Random(seed);
     let state = if seed.is_multiple_of(2) { "plane-strain" } else { "plane-stress" };
     let body = Body { order, ..Body::random(&mut random, state) };
@@ -276,23 +283,24 @@ fn assert_random_loads(seed: u64, count: usize, order: usize, bound: f64) {
     let weights = weights(&body.text(held));
     for _ in 0..count {
         let load = body.text(&(held.to_owned() + &random_load(&mut random)));
-        let expected = factors(&solved(&parsed(&load)));
+        let solution = solved(&parsed(&load));
+        let expected = factors(&solution);
         let found = by_weights(&weights, &load);
-        check("a random load", largest(&found, &expected) / size(&expected), bound);
+        check("a random load", largest(&found, &expected), estimate(&solution));
     }
 }
 
 #[test]
 fn random_loads() {
-    assert_random_loads(1, 2, 3, 1e-4);
-    assert_random_loads(2, 2, 5, 1e-6);
+    assert_random_loads(1, 2, 3);
+    assert_random_loads(2, 2, 5);
 }
 
 #[test]
 #[ignore = "slow: solves 200 problems"]
 fn two_hundred_random_loads() {
     for seed in 10..30 {
-        assert_random_loads(seed, 10, 5, 1e-6);
+        assert_random_loads(seed, 10, 5);
     }
 }
 
@@ -355,10 +363,10 @@ fn derivatives_by_parameters() {
 /// The half of a symmetric plate has the weight functions of the whole, of loads in pairs.
 #[test]
 fn half_models() {
-    let whole = centre_crack([1.0, 1.0], 0.5, "[discretization]\ncells = [8, 8]\norder = 4\n");
+    let whole = centre_crack([1.0, 1.0], 0.5, "[discretization]\ncells = [8, 8]\norder = 6\n");
     let half = format!(
         "[domain]\nmin = [-1, 0]\nmax = [1, 1]\n{MATERIAL}[[crack]]\npoints = [[-0.5, 0], [0.5, 0]]\n\
-         [[boundary]]\non = \"bottom\"\nsymmetry = true\n[discretization]\ncells = [8, 4]\norder = 4\n"
+         [[boundary]]\non = \"bottom\"\nsymmetry = true\n[discretization]\ncells = [8, 4]\norder = 6\n"
     );
     let half = weights(&half);
     let whole = weights(&whole);
@@ -398,6 +406,7 @@ fn refusals() {
     let jumps = plain.clone() + "enrichment = \"jumps\"\n";
     assert!(matches!(of(&jumps, None), Err(WeightError::NoTipFunctions)));
     let bent = plain.replace("[0.5, 0]]", "[0.495, 0], [0.5, 0.005]]");
+    let bent = bent + "refine = false\n";
     assert!(matches!(of(&bent, Some(1)), Err(WeightError::NoRoom { number: 1 })));
     // loads on other bodies, at tips, and that do not balance
     let weights = of(&plain, None).expect("weight functions");

@@ -183,7 +183,7 @@ fn constants(equation: &Equation, elastic: bool) -> Vec<(&'static str, String)> 
     match (equation, elastic) {
         (Equation::Elasticity(Elasticity { state, anisotropy: None, .. }), true) => {
             let texts = match state {
-                StressState::PlaneStrain => PLANE_STRAIN,
+                StressState::PlaneStrain | StressState::Axisymmetric => PLANE_STRAIN,
                 StressState::PlaneStress => PLANE_STRESS,
             };
             let moduli = texts.map(|(name, text)| (name, text.to_owned()));

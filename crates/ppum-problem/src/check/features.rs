@@ -87,6 +87,8 @@ features! {
         let is_oblique = |[a, b]: [Vec2; 2]| a.x != b.x && a.y != b.y;
         p.border_cracks().any(|(_, line)| line.hole.is_some() && is_oblique(line.ends))
     };
+    /// The body is one of revolution.
+    Axisymmetric: "material.state", "write another `state`" => |p| p.equation.is_axisymmetric();
     /// Functions of the user's own are in the space.
     UserFunctions: "enrichment", "leave [[enrichment]] out" => |p| !p.enrichments.is_empty();
     /// Tips have no series.
@@ -161,6 +163,9 @@ excluded! {
     GivenStrains, SlidingPart => "temperatures and given strains have the symmetry of a crack on the border only with `symmetry = true`";
     SolvedTemperature, PartialModel => "a temperature that is solved for cannot be had with a crack on the border";
     UserFunctions, PartialModel => "user-defined functions do not satisfy the symmetry of a border with a crack";
+    Anisotropic, Axisymmetric => "the hoop strain is known in isotropic bodies of revolution alone";
+    Forces, Axisymmetric => "a force at a point of the half-plane is one on a ring, whose field is another one";
+    SlidingPart, Axisymmetric => "a body of revolution under loads of revolution has no part that is antisymmetric";
     Growth, SlidingPart => "a crack that slides turns off the line that it lies on";
     Growth, ObliquePart => "a crack grows along an edge, or along a side of an outline that is horizontal or vertical";
 }

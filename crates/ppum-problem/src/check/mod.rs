@@ -1,5 +1,6 @@
 //! Rules for the values of a problem, whether it was read from a file or built in code.
 
+mod axis;
 mod boundary;
 mod contact;
 mod cracks;
@@ -25,6 +26,7 @@ use crate::data::{
 };
 use crate::file::{Key, KeyError};
 use crate::geometry::Jumps;
+use axis::check_axis;
 use boundary::check_boundary;
 use contact::check_contact;
 use cracks::check_cracks;
@@ -80,6 +82,7 @@ pub(super) fn errors(problem: &ProblemData) -> Vec<KeyError> {
         found.extend(check_additive(problem));
         found.extend(check_zone(problem));
         found.extend(check_enrichments(problem));
+        found.extend(check_axis(problem));
         found.extend(check_boundary(problem));
         found.extend(check_symmetry(problem));
         found.extend(check_forces(problem));

@@ -1,6 +1,7 @@
 //! The problem as data: body, loads, discretisation, and what follows from them.
 
 mod adaptivity;
+mod axis;
 mod body;
 mod boundary;
 mod discretization;

@@ -45,7 +45,8 @@ impl Problem {
 
     /// The problem of data that were checked; the problem of a temperature is on its body and
     /// discretised as it is.
-    pub(crate) fn of_checked(mut data: ProblemData) -> Self {
+    pub(crate) fn of_checked(data: ProblemData) -> Self {
+        let mut data = data.with_axis();
         if let Some(SolvedTemperature { problem, .. }) = &mut data.temperature {
             problem.0.body = data.body.with_pieces(problem.pieces());
             problem.0.discretization = data.discretization.clone();
@@ -146,6 +147,11 @@ impl ProblemData {
     pub fn has_series(&self) -> bool {
         self.discretization.enrichment == Enrichment::Williams
             && self.equation.has_uniform_material()
+    }
+
+    /// True if tips have Williams' series, which is that of plane fields.
+    pub fn has_tip_series(&self) -> bool {
+        self.has_series() && !self.equation.is_axisymmetric()
     }
 
     /// A problem of elasticity on a box, as yet without cracks, loads and restraints.

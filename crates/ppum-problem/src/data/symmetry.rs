@@ -175,7 +175,7 @@ impl ProblemData {
     }
 
     /// The lines of the body's boundary on an edge of the box around it.
-    fn lines_on(&self, edge: DomainEdge) -> Vec<BorderLine> {
+    pub(crate) fn lines_on(&self, edge: DomainEdge) -> Vec<BorderLine> {
         let (touch, normal) = (touch(&self.domain().bounds), edge.normal());
         let at = edge.point(&self.domain().body_bounds(), 0.0);
         let is_on = |line: &BorderLine| {
@@ -210,7 +210,8 @@ impl ProblemData {
     /// bodies, and where images do not make a whole.
     pub fn images(&self) -> Option<f64> {
         let (_, first) = self.border_cracks().next()?;
-        let is_mirror = |line: &BorderLine| self.is_along(line, |_| true);
+        let axis = self.axis_lines();
+        let is_mirror = |line: &BorderLine| !axis.contains(line) && self.is_along(line, |_| true);
         let normal = first.outward();
         let angle = |line: BorderLine| {
             let other = line.outward();
@@ -224,9 +225,10 @@ impl ProblemData {
         ((count - count.round()).abs() < ROUNDING).then_some(count.round())
     }
 
-    /// The line with a crack to which a condition says a symmetry: fields satisfy it exactly.
+    /// The line with a crack, or on the axis of a body of revolution, to which a condition says a
+    /// symmetry: fields satisfy it exactly.
     pub fn exact_line(&self, condition: &BoundaryCondition) -> Option<BorderLine> {
-        let mut lines = self.border_cracks().map(|(_, line)| line);
+        let mut lines = self.border_cracks().map(|(_, line)| line).chain(self.axis_lines());
         lines.find(|line| self.symmetry_on(condition, line).is_some())
     }
 }

@@ -29,7 +29,8 @@ pub(crate) fn words<T: Keyword>() -> Vec<&'static str> {
     T::WORDS.iter().map(|(word, _)| *word).collect()
 }
 
-word_table!(StressState: PlaneStrain "plane-strain", PlaneStress "plane-stress");
+word_table!(StressState:
+    PlaneStrain "plane-strain", PlaneStress "plane-stress", Axisymmetric "axisymmetric");
 
 word_table!(Side: Above "above", Below "below");
 

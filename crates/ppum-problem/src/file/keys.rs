@@ -162,6 +162,9 @@ tables! {
 
     static EQUATION = "[equation]", "" {
         kind: Word(words::<EquationKind>), default(|| toml(Elasticity.word())), example("\"elasticity\"") => "The equation.";
+        axisymmetric: Flag, default(|| toml(false)), only(Poisson, &[]) =>
+            "The body is one of revolution about x = 0, and x ≥ 0 the distance from the axis. With elasticity write "
+            "`state = \"axisymmetric\"`.";
     }
 
     static MATERIAL = "[material]", "" {
@@ -182,7 +185,7 @@ tables! {
         out_of_plane: List("moduli", &Value), only(Elasticity, &[]), example("[4, 3, 0, 9]") =>
             "With `stiffness` in plane strain: [c13, c23, c36, c33].";
         state: Word(words::<StressState>), required("\"plane-strain\""), only(Elasticity, &[]) =>
-            "The assumption about the third direction: ε_zz = 0 or σ_zz = 0.";
+            "The assumption about the third direction: ε_zz = 0, σ_zz = 0, or a body of revolution about x = 0.";
         expansion: Either(&[Value, BY_AXES]), default(|| "none".into()), example("1.2e-5"), only(Elasticity, &[]) =>
             "Coefficient α of thermal expansion, for `[temperature]`; of an anisotropic body also [α1, α2] or "
             "[α1, α2, α3] along its axes.";
@@ -203,7 +206,8 @@ tables! {
             "The strain ε⁰_xx that makes no stress where the body takes it: of growth, swelling, phases.";
         yy: Value, default(|| "0".into()) => "ε⁰_yy.";
         xy: Value, default(|| "0".into()) => "ε⁰_xy, half the change of a right angle.";
-        zz: Value, default(|| "0".into()) => "ε⁰_zz; without effect in plane stress.";
+        zz: Value, default(|| "0".into()) =>
+            "ε⁰_zz; without effect in plane stress, the hoop strain in a body of revolution.";
     }
 
     static HOLE = "[[hole]]", "" {

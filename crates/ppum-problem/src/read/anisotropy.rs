@@ -39,7 +39,7 @@ pub(super) fn anisotropy(material: &Section<'_>, state: StressState) -> Option<A
     let zeros = || [0.0; 4].map(Expression::number);
     let through = match (material.value("out_of_plane"), state) {
         (None, StressState::PlaneStress) => zeros(),
-        (None, StressState::PlaneStrain) => {
+        (None, _) => {
             return material.error(
                 "`out_of_plane` is missing in [material]; plane strain needs [c13, c23, c36, c33] for σ_zz",
             );
@@ -47,11 +47,9 @@ pub(super) fn anisotropy(material: &Section<'_>, state: StressState) -> Option<A
         (Some(value), StressState::PlaneStress) => {
             return value.error("has no effect in plane stress; remove it");
         }
-        (Some(value), StressState::PlaneStrain) => {
-            <[Expression; 4]>::try_from(expressions(&value)?)
-                .ok()
-                .or_else(|| value.error("must be [c13, c23, c36, c33]"))?
-        }
+        (Some(value), _) => <[Expression; 4]>::try_from(expressions(&value)?)
+            .ok()
+            .or_else(|| value.error("must be [c13, c23, c36, c33]"))?,
     };
     Some(Anisotropy { plane, through, axis })
 }
@@ -77,7 +75,7 @@ pub(super) fn angle(material: &Section<'_>) -> Option<Expression> {
 fn engineering(material: &Section<'_>, state: StressState, axis: Expression) -> Option<Anisotropy> {
     let (wanted, ratios, form) = match state {
         StressState::PlaneStress => (2, 1, ["must be [E1, E2] in plane stress", "must be [nu12]"]),
-        StressState::PlaneStrain => (
+        _ => (
             3,
             3,
             ["must be [E1, E2, E3] in plane strain", "must be [nu12, nu13, nu23] in plane strain"],
@@ -103,7 +101,7 @@ fn engineering(material: &Section<'_>, state: StressState, axis: Expression) -> 
     let zero = Expression::number(0.0);
     let third = |list: &[Expression], k: usize| match state {
         StressState::PlaneStress => zero.clone(),
-        StressState::PlaneStrain => list[k].clone(),
+        _ => list[k].clone(),
     };
     let (e3, nu13, nu23) = (third(&young, 2), third(&poisson, 1), third(&poisson, 2));
     let of = Combination {
@@ -125,7 +123,7 @@ fn engineering(material: &Section<'_>, state: StressState, axis: Expression) -> 
     let plane = [c11, c12, zero.clone(), formula("a_11/det")?, zero.clone(), shear];
     let through = match state {
         StressState::PlaneStress => [0.0; 4].map(Expression::number),
-        StressState::PlaneStrain => [
+        _ => [
             formula("young_3*(p_1*a_22 - p_2*a_12)/det")?,
             formula("young_3*(p_2*a_11 - p_1*a_12)/det")?,
             zero,

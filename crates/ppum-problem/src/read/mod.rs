@@ -296,7 +296,18 @@ fn cracks(root: &Section<'_>, heated: Option<&HeatedBody<'_>>) -> (Vec<Crack>, V
 fn equation(root: &Section<'_>, kind: EquationKind) -> Equation {
     if kind == EquationKind::Poisson {
         let conductivity = root.section("material").and_then(|section| section.get("conductivity"));
-        return Equation::Poisson { conductivity: conductivity.unwrap_or(1.0.into()) };
+        let section = root.section("equation");
+        let axisymmetric = section.and_then(|s| s.or("axisymmetric", false)).unwrap_or(false);
+        return Equation::Poisson {
+            conductivity: conductivity.unwrap_or(1.0.into()),
+            axisymmetric,
+        };
+    }
+    let around = root.section("equation").filter(|_| root.mentions("equation"));
+    if let Some(value) = around.as_ref().and_then(|section| section.value("axisymmetric")) {
+        value.error::<()>(
+            "is for Poisson's equation; write `state = \"axisymmetric\"` in [material]",
+        );
     }
     let section = root.required_section("material");
     if let Some(material) = section.as_ref().filter(|section| is_anisotropic(section)) {

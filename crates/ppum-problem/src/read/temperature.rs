@@ -110,7 +110,7 @@ pub(super) fn solved(
     // the tables of a dataset are those of its whole problem
     let has_tables =
         matches!(root.document.source, FileSource::Folder(_)) && !problem.tables.is_empty();
-    match mistake(&problem, has_tables, body) {
+    match mistake(&problem, has_tables, (body, equation)) {
         Some(message) => value.error(message),
         None => {
             // what a file and the text of a dataset need not have in common
@@ -148,12 +148,22 @@ fn problem_of(
 }
 
 /// Returns the error in the problem of a temperature in a body with cracks.
-fn mistake(problem: &Problem, has_tables: bool, body: &Body) -> Option<&'static str> {
+fn mistake(
+    problem: &Problem,
+    has_tables: bool,
+    (body, equation): (&Body, &Equation),
+) -> Option<&'static str> {
     let paths = |body: &Body| body.cracks().iter().map(|c| c.points.clone()).collect::<Vec<_>>();
     match problem.equation {
         Equation::Poisson { .. } if has_tables => Some(
             "has a [[table]], which the problem of a temperature cannot; write its formulas without",
         ),
+        Equation::Poisson { axisymmetric, .. } if axisymmetric != equation.is_axisymmetric() => {
+            Some(
+                "is in the plane, and its body one of revolution, or the other way round; write `axisymmetric = true` \
+                 in its [equation] where `state = \"axisymmetric\"`",
+            )
+        }
         Equation::Poisson { .. } if problem.domain() != body.domain() => Some(
             "has another body; leave out its [domain] and [[hole]], and name pieces without `from` and `to`",
         ),

@@ -143,7 +143,8 @@ def _equation(equation: Elastic | Poisson | None) -> Arrays:
     if equation is None:
         return {"equation@kind": "none"}
     if isinstance(equation, Poisson):
-        return {"equation@kind": "poisson", "equation@conductivity": _constant("conductivity", equation.conductivity)}
+        kind = "axisymmetric-poisson" if equation.axisymmetric else "poisson"
+        return {"equation@kind": kind, "equation@conductivity": _constant("conductivity", equation.conductivity)}
     check_type("equation", equation, isinstance(equation, Elastic), "ppum.Elastic, ppum.Poisson or None")
     given = equation.eigenstrain if equation.eigenstrain is not None or equation.expansion is None else (0.0,) * 4
     if given is not None and (isinstance(given, str) or not hasattr(given, "__len__") or len(given) != 4):

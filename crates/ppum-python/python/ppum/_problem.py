@@ -27,7 +27,7 @@ class Elastic:
     Attributes:
         young: Young's modulus, a stress; a number or a formula of x and y.
         poisson: Poisson's ratio; a number or a formula.
-        state: ``plane-strain`` or ``plane-stress``.
+        state: ``plane-strain``, ``plane-stress``, or ``axisymmetric``: a body of revolution about x = 0.
         expansion: Coefficient of thermal expansion, for ``problem.section("temperature", value=…)`` or ``problem="heat.toml"``;
             in `build` for a temperature that is the third component of the field.
         eigenstrain: The given strains ε⁰_xx, ε⁰_yy, ε⁰_xy, ε⁰_zz that make no stress; numbers or formulas.
@@ -76,9 +76,15 @@ class Anisotropic:
 
 @dataclass(frozen=True)
 class Poisson:
-    """The material of Poisson's equation, −∇·(κ ∇u) = f, with the conductivity κ."""
+    """The material of Poisson's equation, −∇·(κ ∇u) = f, with the conductivity κ.
+
+    Attributes:
+        conductivity: κ; a number or a formula of x and y.
+        axisymmetric: Whether the body is one of revolution about x = 0.
+    """
 
     conductivity: float | str = 1.0
+    axisymmetric: bool = False
 
 
 class Problem:
@@ -110,9 +116,10 @@ class Problem:
         spec: dict[str, Any] = {"title": title} if title else {}
         spec["domain"] = _domain(domain)
         # those that are None are left out
-        spec["material"] = {name: value for name, value in vars(material).items() if name != "eigenstrain"}
+        spec["material"] = {name: value for name, value in vars(material).items() if name not in ("eigenstrain", "axisymmetric")}
         if isinstance(material, Poisson):
-            spec["equation"] = {"kind": "poisson"}
+            around = {"axisymmetric": True} if material.axisymmetric else {}
+            spec["equation"] = {"kind": "poisson", **around}
         elif material.eigenstrain is not None:
             spec["strain"] = dict(zip(("xx", "yy", "xy", "zz"), material.eigenstrain, strict=True))
         self._spec: dict[str, Any] = plain(spec)

@@ -43,7 +43,8 @@ impl PointArray {
                 .collect::<Result<_, _>>()?,
         };
         if field.is_displacement() {
-            all.push(Self::of(field, "stress", &TENSOR, &["sxx", "syy", "szz", "sxy", "", ""])?);
+            let third = if field.equation.is_axisymmetric() { "shoop" } else { "szz" };
+            all.push(Self::of(field, "stress", &TENSOR, &["sxx", "syy", third, "sxy", "", ""])?);
             all.push(Self::of(field, "von-mises", &[""], &["von-mises"])?);
         } else if let [only] = names[..] {
             let slopes = [format!("d{only}_dx"), format!("d{only}_dy")];

@@ -180,7 +180,7 @@ impl Mirror {
     /// None is named, and the dataset knows none.
     pub fn edges(&self, dataset: &Dataset) -> Result<Vec<MirrorEdge>, MirrorError> {
         let edges = match self {
-            Self::Auto => known(dataset),
+            Self::Auto => with_axis(known(dataset), dataset),
             Self::Edges(edges) => edges.clone(),
         };
         let away = edges.iter().find(|line| !line.edge.is_reached_by(&dataset.domain));
@@ -190,6 +190,17 @@ impl Mirror {
             None => Ok(edges),
         }
     }
+}
+
+/// The edges with the axis of a body of revolution that begins there, which needs no problem to be
+/// known.
+fn with_axis(mut edges: Vec<MirrorEdge>, dataset: &Dataset) -> Vec<MirrorEdge> {
+    let is_across = |line: &MirrorEdge| line.edge.axis() == BoxEdge::Left.axis();
+    let begins_there = dataset.domain.bounds.min.x == 0.0;
+    if dataset.equation.is_axisymmetric() && begins_there && !edges.iter().any(is_across) {
+        edges.push(MirrorEdge { edge: BoxEdge::Left, is_odd: false });
+    }
+    edges
 }
 
 /// The edges of a dataset's problem that have a symmetry.

@@ -28,7 +28,7 @@ pub struct Adviser<'a> {
 pub(super) fn singular_points(problem: &Problem) -> BoxList<Vec2> {
     let place = |tip: TipId| problem.cracks()[tip.crack as usize].end_point(tip.end);
     // where tips have their series, the rest of the field is smooth
-    let bare_tips = tips(problem.cracks()).filter(|_| !problem.has_series()).map(place);
+    let bare_tips = tips(problem.cracks()).filter(|_| !problem.has_tip_series()).map(place);
     let others = corners(problem).into_iter().map(|corner| corner.at);
     BoxList::new(bare_tips.chain(others).map(|point| (around(&[point]), point)))
 }

@@ -100,7 +100,7 @@ struct PatchProducts {
     /// The row of φ among the shapes.
     phi: usize,
     value: Vec<f64>,
-    slopes: [Vec<f64>; OPERATORS],
+    slopes: Vec<Vec<f64>>,
 }
 
 impl SampledFields<'_> {
@@ -108,25 +108,26 @@ impl SampledFields<'_> {
     /// there.
     fn add(&self, sum: &mut Mat<f64>) -> f64 {
         let mut products = self.products();
-        let whole = std::array::from_fn(|k| total(&products, k));
+        let whole: Vec<_> = (0..self.shapes.slopes.len()).map(|k| total(&products, k)).collect();
         if products.len() > 1 {
             for part in &mut products {
                 let weights = self.weights(part);
                 self.make_differences(part, &whole, &weights);
-                let slopes = part.slopes.each_ref().map(Vec::as_slice);
-                self.add_products(&weights, slopes, sum);
+                self.add_products(&weights, &part.slopes, sum);
             }
         }
         0.5 * self.energy(&whole)
     }
 
     /// Twice the energy of the first field, given the slopes of all.
-    fn energy(&self, slopes: &[Vec<f64>; OPERATORS]) -> f64 {
+    fn energy(&self, slopes: &[Vec<f64>]) -> f64 {
         let (points, components) = (self.shapes.points, self.law.components);
         let at = |(q, (x, weight)): (usize, (Vec2, f64))| {
             let mut strain = Strain::default();
             for j in 0..components {
-                strain.add(j, 1.0, slopes.each_ref().map(|row| row[j * points + q]));
+                let mut own = [0.0; OPERATORS];
+                own.iter_mut().zip(slopes).for_each(|(own, row)| *own = row[j * points + q]);
+                strain.add(j, 1.0, own);
             }
             weight * self.law.at(x).energy(&strain)
         };
@@ -134,9 +135,9 @@ impl SampledFields<'_> {
     }
 
     /// Adds ∫ σ:∇v of all pairs of fields. Slopes have a row for each component of each field.
-    fn add_products(&self, weights: &[f64], slopes: [&[f64]; OPERATORS], sum: &mut Mat<f64>) {
+    fn add_products(&self, weights: &[f64], slopes: &[Vec<f64>], sum: &mut Mat<f64>) {
         let (law, n, fields) = (self.law, weights.len(), sum.nrows());
-        let mut stresses = slopes.map(|slopes| vec![0.0; slopes.len()]);
+        let mut stresses: Vec<_> = slopes.iter().map(|slopes| vec![0.0; slopes.len()]).collect();
         for (m, term) in law.terms.iter().enumerate() {
             let coefficients = self.rule.points().map(|(x, _)| law.coefficients(x)[m]);
             let factors = coefficients.zip(weights);
@@ -170,7 +171,7 @@ impl SampledFields<'_> {
                 patch,
                 phi: range.start,
                 value,
-                slopes: slopes.each_ref().map(combined),
+                slopes: slopes.iter().map(combined).collect(),
             }
         };
         self.rule.patches.iter().map(of_patch).collect()
@@ -203,12 +204,7 @@ impl SampledFields<'_> {
 
     /// The gradients of a part become ∇u_i − ∇u of all fields, ∇u_i = (∇(φ_i u_i) − u_i ∇φ_i)/φ_i,
     /// and ∇u, given whole, being Σ_i ∇(φ_i u_i); some finite number where they have no weight.
-    fn make_differences(
-        &self,
-        part: &mut PatchProducts,
-        whole: &[Vec<f64>; OPERATORS],
-        weights: &[f64],
-    ) {
+    fn make_differences(&self, part: &mut PatchProducts, whole: &[Vec<f64>], weights: &[f64]) {
         let phi = self.shapes.row(&self.shapes.value, part.phi).iter().zip(weights);
         let inverse: Vec<f64> =
             phi.map(|(phi, weight)| if *weight > 0.0 { 1.0 / phi } else { 0.0 }).collect();
@@ -217,6 +213,10 @@ impl SampledFields<'_> {
         for ((slopes, of_phi), whole) in part.slopes.iter_mut().zip(of_phi).zip(whole) {
             let rows = slopes.chunks_exact_mut(points).zip(part.value.chunks_exact(points));
             for ((slopes, values), whole) in rows.zip(whole.chunks_exact(points)) {
+                let Some(of_phi) = of_phi else {
+                    (0..points).for_each(|q| slopes[q] = slopes[q] * inverse[q] - whole[q]);
+                    continue;
+                };
                 for q in 0..points {
                     let u = values[q] * inverse[q];
                     slopes[q] = (slopes[q] - u * of_phi[q]) * inverse[q] - whole[q];

@@ -239,7 +239,7 @@ impl WorkOnField<'_> {
                 let jets = self.in_cell(rule);
                 for ((x, weight), w) in rule.points().zip(jets.chunks_exact(2)) {
                     let law = self.law.at(x);
-                    let [[xx, xy], [_, yy]] = law.linear_stress(&law.strain(w)).0;
+                    let [[xx, xy, _], [_, yy, _]] = law.linear_stress(&law.strain(w)).0;
                     all.at.push(x);
                     all.normals.push(Vec2::ZERO);
                     all.below.push(false);

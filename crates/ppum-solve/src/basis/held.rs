@@ -11,7 +11,9 @@
 //!
 //! with the coefficients F_i of the fields in component i, the Gram matrix M of the functions, and
 //! R as for functions ([`Transform`]). Series are not made of stable functions first: where they
-//! are nearly polynomials, what is cut off of their functions would break their symmetry.
+//! are nearly polynomials, what is cut off of their functions would break their symmetry. Functions
+//! that are of no series count as jumps do, but those of a tip that are odd about its line vanish
+//! there of themselves.
 
 use super::tie::VectorField;
 use super::transform::{CUT_OFF, Transform};
@@ -19,7 +21,7 @@ use crate::space::TrialSpace;
 use crate::terms::HeldLine;
 use faer::Mat;
 use ppum::dataset::monomials;
-use ppum::function::FunctionKind;
+use ppum::function::{Frame, FunctionKind, Role, WESTERGAARD};
 use ppum::polynomial::exponents;
 use ppum::vec2::{Vec2, vec2};
 use ppum_linear::EigenError;
@@ -60,18 +62,19 @@ pub(super) fn held_fields(
     Ok(HeldFields { parts, transform })
 }
 
-/// The fields of each block of polynomials or jumps, which come before all series.
+/// The fields of each block that is of no series: of polynomials, jumps and formulas.
 fn plain_fields(space: &TrialSpace<'_>, patch: usize) -> Vec<Vec<VectorField>> {
     let (data, mut first, n) = (space.data(), 0, space.evaluated(patch));
     let parts = directions(space.held_lines(patch));
-    let is_plain = |block: &usize| {
-        let function = data.block_function[*block] as usize;
-        !matches!(space.step().functions[function].kind, FunctionKind::Formula { .. })
-    };
     let of_block = |block: usize| {
+        if let Some(series) = space.series(patch).iter().find(|s| s.blocks.contains(&block)) {
+            first += if block == series.blocks.start { series.evaluated() } else { 0 };
+            return None;
+        }
         let degree = usize::from(data.block_degree[block]);
         let start = first;
         first += monomials(degree);
+        let kind = &space.step().functions[data.block_function[block] as usize].kind;
         let field = |direction: Vec2, polynomial: &[f64]| {
             <[f64; 2]>::from(direction).map(|part| {
                 let mut own = vec![0.0; n];
@@ -81,12 +84,28 @@ fn plain_fields(space: &TrialSpace<'_>, patch: usize) -> Vec<Vec<VectorField>> {
             })
         };
         let of_direction = |(direction, lines): &(Vec2, Vec<HeldLine>)| {
-            let all = polynomials(space, patch, lines, degree).into_iter();
+            let others: Vec<_> =
+                lines.iter().filter(|line| !vanishes_on(space, kind, line)).copied().collect();
+            let all = polynomials(space, patch, &others, degree).into_iter();
             all.map(|polynomial| field(*direction, &polynomial)).collect::<Vec<_>>()
         };
-        parts.iter().flat_map(of_direction).collect()
+        Some(parts.iter().flat_map(of_direction).collect())
     };
-    data.blocks(patch).take_while(is_plain).map(of_block).collect()
+    data.blocks(patch).filter_map(of_block).collect()
+}
+
+/// True for the functions of a tip on a line that are odd about its axis.
+fn vanishes_on(space: &TrialSpace<'_>, kind: &FunctionKind, line: &HeldLine) -> bool {
+    let FunctionKind::Formula { text, frame: Frame::Tip(tip), role: Role::Tip, .. } = kind else {
+        return false;
+    };
+    let crack = &space.step().cracks[tip.crack as usize];
+    let at = crack.end_point(tip.end);
+    let is_odd = WESTERGAARD.iter().skip(1).step_by(2).any(|odd| odd == text);
+    let is_along = line.normal.dot(crack.growth_direction(tip.end)).abs() < SAME;
+    let size =
+        space.partition().half.iter().map(|half| half.x.min(half.y)).fold(f64::MAX, f64::min);
+    is_odd && is_along && (line.normal.dot(at) - line.at).abs() < SAME * size
 }
 
 /// Sine of the angle up to which directions are the same.

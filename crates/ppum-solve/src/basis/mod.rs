@@ -202,7 +202,7 @@ impl StableBasis {
     /// Replaces plain shape functions of some patches by those of the basis.
     pub(crate) fn apply(&self, patches: &[u32], plain: &Shapes, out: &mut Shapes) {
         let kept = patches.iter().map(|&p| self.sizes[p as usize]).sum();
-        out.resize(kept, plain.points);
+        out.resize(kept, plain.points, plain.slopes.len());
         let (mut from, mut to) = (0, 0);
         for &patch in patches {
             let t = &self.patches[patch as usize].matrix;

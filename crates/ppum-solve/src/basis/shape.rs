@@ -3,7 +3,7 @@
 //! Sides of cracks enter shifted, see [`TrialSpace::shifts`].
 
 use super::williams::PatchTipFrame;
-use crate::law::{OPERATORS, Stress};
+use crate::law::{HOOP, OPERATORS, Stress, hoop, operators};
 use crate::quadrature::{CrackFace, EdgeRule};
 use crate::space::{ANGULAR, Origin, SeriesFunctions, TrialSpace};
 use faer::linalg::matmul::matmul;
@@ -29,13 +29,15 @@ pub(crate) struct Shapes {
     pub points: usize,
     /// φ_i ψ
     pub value: Vec<f64>,
-    /// D_k (φ_i ψ) with the operators of [`Strain`](crate::law::Strain): ∂/∂x and ∂/∂y.
-    pub slopes: [Vec<f64>; OPERATORS],
+    /// D_k (φ_i ψ) with the operators of [`Strain`](crate::law::Strain): ∂/∂x and ∂/∂y, and 1/x in
+    /// bodies of revolution.
+    pub slopes: Vec<Vec<f64>>,
 }
 
 impl Shapes {
-    /// Makes room for functions and points, whose values are to be written.
-    pub(crate) fn resize(&mut self, functions: usize, points: usize) {
+    /// Makes room for functions, points and operators, whose values are to be written.
+    pub(crate) fn resize(&mut self, functions: usize, points: usize, operators: usize) {
+        self.slopes.resize_with(operators, Vec::new);
         (self.functions, self.points) = (functions, points);
         self.arrays_mut().for_each(|array| array.resize(functions * points, 0.0));
     }
@@ -53,12 +55,16 @@ impl Shapes {
     /// The terms of ∇(φψ)·∇(φψ′) + f φ² ψ ψ′ for a factor f: arrays whose products they are, with
     /// their factors.
     pub(crate) fn gram_terms(&self, factor: f64) -> impl Iterator<Item = (&Vec<f64>, f64)> {
-        self.slopes.iter().map(|array| (array, 1.0)).chain([(&self.value, factor)])
+        let gradient = self.slopes.iter().take(HOOP).map(|array| (array, 1.0));
+        gradient.chain([(&self.value, factor)])
     }
 
-    /// D_k of a function at a point.
+    /// D_k of a function at a point; zero where there is no third operator.
     pub(crate) fn slopes_at(&self, function: usize, point: usize) -> [f64; OPERATORS] {
-        self.slopes.each_ref().map(|array| array[function * self.points + point])
+        let mut slopes = [0.0; OPERATORS];
+        let arrays = slopes.iter_mut().zip(&self.slopes);
+        arrays.for_each(|(slope, array)| *slope = array[function * self.points + point]);
+        slopes
     }
 
     /// A row of one of the arrays.
@@ -66,19 +72,25 @@ impl Shapes {
         &array[function * self.points..][..self.points]
     }
 
-    /// ∂_k φ of a partition function in the product rule D_k (φ u) = φ D_k u + u ∂_k φ.
-    pub(crate) fn factor_slopes(&self, phi: usize) -> [&[f64]; OPERATORS] {
-        self.slopes.each_ref().map(|array| self.row(array, phi))
+    /// ∂_k φ of a partition function in the product rule D_k (φ u) = φ D_k u + u ∂_k φ, without the
+    /// operator that is no derivative.
+    pub(crate) fn factor_slopes(&self, phi: usize) -> impl Iterator<Item = Option<&[f64]>> {
+        let slopes = self.slopes.iter().enumerate();
+        slopes.map(move |(k, array)| (k < HOOP).then(|| self.row(array, phi)))
     }
 
     /// The products of all functions with the partition function in row `phi` of `other`.
     pub(crate) fn times_row(&self, other: &Self, phi: usize) -> Self {
-        let (factor, slopes) = (other.row(&other.value, phi), other.factor_slopes(phi));
+        let factor = other.row(&other.value, phi);
+        let slopes: Vec<_> = other.factor_slopes(phi).collect();
         let mut out = self.clone();
         for at in 0..out.value.len() {
             let q = at % self.points;
-            for (own, slope) in out.slopes.iter_mut().zip(slopes) {
-                own[at] = factor[q] * own[at] + slope[q] * self.value[at];
+            for (own, slope) in out.slopes.iter_mut().zip(&slopes) {
+                own[at] = match slope {
+                    Some(slope) => factor[q] * own[at] + slope[q] * self.value[at],
+                    None => factor[q] * own[at],
+                };
             }
             out.value[at] *= factor[q];
         }
@@ -159,9 +171,16 @@ impl Shapes {
         let (at, lanes) = (function * self.points + point, R::LANES.min(self.points - point));
         v.store_some(&mut self.value[at..at + lanes]);
         // one by one: lanes in an array would go through memory
-        let [along_x, along_y] = &mut self.slopes;
+        let [along_x, along_y, ..] = self.slopes.as_mut_slice() else { return };
         x.store_some(&mut along_x[at..at + lanes]);
         y.store_some(&mut along_y[at..at + lanes]);
+    }
+
+    /// Writes what the third operator makes of the functions, at points x.
+    fn set_hoop(&mut self, x: impl Iterator<Item = f64> + Clone) {
+        let [along_x, _, around] = self.slopes.as_mut_slice() else { return };
+        let rows = self.value.iter().zip(along_x).zip(around);
+        rows.zip(x.cycle()).for_each(|(((v, slope), to), x)| *to = hoop(*v, *slope, x));
     }
 
     /// Writes a factor times all monomials to functions from `function` on, at as many points from
@@ -250,7 +269,8 @@ impl<'s> ShapeEvaluator<'s> {
             true => space.evaluated(p as usize),
             false => space.sizes[p as usize],
         };
-        out.resize(patches.iter().map(size).sum(), offsets.len());
+        let operators = operators(space.equation());
+        out.resize(patches.iter().map(size).sum(), offsets.len(), operators);
         let groups = groups_of(space, patches);
         let blocks = self.blocks(anchor, patches, &groups);
         f64::dispatch(PointFill {
@@ -263,8 +283,9 @@ impl<'s> ShapeEvaluator<'s> {
             blocks: &blocks,
             groups: &groups,
             scratch: &mut self.scratch,
-            out,
+            out: &mut *out,
         });
+        out.set_hoop(offsets.iter().map(|offset| anchor.x + offset.x));
     }
 }
 

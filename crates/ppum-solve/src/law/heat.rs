@@ -200,7 +200,7 @@ impl TemperatureField<'_> {
     }
 
     /// The derivative along `axis` of the strains in the plane that the temperature gives,
-    /// (1 + ν) α T in plane strain and α T in plane stress.
+    /// (1 + ν) α T in plane strain, α T in plane stress and in bodies of revolution.
     pub(super) fn strain_slope(&self, x: Vec2, axis: Vec2) -> Strain {
         let along = |jets: &Option<FormulaJets>| {
             jets.as_ref().map_or(0.0, |jets| {
@@ -214,6 +214,9 @@ impl TemperatureField<'_> {
         let [of_expansion, of_poisson] = self.slopes.each_ref().map(along);
         let t = self.jet::<1>(x, None);
         let slope = expansion * (t.x * axis.x + t.y * axis.y) + of_expansion * t.v;
+        if self.equation.is_axisymmetric() {
+            return Strain::isotropic(slope);
+        }
         Strain::isotropic(slope * (1.0 + out_of_plane) + of_poisson * expansion_out * t.v)
     }
 }

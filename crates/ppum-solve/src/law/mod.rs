@@ -13,6 +13,6 @@ mod stress;
 pub(crate) use heat::joined;
 pub use heat::{FaceLocation, Temperature};
 pub use slope::EnergySlope;
-pub(crate) use strain::{MODES, OPERATORS, PerMode, RigidModes};
+pub(crate) use strain::{HOOP, MODES, OPERATORS, PerMode, RigidModes, hoop, operators};
 pub use strain::{Strain, Stress};
 pub use stress::{Coefficients, Law, LawAt};

@@ -63,6 +63,9 @@ impl<'a> EnergySlope<'a> {
             return Strain::symmetric(strain.map(|gradient| gradient.dot(axis)));
         }
         let [xx, yy, xy, zz] = material.eigenstrain(x).map(|gradient| gradient.dot(axis));
+        if self.law.has_hoop_strain() {
+            return Strain::symmetric([xx, yy, xy]).with_hoop(zz);
+        }
         let out_of_plane = material.at(x, &moduli).out_of_plane.dot(axis);
         let through = moduli.out_of_plane * zz + out_of_plane * moduli.eigenstrain[3];
         Strain::symmetric([xx + through, yy + through, xy])

@@ -1,6 +1,7 @@
 //! Strains and stresses: the numbers of a field at a point that a law sees, and their duals.
 //!
-//! A law sees of a field u the numbers D_k u_j alone, with the operators D = (∂/∂x, ∂/∂y). Fields
+//! A law sees of a field u the numbers D_k u_j alone, with the operators D = (∂/∂x, ∂/∂y), and in
+//! bodies of revolution 1/x as a third one, D_3 u_x = u_x/x being the hoop strain. Fields
 //! make them of their jets, `LawAt::strain`, functions of a space bring them along
 //! (`Shapes::slopes`, with as many arrays as there are operators), and everything between the two
 //! is linear in them: nobody else knows what D is made of.
@@ -10,8 +11,26 @@ use ppum::jet::Jet;
 use ppum::real::{LaneJob, LaneNumber as _, Real};
 use ppum::vec2::{Vec2, vec2};
 
-/// Number of operators D_k.
-pub(crate) const OPERATORS: usize = 2;
+/// Most operators D_k.
+pub(crate) const OPERATORS: usize = 3;
+
+/// The place of the operator 1/x.
+pub(crate) const HOOP: usize = 2;
+
+/// True if the third operator makes a strain.
+pub(crate) fn has_hoop_strain(equation: &Equation) -> bool {
+    equation.is_axisymmetric() && equation.elastic().is_some()
+}
+
+/// Number of operators D_k of an equation.
+pub(crate) fn operators(equation: &Equation) -> usize {
+    if has_hoop_strain(equation) { OPERATORS } else { HOOP }
+}
+
+/// v/x of a function with its slope at a point; one that is regular there vanishes on the axis.
+pub(crate) fn hoop(v: f64, slope: f64, x: f64) -> f64 {
+    if x == 0.0 { slope } else { v / x }
+}
 
 /// D_k u_j of a field at a point, j the row; zero beyond the components of the field. Where
 /// components are directions, its symmetric part is the strain.
@@ -23,26 +42,38 @@ pub struct Strain(pub [[f64; OPERATORS]; 2]);
 pub struct Stress(pub [[f64; OPERATORS]; 2]);
 
 /// The entry of the unit strain, which is a change of volume alone.
-pub(super) fn unit([j, k]: [usize; 2]) -> f64 {
-    f64::from(u8::from(j == k))
+pub(super) fn unit(pair: [usize; 2]) -> f64 {
+    f64::from(u8::from([[0, 0], [1, 1], [0, HOOP]].contains(&pair)))
 }
 
 /// The pair whose entry is the other one of a symmetric strain.
 pub(super) fn transposed([j, k]: [usize; 2]) -> [usize; 2] {
-    [k, j]
+    if k == HOOP { [j, k] } else { [k, j] }
 }
 
 impl Strain {
     /// The strain of a field with these components.
     pub(super) fn new(u: &[Jet<f64>]) -> Self {
         let mut strain = Self::default();
-        strain.0.iter_mut().zip(u).for_each(|(row, u)| *row = [u.x, u.y]);
+        strain.0.iter_mut().zip(u).for_each(|(row, u)| *row = [u.x, u.y, 0.0]);
         strain
     }
 
     /// The strain with these entries xx, yy and xy.
     pub(super) fn symmetric([xx, yy, xy]: [f64; 3]) -> Self {
-        Self([[xx, xy], [xy, yy]])
+        Self([[xx, xy, 0.0], [xy, yy, 0.0]])
+    }
+
+    /// The strain with a hoop strain beside.
+    pub(super) fn with_hoop(mut self, hoop: f64) -> Self {
+        self.0[0][HOOP] = hoop;
+        self
+    }
+
+    /// The hoop strain of a body of revolution; zero in the plane.
+    #[must_use]
+    pub fn hoop(&self) -> f64 {
+        self.0[0][HOOP]
     }
 
     /// A stretch that is equal in all directions.
@@ -60,13 +91,13 @@ impl Strain {
     /// The change of volume, tr ε.
     #[must_use]
     pub fn trace(&self) -> f64 {
-        self.0[0][0] + self.0[1][1]
+        self.0[0][0] + self.0[1][1] + self.hoop()
     }
 
     /// The rows of the plane: the gradient of each component.
     #[must_use]
     pub fn in_plane(&self) -> [Vec2; 2] {
-        self.0.map(|[x, y]| vec2(x, y))
+        self.0.map(|[x, y, _]| vec2(x, y))
     }
 
     /// Adds a multiple of the strain of a function of one component.
@@ -86,7 +117,13 @@ impl Stress {
     /// The traction (flux) on a surface with a normal.
     #[must_use]
     pub(crate) fn traction(&self, normal: Vec2) -> Vec2 {
-        self.0.map(|[x, y]| x * normal.x + y * normal.y).into()
+        self.0.map(|[x, y, _]| x * normal.x + y * normal.y).into()
+    }
+
+    /// The hoop stress of a body of revolution.
+    #[must_use]
+    pub fn hoop(&self) -> f64 {
+        self.0[0][HOOP]
     }
 
     /// The work of row i on a strain; that of all rows is σ:ε.
@@ -103,14 +140,14 @@ impl Stress {
 
     /// Mandel's vector of a symmetric stress, whose square is σ:σ.
     #[must_use]
-    pub(crate) fn mandel(&self) -> [f64; 3] {
-        let [[xx, xy], [_, yy]] = self.0;
-        [xx, yy, std::f64::consts::SQRT_2 * xy]
+    pub(crate) fn mandel(&self) -> [f64; 4] {
+        let [[xx, xy, hoop], [_, yy, _]] = self.0;
+        [xx, yy, std::f64::consts::SQRT_2 * xy, hoop]
     }
 }
 
-/// The pairs (j, k) of D_k u_j for each entry of symmetric strains: (ε_11, ε_22, 2ε_12).
-pub(super) const PAIRS: [[usize; 2]; 3] = [[0, 0], [1, 1], [0, 1]];
+/// The pairs (j, k) of D_k u_j for each entry of symmetric strains: (ε_11, ε_22, 2ε_12, ε_θ).
+pub(super) const PAIRS: [[usize; 2]; 4] = [[0, 0], [1, 1], [0, 1], [0, HOOP]];
 
 /// The matrix on the entries of symmetric strains.
 pub(super) type Rigidity = [[f64; PAIRS.len()]; PAIRS.len()];
@@ -122,7 +159,27 @@ impl WeightedRigidity {
     /// The stresses σ_ik of some vector fields from their strains D_k v_i, both arrays
     /// \[components, points, operators, fields\].
     pub(crate) fn stresses(&self, fields: usize, strains: &[f64], stresses: &mut [f64]) {
+        if strains.len() == 2 * OPERATORS * fields * self.0.len() {
+            return self.hoop_stresses(fields, strains, stresses);
+        }
         f64::dispatch(FieldStresses { fields, rigidity: &self.0, strains, to: stresses });
+    }
+
+    /// Those of a body of revolution.
+    fn hoop_stresses(&self, n: usize, strains: &[f64], stresses: &mut [f64]) {
+        let half = strains.len() / 2;
+        for (point, d) in self.0.iter().enumerate() {
+            for a in 0..n {
+                let at = |[j, k]: [usize; 2]| j * half + (point * OPERATORS + k) * n + a;
+                let of = |pair: [usize; 2]| strains[at(pair)];
+                let strain = [of([0, 0]), of([1, 1]), of([0, 1]) + of([1, 0]), of([0, HOOP])];
+                for (row, pair) in d.iter().zip(PAIRS) {
+                    stresses[at(pair)] = row.iter().zip(strain).map(|(d, e)| d * e).sum();
+                }
+                stresses[at([1, 0])] = stresses[at([0, 1])];
+                stresses[at([1, HOOP])] = 0.0;
+            }
+        }
     }
 }
 
@@ -165,7 +222,7 @@ pub(crate) type PerMode = [f64; MODES];
 
 /// The fields without strain, which restraints or a constraint of the null space must remove: two
 /// translations and the rotation about a centre, in units of a size; for one component the
-/// constant.
+/// constant. A body of revolution moves along its axis alone.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RigidModes {
     /// Centre of the rotation.
@@ -173,16 +230,18 @@ pub(crate) struct RigidModes {
     /// Distance from the centre at which the rotation moves points by 1.
     pub(crate) size: f64,
     components: usize,
+    is_axial: bool,
 }
 
 impl RigidModes {
     pub(crate) fn new(center: Vec2, size: f64, equation: &Equation) -> Self {
-        Self { center, size, components: equation.components() }
+        let is_axial = has_hoop_strain(equation);
+        Self { center, size, components: equation.components(), is_axial }
     }
 
     /// Number of modes.
     pub(crate) fn count(&self) -> usize {
-        if self.components == 1 { 1 } else { MODES }
+        if self.components == 1 || self.is_axial { 1 } else { MODES }
     }
 
     /// The modes at x; those beyond [`RigidModes::count`] are zero.
@@ -190,6 +249,7 @@ impl RigidModes {
         let d = (x - self.center) / self.size;
         match self.components {
             1 => [[1.0, 0.0], [0.0; 2], [0.0; 2]],
+            _ if self.is_axial => [[0.0, 1.0], [0.0; 2], [0.0; 2]],
             _ => [[1.0, 0.0], [0.0, 1.0], [-d.y, d.x]],
         }
     }
@@ -197,6 +257,9 @@ impl RigidModes {
     /// The resultant force, and the moment about the centre, of loads that do some work on each
     /// mode; no moment acts on a potential.
     pub(crate) fn resultant(&self, [x, y, turn]: PerMode) -> (Vec2, Option<f64>) {
+        if self.is_axial {
+            return (vec2(0.0, x), Some(0.0));
+        }
         (vec2(x, y), (self.count() > 1).then_some(turn * self.size))
     }
 

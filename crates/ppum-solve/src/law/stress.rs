@@ -2,7 +2,8 @@
 
 use super::heat::{FaceLocation, Temperature, TemperatureField};
 use super::strain::{
-    OPERATORS, PAIRS, Rigidity, Strain, Stress, WeightedRigidity, transposed, unit,
+    HOOP, OPERATORS, PAIRS, Rigidity, Strain, Stress, WeightedRigidity, has_hoop_strain, hoop,
+    operators, transposed, unit,
 };
 use ppum::dataset::Equation;
 use ppum::equation::Moduli;
@@ -19,9 +20,10 @@ type Tensor = [[[[f64; OPERATORS]; 2]; OPERATORS]; 2];
 /// with the given strains ε⁰ and C = Σ_m a_m(x) T_m, constant tensors T_m times coefficients a_m of
 /// position.
 ///
-/// Elasticity: C = λ δ_ik δ_jl + μ (δ_ij δ_kl + δ_il δ_jk) with the plane λ; Poisson: κ δ_kl. An
-/// anisotropic body has four terms beside these, of [`Moduli::anisotropy`]. Where the constants are
-/// the same everywhere there is one term with coefficient 1.
+/// Elasticity: C = λ δ_ik δ_jl + μ (δ_ij δ_kl + δ_il δ_jk) with the plane λ, and in bodies of
+/// revolution λ + 2μ for the hoop strain, λ beside the others; Poisson: κ δ_kl. An anisotropic body
+/// has four terms beside these, of [`Moduli::anisotropy`]. Where the constants are the same
+/// everywhere there is one term with coefficient 1.
 #[derive(Clone, Debug)]
 pub struct Law<'e> {
     /// Components of u.
@@ -45,7 +47,7 @@ impl<'e> Law<'e> {
     #[must_use]
     pub fn new(equation: &'e Equation) -> Self {
         let components = equation.components();
-        let mut terms = units(components);
+        let mut terms = units(equation);
         terms.extend(equation.anisotropy().iter().flat_map(|_| anisotropic_units()));
         let (uniform, temperature) = (false, None);
         let mut law = Self { components, equation, temperature, terms, uniform };
@@ -81,7 +83,11 @@ impl<'e> Law<'e> {
             return law;
         }
         let moduli = self.moduli(x, face);
-        let [.., zz] = moduli.eigenstrain;
+        let [xx, yy, xy, zz] = moduli.eigenstrain;
+        if self.has_hoop_strain() {
+            let eigenstrain = Strain::symmetric([xx, yy, xy]).with_hoop(zz);
+            return LawAt { eigenstrain, ..law };
+        }
         let eigenstrain = Strain::symmetric(moduli.plane_eigenstrain());
         LawAt { eigenstrain, through: moduli.young * zz * zz, ..law }
     }
@@ -133,7 +139,13 @@ impl<'e> Law<'e> {
             let parts = term.tensor.as_flattened().as_flattened().as_flattened();
             entries.iter_mut().zip(parts).for_each(|(entry, part)| *entry += a * part);
         }
-        LawAt { tensor, ..LawAt::zero(self.components) }
+        let radius = self.has_hoop_strain().then_some(x.x);
+        LawAt { tensor, radius, ..LawAt::zero(self.components) }
+    }
+
+    /// True if the strains of the body have a hoop strain among them.
+    pub fn has_hoop_strain(&self) -> bool {
+        has_hoop_strain(self.equation)
     }
 
     /// The coefficients a_m at a point, one per term.
@@ -208,12 +220,19 @@ impl<'e> Law<'e> {
 }
 
 /// The tensors of the coefficients λ and μ, or κ.
-fn units(components: usize) -> Vec<LawAt> {
+fn units(equation: &Equation) -> Vec<LawAt> {
+    let (components, operators) = (equation.components(), operators(equation));
+    let is_strain = |[j, k]: [usize; 2]| k < operators && [j, k] != [1, HOOP];
     let same = |a: [usize; 2], b: [usize; 2]| f64::from(u8::from(a == b));
     let term = |entry: &dyn Fn([usize; 2], [usize; 2]) -> f64| {
         let tensor = std::array::from_fn(|i| {
             std::array::from_fn(|k| {
-                std::array::from_fn(|j| std::array::from_fn(|l| entry([i, k], [j, l])))
+                std::array::from_fn(|j| {
+                    std::array::from_fn(|l| {
+                        let is_entry = is_strain([i, k]) && is_strain([j, l]);
+                        if is_entry { entry([i, k], [j, l]) } else { 0.0 }
+                    })
+                })
             })
         });
         LawAt { tensor, ..LawAt::zero(components) }
@@ -249,12 +268,14 @@ pub struct LawAt {
     eigenstrain: Strain,
     /// E (ε⁰_zz)², twice the energy of the strain that the third direction does not take.
     through: f64,
+    /// The distance of the point from the axis, where there is a hoop strain.
+    radius: Option<f64>,
 }
 
 impl LawAt {
     fn zero(components: usize) -> Self {
         let (tensor, eigenstrain) = (Tensor::default(), Strain::default());
-        Self { components, tensor, eigenstrain, through: 0.0 }
+        Self { components, tensor, eigenstrain, through: 0.0, radius: None }
     }
 
     /// Components of u.
@@ -304,7 +325,8 @@ impl LawAt {
     /// The strain of a field with these components at the point of the law.
     #[must_use]
     pub fn strain(&self, u: &[Jet<f64>]) -> Strain {
-        Strain::new(&u[..self.components])
+        let strain = Strain::new(&u[..self.components]);
+        self.radius.map_or(strain, |x| strain.with_hoop(hoop(u[0].v, u[0].x, x)))
     }
 
     /// The stress (flux) σ of a strain; rows beyond the components are zero.

@@ -16,6 +16,7 @@ use ppum::segment::Segment;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::geometry::is_on_rim;
 use std::cell::Cell;
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 /// Pieces smaller than this part of their cell are dropped. Slivers that have an area are kept.
@@ -45,6 +46,8 @@ pub struct Quadrature<'a> {
     pub(super) holes: Arc<[PlacedHole<'a>]>,
     /// Most divisions in one cell, or along one line through it.
     pub(super) divisions: usize,
+    /// True if the weights are those of bodies of revolution, times 2πx.
+    is_axisymmetric: bool,
 }
 
 /// A disc around a point at which the integrand is singular.
@@ -96,13 +99,29 @@ impl<'a> Quadrature<'a> {
         let faces = faces.map(|ends| [ends[0], ends[1]]).collect();
         let cuts = EdgeCuts::new(&inside, geometry.holes);
         let holes = geometry.holes.iter().map(PlacedHole::new).collect();
-        Self { geometry, orders, cuts, faces, holes, divisions: adapt::MOST_DIVISIONS }
+        let divisions = adapt::MOST_DIVISIONS;
+        Self { geometry, orders, cuts, faces, holes, divisions, is_axisymmetric: false }
     }
 
     /// Returns the quadrature with fewer divisions of a cell where formulas are probed.
     #[must_use]
     pub fn with_divisions(self, most: usize) -> Self {
         Self { divisions: most.min(self.divisions), ..self }
+    }
+
+    /// Returns the quadrature of the body of revolution about x = 0 if there is one: a point
+    /// stands for the circle through it.
+    #[must_use]
+    pub(crate) fn around_axis(self, is_axisymmetric: bool) -> Self {
+        Self { is_axisymmetric, ..self }
+    }
+
+    /// Multiplies the weights of points by the lengths of their circles.
+    pub(super) fn revolve(&self, anchor: Vec2, offsets: &[Vec2], weights: &mut [f64]) {
+        if self.is_axisymmetric {
+            let points = offsets.iter().zip(weights);
+            points.for_each(|(offset, weight)| *weight *= circumference(anchor + *offset));
+        }
     }
 
     /// The rules on a cell.
@@ -116,7 +135,8 @@ impl<'a> Quadrature<'a> {
     #[must_use]
     pub(crate) fn is_whole(&self, cell: CoveredCell<'_>) -> bool {
         let SmoothnessGeometry { common_kinks, common_probes, .. } = self.geometry;
-        common_kinks.is_empty()
+        !self.is_axisymmetric
+            && common_kinks.is_empty()
             && common_probes.is_empty()
             && self.geometry.is_smooth(cell.patches)
             && self.cuts_near(cell.rect).next().is_none()
@@ -178,7 +198,11 @@ impl<'a> Quadrature<'a> {
         let mut singular: Vec<Vec2> = self.geometry.singular.iter().map(|s| s.point).collect();
         singular.extend(disc.map(|d| d.center));
         run.rules.0.iter().for_each(|rule| rule.check(&singular));
-        run.rules.0
+        let mut rules = run.rules.0;
+        for CellRule { anchor, offsets, weights, .. } in &mut rules {
+            self.revolve(*anchor, offsets, weights);
+        }
+        rules
     }
 
     /// The segments of cracks and sides of holes that meet the closed box.
@@ -190,6 +214,12 @@ impl<'a> Quadrature<'a> {
     pub(super) fn runs_near(&self, rect: &Rect) -> impl Iterator<Item = &ArcRun> {
         self.cuts.runs.iter().filter(|run| run.near(rect).next().is_some())
     }
+}
+
+/// The length of the circle that a point of a body of revolution stands for, 2πx.
+#[must_use]
+pub fn circumference(x: Vec2) -> f64 {
+    TAU * x.x
 }
 
 /// True if the segment meets the closed box, up to rounding.

@@ -104,7 +104,11 @@ impl Quadrature<'_> {
         for range in inside {
             without(range, &faces).into_iter().for_each(|[lo, hi]| run.add(lo, hi));
         }
-        run.rules
+        let mut rules = run.rules;
+        for EdgeRule { anchor, offsets, weights, .. } in &mut rules {
+            self.revolve(*anchor, offsets, weights);
+        }
+        rules
     }
 
     /// The number of Gauss points on a part of an edge that is so far from singular points, in

@@ -47,7 +47,7 @@ mod split;
 #[cfg(test)]
 mod tests;
 
-pub use cell::{CoveredCell, Disc, Quadrature};
+pub use cell::{CoveredCell, Disc, Quadrature, circumference};
 pub(crate) use curve::may_meet;
 pub(crate) use edge::closed_meet;
 

@@ -39,6 +39,10 @@ pub fn discretise_on(
         mesh.cover.partition(set.overlap, set.weight.clone()).map_err(RefineError::from)?;
     let (partition, raised) = inner_part(partition, &mesh.raised, &problem.domain().bounds);
     let (partition, raised) = solid_part(partition, &raised, &problem.domain().holes)?;
+    let mut partition = partition;
+    if problem.equation.is_axisymmetric() {
+        see_from_axis(&mut partition);
+    }
     let mut enrichments = Enrichments::new(problem);
     enrichments.add_interfaces(&partition, stage)?;
     enrichments.add_corners(&partition);
@@ -78,6 +82,17 @@ fn inner_part(
         some(partition, raised, &is_inner)
     } else {
         (partition, raised.to_vec())
+    }
+}
+
+/// Counts the polynomials of patches on the axis of a body of revolution from there, so that of
+/// those that vanish on it all terms do, and u_x/x keeps its digits beside it.
+fn see_from_axis(partition: &mut BoxPartition) {
+    for patch in 0..partition.len() {
+        let support = partition.support(patch);
+        if support.min.x <= 0.0 {
+            (partition.origin[patch].x, partition.scale[patch].x) = (0.0, support.max.x);
+        }
     }
 }
 

@@ -126,7 +126,7 @@ impl<'d> TrialSpace<'d> {
         };
         let partition = step.partition.boxes();
         let (covering_patches, orders) =
-            (covering_patches(partition), orders(partition, smoothness.degree()));
+            (covering_patches(partition), orders(partition, degree(&smoothness, equation)));
         let space = Self::of_cells(step, (equation, tables), covering_patches, orders)?;
         Ok(Self { holes: &domain.holes, smoothness, ..space })
     }
@@ -227,9 +227,9 @@ impl<'d> TrialSpace<'d> {
         let geometry = smoothness.geometry(self.partition(), &self.step.cracks, self.holes);
         let orders = match extra {
             0 => self.orders,
-            _ => orders(self.partition(), self.degree() + extra),
+            _ => orders(self.partition(), degree(&self.smoothness, self.equation) + extra),
         };
-        Quadrature::new(geometry, orders)
+        Quadrature::new(geometry, orders).around_axis(self.equation.is_axisymmetric())
     }
 
     /// Largest degree of a polynomial, times its function where that is a piecewise polynomial.
@@ -300,6 +300,12 @@ fn covering_patches(partition: &BoxPartition) -> Vec<Vec<u32>> {
         found
     };
     partition.cell.iter().map(of_cell).collect()
+}
+
+/// The degree of polynomials that quadrature resolves: the weight of bodies of revolution, and
+/// what stands over x, take one more.
+fn degree(smoothness: &Smoothness, equation: &Equation) -> usize {
+    smoothness.degree() + usize::from(equation.is_axisymmetric())
 }
 
 /// The numbers of Gauss points that polynomials of a degree and the partition's weights need.

@@ -90,7 +90,8 @@ pub(super) fn series(problem: &Problem, step: &Step) -> Vec<Vec<SeriesFunctions>
 type FunctionOrigins = BTreeMap<u32, (Origin, usize)>;
 
 fn groups(problem: &Problem, step: &Step) -> FunctionOrigins {
-    let mut groups = of_tips(problem, step);
+    let mut groups =
+        if problem.has_tip_series() { of_tips(problem, step) } else { BTreeMap::new() };
     // to look for corners takes a second where rims have thousands of vertices
     if !step.functions.iter().any(|function| function.kind.role() == Some(Role::Corner)) {
         return groups;

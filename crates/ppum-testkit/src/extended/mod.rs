@@ -321,7 +321,9 @@ pub fn von_mises(material: &Material, u: &[Dual]) -> DoubleDouble {
     let one = DoubleDouble::from(1.0);
     let mu = e / ((one + nu) * 2.0);
     let (lambda, out) = match material.state {
-        StressState::PlaneStrain => (e * nu / ((one + nu) * (one - nu * 2.0)), nu),
+        StressState::PlaneStrain | StressState::Axisymmetric => {
+            (e * nu / ((one + nu) * (one - nu * 2.0)), nu)
+        }
         StressState::PlaneStress => (e * nu / (one - nu * nu), DoubleDouble::from(0.0)),
     };
     let trace = u[0].x + u[1].y;

@@ -232,7 +232,7 @@ pub fn equations() -> Vec<DrawingCase> {
         DrawingCase::new("materials by region", &coarse, &["von-mises", "energy"])
             .with(|d| d.equation = regions),
         DrawingCase::new("Poisson", &one, &["energy", "u"])
-            .with(|d| d.equation = Equation::Poisson { conductivity }),
+            .with(|d| d.equation = Equation::Poisson { conductivity, axisymmetric: false }),
         DrawingCase::new("temperature in plane strain", &three, &HEATED)
             .with(heated(StressState::PlaneStrain)),
         DrawingCase::new("temperature in plane stress", &three, &HEATED)

@@ -14,12 +14,13 @@
 //! difference of both, which says nothing where s₁ = s₂, the divided difference
 //! D = (w₁ − w₂)/(s₁ − s₂) = y/(w₁ + w₂), which has a value there.
 
+mod stiffness;
 mod tip;
 
-use crate::equation::{Eigenstrain, Elasticity, Moduli, StressState};
 use crate::expression::Expression;
-use crate::vec2::{Vec2, vec2};
-use ppum_formula::real::{Lanes, Real};
+use crate::vec2::Vec2;
+use stiffness::{PLANE, inverse, least_eigenvalue, times, turned_through};
+pub use stiffness::{PlaneStiffness, turned};
 pub use tip::{TIP_FUNCTIONS, TipFields, TipGradients, TipLaw, weakest_direction};
 
 /// The names of the constants in files and in formulas: of the plane, of plane strain, and the
@@ -27,14 +28,8 @@ pub use tip::{TIP_FUNCTIONS, TipFields, TipGradients, TipLaw, weakest_direction}
 pub const STIFFNESS: [&str; 11] =
     ["c11", "c12", "c16", "c22", "c26", "c66", "c13", "c23", "c36", "c33", "axis"];
 
-/// Constants of the plane.
-const PLANE: usize = 6;
-
 /// Numbers that the moduli of a point are made of.
-const MODULI: usize = 11;
-
-/// c₁₁, c₁₂, c₁₆, c₂₂, c₂₆, c₆₆.
-pub type PlaneStiffness<R = f64> = [R; PLANE];
+pub(crate) const MODULI: usize = 11;
 
 /// The law of an anisotropic body.
 #[derive(Clone, Debug, PartialEq)]
@@ -48,33 +43,13 @@ pub struct Anisotropy {
 }
 
 impl Anisotropy {
-    /// The expressions with their names; those through the plane of plane strain alone.
-    pub fn constants(
-        &self,
-        state: StressState,
-    ) -> impl Iterator<Item = (&'static str, &Expression)> {
-        let through = self.through.iter().filter(move |_| state == StressState::PlaneStrain);
+    /// The expressions with their names, those through the plane if it is one of plane strain.
+    pub fn constants(&self, is_strain: bool) -> impl Iterator<Item = (&'static str, &Expression)> {
+        let through = self.through.iter().filter(move |_| is_strain);
         let names = STIFFNESS.into_iter();
         let (of_plane, rest) = (names.clone().take(PLANE), names.skip(PLANE));
         let through = rest.zip(through);
         of_plane.zip(&self.plane).chain(through).chain([(STIFFNESS[10], &self.axis)])
-    }
-
-    /// The body of this law. Its `young` and `poisson` are those of the isotropic body that is as
-    /// stiff in the mean of both axes.
-    #[must_use]
-    pub fn body(self, state: StressState, eigenstrain: Option<Box<Eigenstrain>>) -> Elasticity {
-        let [c11, c12, _, c22, ..] = self.plane.each_ref().map(|e| e.value(Vec2::ZERO));
-        let (mean, ratio) = (0.5 * (c11 + c22), 2.0 * c12 / (c11 + c22));
-        let (young, poisson) = match state {
-            StressState::PlaneStress => (mean * (1.0 - ratio * ratio), ratio),
-            StressState::PlaneStrain => {
-                let nu = ratio / (1.0 + ratio);
-                (mean * (1.0 + nu) * (1.0 - 2.0 * nu) / (1.0 - nu), nu)
-            }
-        };
-        let (young, poisson) = (Expression::number(young), Expression::number(poisson));
-        Elasticity { young, poisson, state, eigenstrain, anisotropy: Some(Box::new(self)) }
     }
 
     /// The plane's constants in the world's axes.
@@ -90,60 +65,12 @@ impl Anisotropy {
         TipLaw::new(&turned(self.plane_at(tip), [axis.x, -axis.y]))
     }
 
-    /// The moduli at points `anchor + offset`, with the strains that are given there.
-    #[inline(always)]
-    pub(crate) fn moduli<R: Real>(
-        &self,
-        anchor: Vec2,
-        offset: [R; 2],
-        eigenstrain: Option<&Eigenstrain>,
-    ) -> Moduli<R> {
-        let [x, y] = offset;
-        let all = self.moduli_of_lanes(anchor, [x.lanes(), y.lanes()], R::LANES, eigenstrain);
-        let [c12, c16, c26, c66, first, second, young, xx, yy, xy, zz] = all;
-        Moduli {
-            lambda: x.with_lanes(|k| c12[k]),
-            mu: x.with_lanes(|k| c66[k]),
-            anisotropy: [
-                x.with_lanes(|k| first[k]),
-                x.with_lanes(|k| second[k]),
-                x.with_lanes(|k| c16[k]),
-                x.with_lanes(|k| c26[k]),
-            ],
-            young: x.with_lanes(|k| young[k]),
-            eigenstrain: [
-                x.with_lanes(|k| xx[k]),
-                x.with_lanes(|k| yy[k]),
-                x.with_lanes(|k| xy[k]),
-                x.with_lanes(|k| zz[k]),
-            ],
-            ..Moduli::all(x.broadcast(0.0))
-        }
-    }
-
-    fn moduli_of_lanes(
-        &self,
-        anchor: Vec2,
-        [xs, ys]: [Lanes; 2],
-        lanes: usize,
-        eigenstrain: Option<&Eigenstrain>,
-    ) -> [Lanes; MODULI] {
-        let mut all = [Lanes::default(); MODULI];
-        for lane in 0..lanes {
-            let at = self.moduli_at(anchor + vec2(xs[lane], ys[lane]), eigenstrain);
-            all.iter_mut().zip(at).for_each(|(of_lanes, value)| of_lanes[lane] = value);
-        }
-        all
-    }
-
     /// c₁₂, c₁₆, c₂₆ and c₆₆ in the world's axes, c₁₁ − c₁₂ − 2c₆₆ and c₂₂ − c₁₂ − 2c₆₆, the modulus
     /// of the third direction, and the given strains: those of the plane under which its stresses
     /// vanish, and ε⁰_zz.
-    fn moduli_at(&self, p: Vec2, eigenstrain: Option<&Eigenstrain>) -> [f64; MODULI] {
+    pub(crate) fn moduli_at(&self, p: Vec2, [xx, yy, xy, zz]: [f64; 4]) -> [f64; MODULI] {
         let plane = self.plane_at(p);
         let [c11, c12, c16, c22, c26, c66] = plane;
-        let given = eigenstrain.map(|given| given.strains.each_ref().map(|e| e.value(p)));
-        let [xx, yy, xy, zz] = given.unwrap_or_default();
         let (s, c) = self.axis.value(p).sin_cos();
         let [c13, c23, c36, c33] = self.through.each_ref().map(|e| e.value(p));
         let through = turned_through([c13, c23, c36], [c, s]);
@@ -186,8 +113,8 @@ impl Anisotropy {
     }
 
     /// The error in the constants at a point, if there is one: the name, and the reason.
-    pub(crate) fn invalid(&self, state: StressState, p: Vec2) -> Option<(&'static str, String)> {
-        let values = self.constants(state).map(|(name, e)| (name, e.value(p)));
+    pub(crate) fn invalid(&self, is_strain: bool, p: Vec2) -> Option<(&'static str, String)> {
+        let values = self.constants(is_strain).map(|(name, e)| (name, e.value(p)));
         let infinite = values.into_iter().find(|(_, value)| !value.is_finite());
         if let Some((name, value)) = infinite {
             return Some((name, format!("is {value}, but must be finite")));
@@ -196,9 +123,9 @@ impl Anisotropy {
         let [c13, c23, c36, c33] = self.through.each_ref().map(|e| e.value(p));
         let least = |matrix: &[f64], n| least_eigenvalue(matrix, n);
         let plane = least(&[c11, c12, c16, c12, c22, c26, c16, c26, c66], 3);
-        let (what, least) = match state {
-            StressState::PlaneStress => ("the stiffness", plane),
-            StressState::PlaneStrain => {
+        let (what, least) = match is_strain {
+            false => ("the stiffness", plane),
+            true => {
                 let whole = [
                     [c11, c12, c16, c13],
                     [c12, c22, c26, c23],
@@ -219,75 +146,4 @@ impl Anisotropy {
 pub(crate) struct LawSlopes {
     pub(crate) plane: PlaneStiffness,
     pub(crate) ratio: [f64; 3],
-}
-
-/// c₁₃, c₂₃ and c₃₆ in axes that the first axis has an angle with this cosine and sine from.
-fn turned_through([c13, c23, c36]: [f64; 3], [c, s]: [f64; 2]) -> [f64; 3] {
-    let shear = 2.0 * c36 * s * c;
-    [
-        c13 * c * c + c23 * s * s - shear,
-        c13 * s * s + c23 * c * c + shear,
-        (c13 - c23) * s * c + c36 * (c * c - s * s),
-    ]
-}
-
-/// The least eigenvalue of a symmetric matrix by Jacobi's rotations.
-fn least_eigenvalue(matrix: &[f64], n: usize) -> f64 {
-    let mut a = matrix.to_vec();
-    for _ in 0..30 {
-        for i in 0..n {
-            for j in 0..i {
-                let theta = 0.5 * (2.0 * a[i * n + j]).atan2(a[j * n + j] - a[i * n + i]);
-                let (s, c) = theta.sin_cos();
-                for k in 0..n {
-                    let (x, y) = (a[i * n + k], a[j * n + k]);
-                    (a[i * n + k], a[j * n + k]) = (c * x - s * y, s * x + c * y);
-                }
-                for k in 0..n {
-                    let (x, y) = (a[k * n + i], a[k * n + j]);
-                    (a[k * n + i], a[k * n + j]) = (c * x - s * y, s * x + c * y);
-                }
-            }
-        }
-    }
-    (0..n).map(|k| a[k * n + k]).fold(f64::INFINITY, f64::min)
-}
-
-/// The constants in axes that those given are turned from by an angle with this cosine and sine,
-/// as the angle of the given first axis from the new one.
-#[must_use]
-pub fn turned([c11, c12, c16, c22, c26, c66]: PlaneStiffness, [c, s]: [f64; 2]) -> PlaneStiffness {
-    let (cc, ss, sc) = (c * c, s * s, s * c);
-    let (sum, difference) = (c12 + 2.0 * c66, cc - ss);
-    [
-        c11 * cc * cc + 2.0 * sum * cc * ss + c22 * ss * ss - 4.0 * sc * (c16 * cc + c26 * ss),
-        c12 + (c11 + c22 - 2.0 * sum) * cc * ss + 2.0 * (c16 - c26) * sc * difference,
-        sc * (c11 * cc - c22 * ss - sum * difference)
-            + c16 * cc * (cc - 3.0 * ss)
-            + c26 * ss * (3.0 * cc - ss),
-        c11 * ss * ss + 2.0 * sum * cc * ss + c22 * cc * cc + 4.0 * sc * (c16 * ss + c26 * cc),
-        sc * (c11 * ss - c22 * cc + sum * difference)
-            + c16 * ss * (3.0 * cc - ss)
-            + c26 * cc * (cc - 3.0 * ss),
-        c66 + (c11 + c22 - 2.0 * sum) * cc * ss + 2.0 * (c16 - c26) * sc * difference,
-    ]
-}
-
-/// The compliance a₁₁, a₁₂, a₁₆, a₂₂, a₂₆, a₆₆.
-fn inverse([c11, c12, c16, c22, c26, c66]: &PlaneStiffness) -> PlaneStiffness {
-    let minors = [
-        c22 * c66 - c26 * c26,
-        c16 * c26 - c12 * c66,
-        c12 * c26 - c16 * c22,
-        c11 * c66 - c16 * c16,
-        c12 * c16 - c11 * c26,
-        c11 * c22 - c12 * c12,
-    ];
-    let determinant = c11 * minors[0] + c12 * minors[1] + c16 * minors[2];
-    minors.map(|minor| minor / determinant)
-}
-
-/// A symmetric matrix times a vector.
-fn times([a, b, c, d, e, f]: &PlaneStiffness, [x, y, z]: [f64; 3]) -> [f64; 3] {
-    [a * x + b * y + c * z, b * x + d * y + e * z, c * x + e * y + f * z]
 }

@@ -1,9 +1,8 @@
 //! The fields at a tip of an anisotropic body, in the frame of the tip.
 
-use super::{PlaneStiffness, inverse};
+use super::stiffness::{PlaneStiffness, inverse, times};
 use crate::complex::Complex;
 use crate::crack::TipPoint;
-use crate::dataset::TipIntensity;
 use ppum_formula::real::Real;
 use std::f64::consts::{PI, TAU};
 
@@ -109,11 +108,10 @@ impl TipLaw {
         k1 + across / along * k2
     }
 
-    /// True unless the faces overlap by more than the error of the factors.
+    /// True unless the faces overlap by more than an error of the factors.
     #[must_use]
-    pub fn opens(&self, factors: &TipIntensity) -> bool {
-        let opening = self.opening([factors.k1, factors.k2]);
-        opening >= -factors.tolerance() && factors.k1.hypot(factors.k2) > 0.0
+    pub fn opens(&self, k: [f64; 2], error: f64) -> bool {
+        self.opening(k) >= -error && k[0].hypot(k[1]) > 0.0
     }
 
     /// √(2πr) σ_θθ in a direction, of factors.
@@ -129,7 +127,7 @@ impl TipLaw {
             k1 * part(0) + k2 * part(1)
         };
         let strain = [row(0, 0), row(1, 1), row(0, 1) + row(1, 0)];
-        let [xx, yy, xy] = super::times(&self.stiffness, strain);
+        let [xx, yy, xy] = times(&self.stiffness, strain);
         xx * s * s + yy * c * c - 2.0 * xy * s * c
     }
 
@@ -352,8 +350,8 @@ fn logarithms<R: Real>(point: &TipPoint<R>, s: [Complex<R>; 2]) -> [Slopes<R>; 2
 
 #[cfg(test)]
 mod tests {
+    use super::super::stiffness::turned;
     use super::*;
-    use crate::anisotropy::turned;
     use crate::vec2::{Vec2, vec2};
     use ppum_formula::{Formula, Scope};
     use ppum_testkit::random::Random;
@@ -376,7 +374,7 @@ mod tests {
     }
 
     fn stress(c: &PlaneStiffness, g: &Gradient<f64>) -> [f64; 3] {
-        crate::anisotropy::times(c, [g[0][0], g[1][1], g[0][1] + g[1][0]])
+        times(c, [g[0][0], g[1][1], g[0][1] + g[1][0]])
     }
 
     fn close(found: f64, expected: f64, size: f64) {
@@ -515,7 +513,7 @@ mod tests {
                 2.0 * s * co * (strain[1] - strain[0]) + (co * co - s * s) * strain[2],
             ];
             let energy = |c: &PlaneStiffness, e: [f64; 3]| {
-                crate::anisotropy::times(c, e).iter().zip(e).map(|(s, e)| s * e).sum::<f64>()
+                times(c, e).iter().zip(e).map(|(s, e)| s * e).sum::<f64>()
             };
             close(energy(&other, strain), energy(&c, own), 1e-10);
         }

@@ -1,7 +1,9 @@
 //! Results of the solver for a step: attributes, history, reactions, intensities.
 
+use crate::anisotropy::weakest_direction;
 use crate::crack::TipId;
-use crate::equation::Material;
+use crate::equation::{Elasticity, Equation, Material};
+use crate::vec2::Vec2;
 
 /// Named values, one per patch: order, enrichment, functions cut off, …
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -85,6 +87,27 @@ impl TipIntensity {
         (self.k1 * self.k1 + self.k2 * self.k2) / material.effective_young()
     }
 
+    /// G in a body, at the tip's place and with its direction of growth.
+    #[must_use]
+    pub fn energy_release_in(&self, body: &Elasticity, [tip, axis]: [Vec2; 2]) -> f64 {
+        match &body.anisotropy {
+            Some(law) => law.at_tip(tip, axis).energy_release([self.k1, self.k2]),
+            None => self.energy_release(&body.at(tip)),
+        }
+    }
+
+    /// The [angle of growth](Self::growth_angle) in a body, at the tip's place and with its
+    /// direction of growth.
+    #[must_use]
+    pub fn growth_angle_in(&self, equation: &Equation, [tip, axis]: [Vec2; 2]) -> Option<f64> {
+        let Some(law) = equation.anisotropy().map(|law| law.at_tip(tip, axis)) else {
+            return self.growth_angle();
+        };
+        let k = [self.k1, self.k2];
+        let hoop = |theta| law.hoop_stress(k, theta);
+        law.opens(k, self.tolerance()).then(|| weakest_direction(hoop, |_| 1.0))
+    }
+
     /// The angle from the crack's direction in which the hoop stress beside the tip is largest, and
     /// in which a crack in a brittle material grows (Erdogan & Sih 1963), in [−70.53°, 70.53°] as
     /// radians: 2 arctan(−2 K_II / (K_I + √(K_I² + 8 K_II²))).
@@ -101,7 +124,8 @@ impl TipIntensity {
     }
 
     /// How negative the factor of an opening may be where it should be zero.
-    pub(crate) fn tolerance(&self) -> f64 {
+    #[must_use]
+    pub fn tolerance(&self) -> f64 {
         (NOISE * self.k1.hypot(self.k2)).max(self.error.unwrap_or(0.0))
     }
 

@@ -8,8 +8,11 @@ use super::sample::{Sample, Source};
 use crate::anisotropy::STIFFNESS;
 use crate::dataset::NamedQuantity;
 use crate::equation::{EIGENSTRAINS, EXPANSION, Equation, Moduli, StressState, TEMPERATURE};
+use crate::expression::Expression;
 use crate::field::Field;
-use crate::library::{ANISOTROPY, Definition, EIGENSTRAIN, ELASTICITY, POISSON, STRAINS};
+use crate::library::{
+    ANISOTROPY, Definition, EIGENSTRAIN, ELASTICITY, HOOP_STRAIN, POISSON, STRAINS,
+};
 use ppum_formula::real::{LaneNumber, Real};
 use ppum_formula::{
     Block, BlockScratch, DerivativeError, Formula, FormulaError, FormulaJets, Scope, ScopeError,
@@ -47,10 +50,9 @@ impl<'a> Vocabulary<'a> {
 /// It may use the position `x`, `y`; the components and derivatives of the field, `ux`, `dux_dx`,
 /// …; the constants of the equation, `young`, `poisson`, `mu`, `lambda`, `out_of_plane` (= σ_zz /
 /// (σ_xx + σ_yy)) or `conductivity`; the [given strains](crate::equation::EIGENSTRAINS), and
-/// `expansion` where the field has a temperature; the
-/// [library's](crate::library::ELASTICITY) quantities, of an anisotropic body [its
-/// constants](crate::anisotropy::STIFFNESS) in place of those above; `-` in names written as `_`; the dataset's
-/// named quantities and tables.
+/// `expansion` where the field has a temperature; the [library's](crate::library::ELASTICITY)
+/// quantities, of an anisotropic body [its constants](crate::anisotropy::STIFFNESS) in place of
+/// those above; `-` in names written as `_`; the dataset's named quantities and tables.
 #[derive(Clone, Debug)]
 pub struct QuantityFormula {
     name: Option<String>,
@@ -179,7 +181,9 @@ impl<'a> Vocabulary<'a> {
             Equation::Elasticity(body) if body.anisotropy.is_some() => {
                 [&ELASTICITY[..STRAINS], &ANISOTROPY]
             }
-            Equation::Elasticity(body) if body.eigenstrain.is_some() => {
+            Equation::Elasticity(body)
+                if body.eigenstrain.is_some() || body.state == StressState::Axisymmetric =>
+            {
                 [&ELASTICITY[..STRAINS], &EIGENSTRAIN]
             }
             Equation::Elasticity(_) => [&ELASTICITY, &[]],
@@ -187,17 +191,27 @@ impl<'a> Vocabulary<'a> {
             Equation::None => [&[], &[]],
         };
         let library = library.into_iter().flatten();
-        let library = library.map(|&(name, text)| (name.to_owned(), text.into()));
+        let is_round = is_solution && self.equation.is_axisymmetric();
+        let is_round = is_round && self.equation.elastic().is_some();
+        let library = library.map(move |&(name, text)| match (is_round, name) {
+            (false, _) => (name.to_owned(), text.into()),
+            (_, "divergence") => (name.to_owned(), format!("{text} + {}", HOOP_STRAIN.1).into()),
+            // the third direction is that of the hoop
+            _ => (name.replace("szz", "shoop"), text.replace("szz", "shoop").into()),
+        });
+        let hoop = is_round.then(|| (HOOP_STRAIN.0.to_owned(), HOOP_STRAIN.1.into()));
         let named = self.named.iter().map(|q| (q.name.replace('-', "_"), q.text.as_str().into()));
-        self.given(is_solution).chain(library).chain(named)
+        self.given(is_solution).chain(hoop).chain(library).chain(named)
     }
 
     /// The coefficient of expansion, the given strains, and the constants of an anisotropic body,
     /// without which its quantities have zeros; strains by a temperature are those of the solution
-    /// alone, which has one.
+    /// alone, which has one, and so is the hoop strain of a body of revolution, which plane strain
+    /// is less in its third direction.
     fn given(&self, is_solution: bool) -> impl Iterator<Item = (String, Cow<'a, str>)> {
         let expansion = self.equation.expansion().filter(|_| is_solution);
         let state = self.equation.elastic().map(|body| body.state);
+        let is_round = is_solution && state == Some(StressState::Axisymmetric);
         let text = move |name: &str, text: &'a str| -> Cow<'a, str> {
             match expansion {
                 _ if name == EIGENSTRAINS[3] && state == Some(StressState::PlaneStress) => {
@@ -209,20 +223,26 @@ impl<'a> Vocabulary<'a> {
                 _ => text.into(),
             }
         };
-        let strains = self.equation.eigenstrains();
-        let strains = strains.map(move |(name, e)| (name.to_owned(), text(name, e.text())));
-        let expansion = expansion.map(|e| (EXPANSION.to_owned(), e.text().into())).into_iter();
-        let stiffness =
-            self.equation.stiffness().map(|(name, e)| (name.to_owned(), e.text().into()));
-        let mut given: Vec<_> = expansion.chain(strains).chain(stiffness).collect();
-        if self.equation.anisotropy().is_some() && is_solution {
-            for name in EIGENSTRAINS.into_iter().chain(STIFFNESS) {
-                if given.iter().all(|(known, _)| known != name) {
-                    given.push((name.to_owned(), "0".into()));
-                }
-            }
+        let owned = |(name, e): (&'static str, &'a Expression)| (name.to_owned(), e.text().into());
+        let expansion = expansion.map(|e| owned((EXPANSION, e)));
+        let strains = self.equation.eigenstrains().map(|(name, e)| (name, e.text()));
+        let mut strains: Vec<(&str, &str)> = strains.collect();
+        let stiffness: Vec<_> = self.equation.stiffness().collect();
+        let is_anisotropic = self.equation.anisotropy().is_some() && is_solution;
+        if strains.is_empty() && (is_round || is_anisotropic) {
+            strains.extend(EIGENSTRAINS.map(|name| (name, "0")));
         }
-        given.into_iter()
+        let zeros = STIFFNESS.into_iter().filter(|_| is_anisotropic);
+        let zeros = zeros.filter(|name| stiffness.iter().all(|(known, _)| known != name));
+        let zeros: Vec<_> = zeros.map(|name| (name.to_owned(), "0".into())).collect();
+        let strains = strains.into_iter().map(move |(name, own)| {
+            let text = text(name, own);
+            let is_less = is_round && name == EIGENSTRAINS[3];
+            let text = if is_less { format!("{text} - {}", HOOP_STRAIN.1).into() } else { text };
+            (name.to_owned(), text)
+        });
+        let stiffness = stiffness.into_iter().map(owned);
+        expansion.into_iter().chain(strains).chain(stiffness).chain(zeros)
     }
 }
 

@@ -157,13 +157,15 @@ pub fn names(equation: &Equation, components: &[String]) -> Vec<(String, Quantit
     let elastic = if is_isotropic { elastic } else { &elastic[..elastic.len().min(STRAINS_ALONE)] };
     // a temperature is no part of a size: of a field with one, sizes are formulas of the library
     let has_sizes = !solves || equation.expansion().is_none();
+    let is_round = solves && equation.is_axisymmetric();
     let has = |quantity: &Quantity| match quantity {
+        Q::StressOut => !is_round,
         Q::EnergyDensity => solves && is_isotropic,
         Q::Magnitude | Q::GradientNorm => has_sizes,
         _ => true,
     };
-    let general = GENERAL.iter().filter(|(.., quantity)| has(quantity));
-    all.extend(general.chain(elastic).map(|(name, _, q)| ((*name).to_owned(), q.clone())));
+    let known = GENERAL.iter().chain(elastic).filter(|(.., quantity)| has(quantity));
+    all.extend(known.map(|(name, _, q)| ((*name).to_owned(), q.clone())));
     all
 }
 
@@ -177,7 +179,10 @@ pub fn available(field: &Field<'_>) -> Vec<String> {
     let sizes = ["magnitude", "gradient"].into_iter().filter(|_| field.has_temperature());
     let has_formulas = field.is_displacement() && field.equation.anisotropy().is_some();
     let stresses = ANISOTROPY.iter().map(|(name, _)| *name).filter(|_| has_formulas);
-    let sizes = sizes.chain(stresses);
+    let around = ["ehoop", "shoop"]
+        .into_iter()
+        .filter(|_| field.equation.is_axisymmetric() && Quantity::parse("shoop", field).is_ok());
+    let sizes = sizes.chain(stresses).chain(around);
     let named = field
         .quantities
         .iter()
@@ -198,7 +203,11 @@ fn underscored(text: &str) -> Cow<'_, str> {
 
 impl QuantityError {
     fn unknown(name: &str, known: Vec<String>) -> Self {
-        let hint = hint(name, known.iter().map(String::as_str));
+        let is_hoop = name == "szz" && known.iter().any(|known| known == "shoop");
+        let hint = match is_hoop {
+            true => "; the third stress of a body of revolution is `shoop`".to_owned(),
+            false => hint(name, known.iter().map(String::as_str)),
+        };
         Self::Unknown { name: name.into(), hint, known: known.join(", ") }
     }
 }
@@ -291,8 +300,19 @@ impl Quantity {
                 square * square.broadcast(0.5) * at.moduli.conductivity
             }
             _ if u.len() < 2 => u[0].v.broadcast(f64::NAN),
-            _ if u.len() > 2 => self.of_strain(&at.moduli.heated(u[2].v), &Strain::new(u)),
-            _ => self.of_strain(&at.moduli, &Strain::new(u)),
+            _ => {
+                let strain = Strain::new(u);
+                let moduli = if u.len() > 2 { at.moduli.heated(u[2].v) } else { at.moduli };
+                if moduli.axisymmetric {
+                    let hoop = at.hoop_strain();
+                    match self {
+                        Q::Divergence => strain.xx + strain.yy + hoop,
+                        _ => self.of_strain(&moduli.with_hoop_strain(hoop), &strain),
+                    }
+                } else {
+                    self.of_strain(&moduli, &strain)
+                }
+            }
         };
         at.apart(R::select(value.ge(value), value, value.broadcast(f64::INFINITY)))
     }

@@ -59,7 +59,7 @@ impl MaterialGradient {
 
     /// How the law of an anisotropic body changes along x and along y.
     fn slopes(&self, law: &Anisotropy, p: Vec2) -> [LawSlopes; 2] {
-        let count = law.constants(self.state).count();
+        let count = law.constants(self.state == StressState::PlaneStrain).count();
         // the angle is the last one
         let index = |k: usize| if k == STIFFNESS.len() - 1 { count - 1 } else { k };
         let is_there = |k: &usize| *k == STIFFNESS.len() - 1 || *k < count - 1;
@@ -109,7 +109,7 @@ fn constant(expression: &Expression) -> Result<Option<FormulaJets>, QuantityForm
 
 fn law(state: StressState) -> Result<FormulaJets, QuantityFormulaError> {
     let texts = match state {
-        StressState::PlaneStrain => PLANE_STRAIN,
+        StressState::PlaneStrain | StressState::Axisymmetric => PLANE_STRAIN,
         StressState::PlaneStress => PLANE_STRESS,
     };
     let scope = Scope::new(&["young", "poisson"])?;

@@ -36,6 +36,15 @@ pub struct Sample<'a, R> {
 }
 
 impl<R: Real> Sample<'_, R> {
+    /// The hoop strain of a body of revolution, u_x/x.
+    #[inline(always)]
+    pub(super) fn hoop_strain(&self) -> R {
+        let (ux, x) = (self.jets[0], self.offset[0].broadcast(self.anchor.x) + self.offset[0]);
+        let (zero, one) = (x.broadcast(0.0), x.broadcast(1.0));
+        let is_beside = x.abs().gt(zero);
+        R::select(is_beside, ux.v / R::select(is_beside, x, one), ux.x)
+    }
+
     /// A quantity of the gradient: +∞ where a derivative of any component is infinite or none.
     #[inline(always)]
     pub(super) fn apart(&self, value: R) -> R {

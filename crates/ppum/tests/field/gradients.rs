@@ -75,8 +75,10 @@ fn datasets() -> Vec<Dataset> {
         all.push(dataset);
     }
     let mut potential = Recipe { components: 1, ..Recipe::default() }.dataset();
-    potential.equation =
-        Equation::Poisson { conductivity: "1 + x^2*y".parse().expect("a formula") };
+    potential.equation = Equation::Poisson {
+        conductivity: "1 + x^2*y".parse().expect("a formula"),
+        axisymmetric: false,
+    };
     all.push(potential);
     all.push(Recipe { components: 4, ..Recipe::default() }.dataset());
     all

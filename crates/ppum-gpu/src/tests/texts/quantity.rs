@@ -164,7 +164,7 @@ fn quantities_of_materials() {
         }
     }
     let mut dataset = dataset(1);
-    dataset.equation = Equation::Poisson { conductivity: parse("1 + x^2") };
+    dataset.equation = Equation::Poisson { conductivity: parse("1 + x^2"), axisymmetric: false };
     let field = Field::new(&dataset, 0).expect("a field");
     compare(&field, "energy", |_| 4.0);
     compare(&field, "conductivity*du_dx", |_| 4.0);

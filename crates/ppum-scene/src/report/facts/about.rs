@@ -64,6 +64,8 @@ enum EquationFacts {
     },
     Poisson {
         conductivity: Constant,
+        #[serde(skip_serializing_if = "std::ops::Not::not")]
+        axisymmetric: bool,
     },
     None,
 }
@@ -216,8 +218,8 @@ impl EquationFacts {
                 eigenstrain: eigenstrain(material),
                 expansion: equation.expansion().map(Constant::from),
             },
-            dataset::Equation::Poisson { conductivity } => {
-                Self::Poisson { conductivity: conductivity.into() }
+            dataset::Equation::Poisson { conductivity, axisymmetric } => {
+                Self::Poisson { conductivity: conductivity.into(), axisymmetric: *axisymmetric }
             }
             dataset::Equation::None => Self::None,
         }
@@ -228,6 +230,7 @@ fn state(body: &dataset::Elasticity) -> &'static str {
     match body.state {
         StressState::PlaneStrain => "plane-strain",
         StressState::PlaneStress => "plane-stress",
+        StressState::Axisymmetric => "axisymmetric",
     }
 }
 
@@ -254,7 +257,10 @@ impl fmt::Display for EquationFacts {
                 stiffness.iter().try_for_each(|(name, value)| write!(f, ", {name} {value}"))?;
                 write_strains(f, eigenstrain.as_ref())
             }
-            Self::Poisson { conductivity } => write!(f, "Poisson, κ {conductivity}"),
+            Self::Poisson { conductivity, axisymmetric } => {
+                let about = if *axisymmetric { ", axisymmetric" } else { "" };
+                write!(f, "Poisson, κ {conductivity}{about}")
+            }
             Self::None => f.write_str("none"),
         }
     }
