@@ -100,7 +100,7 @@ def test_h5py_reads_and_the_checksum_agrees():
     for path in files():
         with h5py.File(path) as file:
             assert text(file.attrs["format"]) == "ppum"
-            assert list(file.attrs["format_version"]) == [1, 8]
+            assert list(file.attrs["format_version"]) == [1, 9]
             assert text(file.attrs["title"]) == f"Übung {int(path.stem)}"
             assert is_right(file)
             assert counts_attributes(file)

@@ -2,11 +2,13 @@
 
 use std::ffi::OsString;
 
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Arg, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
+use ppum_scene::help::own_option;
 
 use crate::commands::{
-    check, compare, completions, demo, export, formula, import, info, man, plot, probe, render,
-    sample, sif, solve, view, weight,
+    check, compare, completions, demo, export, formula, import, info, init, man, plot, probe,
+    render, sample, sif, solve, view, weight,
 };
 use crate::output::StandardStream;
 
@@ -22,6 +24,7 @@ pub(crate) struct Cli {
 const EXAMPLES: &str = "\
 Examples:
   ppum demo                                  solve a cracked plate and draw it
+  ppum init plate.toml                       a problem file with comments, to be edited
   ppum import part.dxf                       a problem file of a drawing or a mesh
   ppum solve plate.toml                      solve a problem; writes plate.h5
   ppum sif plate.h5                          stress intensity factors of all tips
@@ -39,6 +42,7 @@ Examples:
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Demo(demo::DemoArgs),
+    Init(init::InitArgs),
     Import(import::ImportArgs),
     Solve(solve::SolveArgs),
     Info(info::InfoArgs),
@@ -62,8 +66,31 @@ impl Cli {
     pub(crate) fn understood(
         words: impl IntoIterator<Item = OsString>,
     ) -> Result<Self, clap::Error> {
-        let matches = Self::whole().try_get_matches_from(words)?;
+        let words: Vec<_> = words.into_iter().collect();
+        let matches = Self::whole()
+            .try_get_matches_from(&words)
+            .map_err(|error| Self::named_as_here(error, &words))?;
         Self::from_arg_matches(&matches).map_err(|error| error.format(&mut Self::whole()))
+    }
+
+    /// Names the option of a command that another program calls otherwise.
+    fn named_as_here(error: clap::Error, words: &[OsString]) -> clap::Error {
+        let Some(ContextValue::String(given)) = error.get(ContextKind::InvalidArg) else {
+            return error;
+        };
+        let mut program = Self::whole();
+        let command = words.get(1).and_then(|word| program.find_subcommand_mut(word));
+        let option = own_option(given.trim_start_matches('-')).map(|name| name.replace('_', "-"));
+        let (Some(command), Some(option)) = (command, option) else { return error };
+        let is_there = command.get_arguments().any(|arg| arg.get_long() == Some(&*option));
+        if error.kind() != ErrorKind::UnknownArgument || !is_there {
+            return error;
+        }
+        let message = format!("unexpected argument '{given}'; the option is called `--{option}`");
+        command
+            .clone()
+            .bin_name(format!("ppum {}", command.get_name()))
+            .error(error.kind(), message)
     }
 
     /// The commands, whose options all take negative numbers: what is wrong with one its
@@ -85,6 +112,7 @@ impl Command {
         };
         match self {
             Self::Demo(args) => args.run(out, &line),
+            Self::Init(args) => args.run(out),
             Self::Import(args) => args.run(out),
             Self::Solve(args) => args.run(out),
             Self::Info(args) => args.run(out),
@@ -113,6 +141,26 @@ mod tests {
     #[test]
     fn the_command_line_is_consistent() {
         Cli::whole().debug_assert();
+    }
+
+    #[test]
+    fn options_of_other_programs_are_answered_by_ours() {
+        for (words, option) in [
+            ("render a.h5 -o a.png --cmap magma", "--colormap"),
+            ("render a.h5 -o a.png --contour=5", "--isolines"),
+            ("render a.h5 -o a.png --vmin 0", "--range"),
+            ("solve a.toml --jobs 2", "--threads"),
+            ("plot a.h5 --crack 0 -o a.svg --field uy", "--quantity"),
+        ] {
+            let words = ["ppum"].into_iter().chain(words.split(' ')).map(OsString::from);
+            let message = Cli::understood(words).map(|_| ()).unwrap_err().to_string();
+            assert!(message.contains(&format!("the option is called `{option}`")), "{message}");
+            assert!(message.contains("Usage: ppum "), "{message}");
+        }
+        // a command that has no such option
+        let words = ["ppum", "info", "a.h5", "--cmap", "magma"].map(OsString::from);
+        let message = Cli::understood(words).map(|_| ()).unwrap_err().to_string();
+        assert!(!message.contains("colormap"), "{message}");
     }
 
     #[test]

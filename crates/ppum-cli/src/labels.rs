@@ -7,7 +7,8 @@ use ppum_scene::request::{FigureTexts, Request};
 /// The option of the words of figures.
 #[derive(Debug, clap::Args)]
 pub(crate) struct LabelArgs {
-    /// Words of a figure: title=, x=, y=, bar=, apart by commas; none are left out
+    /// Override labels of a figure: title=, x=, y=, bar=, separated by commas; an empty text
+    /// removes the label
     #[arg(long, value_name = "title=…,x=…,y=…,bar=…", value_parser = texts)]
     labels: Vec<FigureTexts>,
 }

@@ -17,8 +17,9 @@ use crate::formula_text::{FormulaText, file};
 /// The part that is taken, and what takes the place of what.
 #[derive(Debug, clap::Args)]
 pub(crate) struct ReplacementArgs {
-    /// Only a part of the field: smooth, jump, tip, other (of corners, of one's own), or patch:N;
-    /// `render` draws several, with commas between, in panels, of which `all` is the whole field
+    /// Evaluate only one contribution to the field: smooth, jump, tip, other (corner and
+    /// user-defined functions), or patch:N; `render` draws several, separated by commas, in
+    /// panels, with `all` for the whole field
     #[arg(long, value_name = "PART", value_delimiter = ',')]
     part: Vec<PartChoice>,
     /// Replace a function, by its number or name in `ppum info`; may be given more than once
@@ -27,7 +28,7 @@ pub(crate) struct ReplacementArgs {
     /// Replace the weight function: by one of the library or a formula of t
     #[arg(long, value_name = "FORMULA", allow_hyphen_values = true)]
     weight: Option<String>,
-    /// Give a quantity that the dataset names another formula; may be given more than once
+    /// Replace the formula of a quantity that the dataset names; may be given more than once
     #[arg(long, value_name = "NAME=FORMULA", value_parser = assignment)]
     define: Vec<(String, String)>,
 }

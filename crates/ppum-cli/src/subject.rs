@@ -48,9 +48,9 @@ impl StepArgs {
 /// The subject of an image: a quantity of a dataset.
 #[derive(Debug, clap::Args)]
 pub(crate) struct QuantityArgs {
-    /// Quantity or value of cells, see `ppum info`, or a formula of quantities, or @FILE with one;
-    /// of `render` several with commas between, in panels [default: von-mises; for Poisson problems
-    /// u]
+    /// Quantity to draw: von-mises, s1, sxx, ux or another of `ppum info`, a value of cells, a
+    /// formula of quantities, or @FILE with one; for `render` several, separated by commas, in
+    /// panels [default: von-mises; for Poisson problems u]
     #[arg(short, long, value_name = "Q", allow_hyphen_values = true)]
     quantity: Option<String>,
     #[command(flatten)]

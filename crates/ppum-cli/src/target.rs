@@ -134,6 +134,17 @@ pub(crate) fn check<'i>(
     ppum_file::check(path).with_context(|| cannot_write(path))
 }
 
+/// Refuses to replace a file that users may have edited.
+pub(crate) fn check_new(path: &Path) -> anyhow::Result<()> {
+    match ppum_file::open(path, u64::MAX) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+        _ => bail!(
+            "{}: is there already; give another file, or --force to replace it",
+            path.display()
+        ),
+    }
+}
+
 /// Writes a file, completely or not at all.
 pub(crate) fn save(
     path: &Path,

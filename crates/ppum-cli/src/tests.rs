@@ -60,7 +60,6 @@ fn name(arg: &Arg) -> String {
 /// An option with its values, its default, and its help.
 fn row(arg: &Arg) -> String {
     let help = arg.get_help().map(ToString::to_string).unwrap_or_default();
-    let help = help.replace(", see docs/cli.md", "");
     let (mut meaning, mut default) = match help.rsplit_once(" [default: ") {
         Some((before, rest)) => {
             let (default, after) = rest.split_once(']').unwrap_or((rest, ""));

@@ -40,8 +40,8 @@ mod _core {
         intensities::intensities,
         moving::animation,
         picture::{
-            check_request, colormap, colormaps, default_request, extrema_in, figure, frame,
-            option_texts, render, rgba,
+            check_request, colormap, colormaps, default_request, extrema_in, figure,
+            foreign_options, frame, option_texts, render, rgba,
         },
         plot::{Curves, profiles, reports},
         probe::probe,

@@ -17,7 +17,7 @@ use ppum_render::scatter;
 use ppum_render::view::View;
 use ppum_scene::compose::{self, RenderedImage};
 use ppum_scene::engine::Engine;
-use ppum_scene::help::TEXTS;
+use ppum_scene::help::{FOREIGN, TEXTS};
 use ppum_scene::notice::Notice;
 use ppum_scene::panels::{PanelImages, datasets, draw};
 use ppum_scene::quantity::DisplayedQuantity;
@@ -51,6 +51,12 @@ pub(crate) fn colormap(name: &str) -> PyResult<Vec<(u8, u8, u8)>> {
 #[pyfunction]
 pub(crate) fn option_texts() -> BTreeMap<&'static str, &'static str> {
     TEXTS.iter().map(|(name, text)| (&**name, &**text)).collect()
+}
+
+/// Names of options in other programs, and those of the program.
+#[pyfunction]
+pub(crate) fn foreign_options() -> Vec<(&'static str, &'static str)> {
+    FOREIGN.to_vec()
 }
 
 /// A request that asks for nothing, with all that could be asked for.

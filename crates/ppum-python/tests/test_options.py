@@ -60,6 +60,31 @@ def test_options_have_the_texts_of_the_program(_, kind):
             assert shared and option.text.startswith(re.split("--| \\[default", shared)[0]), name
 
 
+def test_defaults_of_keys_are_those_of_problem_files():
+    """The texts say the defaults of the tables of docs/problem-file, which are those of the solver."""
+    pages = (page for page in ROOT.joinpath("docs").rglob("*.md") if "problem-file" in page.as_posix())
+    tables = dict(re.findall(r"<!-- keys: (.*?) -->\n((?:\|.*\n)+)", "".join(page.read_text() for page in pages)))
+    kinds = {
+        "crack": sections.CrackOptions, "discretization": sections.DiscretizationOptions,
+        "growth": sections.GrowthOptions, "adaptivity": sections.AdaptivityOptions,
+    }  # fmt: skip
+    found = 0
+    for table, kind in kinds.items():
+        rows = {cells[1].strip(" `"): cells[3].strip(' `"') for cells in (row.split(" | ") for row in _rows(tables[table]))}
+        for name, (_, option) in options_of(kind).items():
+            default = re.search(r"\[default: (.*)\]", option.text)
+            if default and name != "enrichment_radius":
+                words = re.split(r"[,;]", default[1])[0], re.split(r"[,;]| of the patch", rows[name])[0]
+                assert words[0].lower() == words[1].lower(), name
+                found += 1
+    assert found > 15
+
+
+def _rows(table):
+    """The rows of a table of Markdown without its head, cells with a column in front."""
+    return [f"| {row}" for row in table.splitlines()[2:]]
+
+
 def test_consoles_complete_options(f, problem):
     shell = pytest.importorskip("IPython.core.completer").IPCompleter(namespace={"f": f, "plate": problem})
     for line, option in {
@@ -97,6 +122,8 @@ def test_jedi_completes_options(f, problem):
         (lambda f, p: f.draw.render("ux", zom=3), "zoom"),
         (lambda f, p: f.sample.extrema("ux", widht=3), "width"),
         (lambda f, p: f.draw.animate("ux", figsize=(3, 3)), "inches"),
+        (lambda f, p: f.draw.figure("ux", contour=5), "isolines"),
+        (lambda f, p: f.draw.figure("ux", palette="magma"), "cmap"),
         (lambda f, p: f.draw.plot("ux", cbar_kwargs={}), "colorbar"),
         (lambda f, p: f.view("ux", range=(0, 1)), "clim"),
         (lambda f, p: f.dataset.view("ux", clim=(0, 1), colormap="magma"), "cmap"),

@@ -25,10 +25,10 @@ def weight(solution):
     return solution.weight(tip=0)
 
 
-def close(found, dataset):
+def close(found, dataset, bound=None):
     tip = dataset.tips[0]
-    size = np.hypot(tip.k1, tip.k2)
-    assert np.hypot(found.k1 - tip.k1, found.k2 - tip.k2) < 1e-4 * size, (found, tip)
+    bound = 0.2 * tip.error if bound is None else bound * np.hypot(tip.k1, tip.k2)
+    assert np.hypot(found.k1 - tip.k1, found.k2 - tip.k2) < bound, (found, tip)
 
 
 def test_loads(body, solution, weight):
@@ -41,7 +41,8 @@ def test_loads(body, solution, weight):
     close(weight.k(body_force=("x", 1)), body.section("body_force", value=("x", 1)).solve())
     close(weight.k(strain=("x*y", 0, 0, 0)), body.section("strain", xx="x*y").solve())
     forced = body.force((1, 0.4), (0.5, 0.7)).solve()
-    close(weight.k(point=((1, 0.4), (0.5, 0.7))), forced)
+    # a value of w at one point, whose error is larger than that of its integrals
+    close(weight.k(point=((1, 0.4), (0.5, 0.7))), forced, 5e-4)
 
 
 def test_load_cases_are_products(weight):

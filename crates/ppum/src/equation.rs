@@ -148,8 +148,8 @@ impl Equation {
     }
 
     /// The expressions of the material constants with their names: `young` and `poisson` or those
-    /// of an [`Anisotropy`], `conductivity`, or none; after them the given strains and the coefficient of expansion, if
-    /// there are any.
+    /// of an [`Anisotropy`], `conductivity`, or none; after them the given strains and the
+    /// coefficient of expansion, if there are any.
     pub fn constants(&self) -> impl Iterator<Item = (&'static str, &Expression)> {
         let list = match self {
             Self::Elasticity(Elasticity { anisotropy: Some(_), .. }) | Self::None => [None, None],

@@ -34,7 +34,7 @@ fn estimates(page: &mut Page) {
 }
 
 fn accuracies(page: &mut Page) {
-    page.add("## Accuracies that are asked for");
+    page.add("## Requested accuracies of K");
     page.add(
         "`accuracy` in `[discretization]`, from level 2, all else by default: the largest error of the tips of each plate over\n\
          the requested accuracy, and the unknowns. Where references have six digits, errors at 1e-6 are those of the references.",

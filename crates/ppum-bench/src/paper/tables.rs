@@ -56,8 +56,8 @@ fn times(report: &PaperReport, group: SceneGroup) -> ReportTable {
     };
     let note = match group {
         SceneGroup::Patches => {
-            "Paper: time that passes. CPU: processor time of one thread. Gather and splat: processor time of all threads \
-             where the device is software, else time that passes."
+            "Paper: wall time. CPU: CPU time of one thread. Gather and splat: CPU time of all threads where the device is \
+             software, else wall time."
         }
         _ => "",
     };
@@ -84,7 +84,7 @@ fn threads(report: &PaperReport) -> ReportTable {
         start(row).into_iter().chain(times).collect()
     };
     ReportTable {
-        title: "Threads: time that passes".to_owned(),
+        title: "Threads: wall time".to_owned(),
         words: 2,
         head,
         rows: rows(report, SceneGroup::Patches).map(line).collect(),

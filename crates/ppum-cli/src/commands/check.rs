@@ -17,7 +17,7 @@ pub(crate) struct CheckArgs {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
-    /// Print JSON, see docs/cli.md
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

@@ -7,7 +7,7 @@ use clap_complete::{Shell, generate};
 
 /// Print completions for a shell
 ///
-/// docs/cli.md says where each shell looks for them.
+/// The examples have the files in which shells look for them.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct CompletionsArgs {

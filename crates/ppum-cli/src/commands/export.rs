@@ -38,13 +38,13 @@ pub(crate) struct ExportArgs {
     /// Dataset, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
-    /// File to write: page, .html, or mesh, .vtu or .vtkhdf, of a series .vtkhdf or .pvd; lines,
-    /// .vtp; - for a page to standard output
+    /// File to write: a page, .html; a mesh, .vtu or .vtkhdf (for a series .vtkhdf or .pvd); lines,
+    /// .vtp; - for a page on standard output
     #[arg(short, long, value_name = "OUT")]
     output: PathBuf,
-    /// Quantity or value of cells, see `ppum info`, or a formula of quantities, or @FILE with one
-    /// [default: von-mises; for Poisson problems u]; of meshes several quantities with commas
-    /// between [default: displacement, stress, von-mises; for Poisson problems u, gradient]
+    /// Quantity or value of cells of `ppum info`, a formula of quantities, or @FILE with one
+    /// [default: von-mises; for Poisson problems u]; for meshes several quantities, separated by
+    /// commas [default: displacement, stress, von-mises; for Poisson problems u, gradient]
     #[arg(short, long, value_name = "Q", allow_hyphen_values = true)]
     quantity: Option<String>,
     /// Step of the series, from 0 [default: the last]

@@ -50,7 +50,7 @@ pub(crate) struct FormulaArgs {
     /// Print a module of WGSL, the shading language of WebGPU, with the value and its derivatives
     #[arg(long)]
     wgsl: bool,
-    /// Print JSON, see docs/cli.md
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

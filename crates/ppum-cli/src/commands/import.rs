@@ -1,7 +1,7 @@
 //! `ppum import`: the problem file of a drawing or a mesh.
 
 use std::ffi::OsStr;
-use std::io::{ErrorKind, Write as _};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, ensure};
@@ -31,10 +31,10 @@ pub(crate) struct ImportArgs {
     /// Take only curves of this layer, group or label; several with commas between
     #[arg(long, value_name = "NAME", value_delimiter = ',')]
     layer: Vec<String>,
-    /// Join ends, and replace curves, within this part of the drawing's longer side
+    /// Join ends, and replace curves, within this fraction of the drawing's longer side
     #[arg(long, value_name = "T", default_value = "1e-6")]
     tolerance: f64,
-    /// Replace a problem file that is there
+    /// Replace an existing problem file
     #[arg(long)]
     force: bool,
 }
@@ -60,7 +60,9 @@ impl ImportArgs {
             "--tolerance: give a part of the drawing, more than 0 and at most 0.01"
         );
         target::check(output, target::FileKind::Problem, [self.file.as_path()])?;
-        self.check_kept(output)?;
+        if !self.force && !is_standard(output) {
+            target::check_new(output)?;
+        }
         let bytes = ppum_file::read(&self.file, LONGEST);
         let bytes = bytes.with_context(|| format!("cannot read {}", self.file.display()))?;
         let options = ImportOptions { tolerance: self.tolerance, layers: self.layer.clone() };
@@ -96,20 +98,6 @@ impl ImportArgs {
             "wrote {}: an outline, {counts}; fill in material and loads",
             output.display()
         )?)
-    }
-
-    /// Refuses to replace what people may have edited.
-    fn check_kept(&self, output: &Path) -> anyhow::Result<()> {
-        if self.force || is_standard(output) {
-            return Ok(());
-        }
-        match ppum_file::open(output, u64::MAX) {
-            Err(error) if error.kind() == ErrorKind::NotFound => Ok(()),
-            _ => anyhow::bail!(
-                "{}: is there already; give another file with -o, or --force to replace it",
-                output.display()
-            ),
-        }
     }
 }
 

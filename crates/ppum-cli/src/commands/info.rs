@@ -31,18 +31,17 @@ pub(crate) struct InfoArgs {
     /// List the graphics adapters of this machine
     #[arg(long)]
     gpu: bool,
-    /// Find the smallest and the largest value of a quantity in the body, with their places, not
-    /// just over pixels
+    /// Minimum and maximum of a quantity in the body, with their locations, not only over pixels
     #[arg(long, value_name = "Q", requires = "file", allow_hyphen_values = true)]
     extrema: Option<String>,
     /// Step of the series, from 0 [default: the last]
     #[arg(long, value_name = "K", requires = "file")]
     step: Option<usize>,
-    /// List the steps of the series: load, unknowns, length of the cracks, stress intensity
-    /// factors, and of cracks that grow the fate of each tip and what has ended the series
+    /// List the steps of a series: load, unknowns, crack length, stress intensity factors; for
+    /// growing cracks, also each tip's next increment and why the series ended
     #[arg(long, requires = "file", conflicts_with = "extrema")]
     steps: bool,
-    /// Print JSON, see docs/cli.md
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

@@ -8,6 +8,7 @@ pub(crate) mod export;
 pub(crate) mod formula;
 pub(crate) mod import;
 pub(crate) mod info;
+pub(crate) mod init;
 pub(crate) mod man;
 pub(crate) mod plot;
 pub(crate) mod probe;

@@ -24,16 +24,16 @@ pub(crate) struct ProbeArgs {
     /// Point; may be given more than once
     #[arg(long, value_name = "X,Y", required = true, allow_hyphen_values = true, value_parser = point)]
     at: Vec<Vec2>,
-    /// Added to every point, without rounding: points as near a tip as you like
+    /// Offset added to every point without rounding, for points at any distance from a tip
     #[arg(long, value_name = "DX,DY", allow_hyphen_values = true, value_parser = point)]
     offset: Option<Vec2>,
-    /// Quantities, see `ppum info`, or formulas of them, or @FILE [default: the components; for
-    /// elasticity also the stresses]
+    /// Quantities: von-mises, s1, sxx, ux or others of `ppum info`, formulas of them, or @FILE
+    /// [default: the components; for elasticity also the stresses]
     #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
     quantity: Vec<String>,
     #[command(flatten)]
     step: StepArgs,
-    /// Print JSON, see docs/cli.md
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

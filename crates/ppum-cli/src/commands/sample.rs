@@ -42,8 +42,8 @@ pub(crate) struct SampleArgs {
     #[arg(long, value_name = "X0,Y0,X1,Y1", allow_hyphen_values = true, value_parser = corners)]
     #[arg(requires = "grid")]
     view: Option<Rect>,
-    /// Quantities, see `ppum info`, or formulas of them, or @FILE [default: the components; for
-    /// elasticity also the stresses]
+    /// Quantities: von-mises, s1, sxx, ux or others of `ppum info`, formulas of them, or @FILE
+    /// [default: the components; for elasticity also the stresses]
     #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
     quantity: Vec<String>,
     #[command(flatten)]

@@ -24,19 +24,19 @@ use crate::warnings::{warn, warn_of_steps};
 /// Print the stress intensity factors of all crack tips, T, the energy release rate and the angle
 /// of growth
 ///
-/// The factors are those that the solver has stored, found by the interaction integral at three
-/// radii; `spread` is the largest relative difference of the three: a check that they agree, no
-/// estimate of the error.
+/// The factors are those that the solver stored. `error` is the estimated error of K: quote it with
+/// K. `spread`, the largest relative difference of K on three discs, and `J/G-1` are checks of the
+/// integrals, not estimates of the error.
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct SifArgs {
     /// Dataset of a problem of elasticity, - for standard input
     #[arg(value_name = "FILE.h5")]
     file: PathBuf,
-    /// Compute them from the stored field, and all warnings
+    /// Recompute K, T, J and the warnings from the stored field
     #[arg(long)]
     recompute: bool,
-    /// Print JSON, see docs/cli.md
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

@@ -30,23 +30,23 @@ use ppum_scene::arguments::positive;
 #[derive(Debug, clap::Args)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct SolveArgs {
-    /// Problem file (TOML), see docs/problem-file.md; - for standard input
+    /// Problem file (TOML), such as `ppum init` writes; - for standard input
     #[arg(value_name = "PROBLEM.toml")]
     problem: PathBuf,
     /// Dataset to write, - for standard output [default: beside the problem file, with the
     /// extension .h5]
     #[arg(short, long, value_name = "FILE.h5")]
     output: Option<PathBuf>,
-    /// Find everything that would be refused, tell what memory the solution takes, and stop there
+    /// Validate the problem and estimate the memory that it needs; do not solve it
     #[arg(long)]
     check: bool,
-    /// Go on with the series that is in the dataset's file, instead of beginning it again
+    /// Continue an interrupted series in the output file
     #[arg(long, conflicts_with = "check")]
     resume: bool,
-    /// Memory that may be used, in GiB [default: what is free]
+    /// Memory limit in GiB; larger problems are refused [default: the free memory]
     #[arg(long, value_name = "GIB", value_parser = positive)]
     memory: Option<f64>,
-    /// Print JSON, see docs/cli.md
+    /// Print JSON
     #[arg(long, conflicts_with = "check")]
     json: bool,
     /// Number of threads [default: all cores]; the result does not depend on it

@@ -44,7 +44,7 @@ pub(crate) struct WeightArgs {
     /// Memory that may be used, in GiB [default: what is free]
     #[arg(long, value_name = "GIB", value_parser = positive)]
     memory: Option<f64>,
-    /// Print JSON, see docs/cli.md
+    /// Print JSON
     #[arg(long)]
     json: bool,
 }

@@ -49,6 +49,25 @@ fn check_lists_all_errors_of_a_dataset() {
 }
 
 #[test]
+fn quantities_of_other_programs_are_answered_by_ours() {
+    let lab = Lab::solved(CRACKED);
+    for (foreign, own) in [
+        ("mises", "von-mises"),
+        ("S11", "sxx"),
+        ("SEQV", "von-mises"),
+        ("sigma_xx", "sxx"),
+        ("stress_xy", "sxy"),
+        ("U1", "ux"),
+    ] {
+        let complaint = lab.fail(&format!("probe plate.h5 --at 0,0 -q {foreign}"));
+        assert!(complaint.contains(&format!("did you mean `{own}`?")), "{complaint}");
+    }
+    // a field without temperature has no such quantity
+    let complaint = lab.fail("probe plate.h5 --at 0,0 -q NT11");
+    assert!(!complaint.contains("did you mean"), "{complaint}");
+}
+
+#[test]
 fn unknown_quantities_list_the_known() {
     let lab = Lab::solved(CRACKED);
     for command in ["probe plate.h5 --at 0,0 -q mises", "render plate.h5 -o a.png -q mises"] {

@@ -19,6 +19,7 @@ mod gallery;
 mod growing;
 mod import;
 mod info;
+mod init;
 mod meshes;
 mod messages;
 mod method;

@@ -251,7 +251,7 @@ fn plots_over_extensions_and_cycles() {
     for (dataset, options, reason) in [
         (grown(3), "--over extension", "[growth]"),
         (grown(3), "-q extension", "[growth]"),
-        (grown(3), "--over cycles", "Paris"),
+        (grown(3), "--over cycles", "paris"),
     ] {
         let complaint = with(&dataset).fail(&format!("plot growth.h5 --series -o c.svg {options}"));
         assert!(complaint.contains(reason) && complaint.contains("growth"), "{complaint}");

@@ -89,9 +89,9 @@ impl Drive {
     }
 
     /// Returns the driving force of a tip in the direction in which the hoop stress, by the law at
-    /// the tip, is largest relative to a strength: of an anisotropic body, or of one whose toughness
-    /// depends on the direction. Increments are straight, as T's part in them is that of isotropic
-    /// bodies.
+    /// the tip, is largest relative to a strength: of an anisotropic body, or of one whose
+    /// toughness depends on the direction. Increments are straight, as T's part in them is that of
+    /// isotropic bodies.
     pub(super) fn by_direction(
         factors: &TipIntensity,
         law: Option<&TipLaw>,

@@ -452,7 +452,7 @@ fn add_to_life(
     if is_wrong { Err(GrowthDataError::Cycles(cycles)) } else { Ok(Some(cycles)) }
 }
 
-/// What a law of growth sees of a step.
+/// The state of a step that a law of growth depends on.
 pub(super) fn life_step(
     rule: &GrowthRule,
     cracks: &[Crack],

@@ -122,7 +122,7 @@ impl Life {
         self.states.last().map_or(0.0, |state| state.cycles)
     }
 
-    /// What a tip has grown by the law up to the last step.
+    /// The length that a tip has grown by the law up to the last step.
     pub(super) fn growth(&self, tip: TipId) -> f64 {
         let state = self.states.last().and_then(|state| state.tips.get(&tip));
         state.map_or(0.0, |tip| tip.growth)

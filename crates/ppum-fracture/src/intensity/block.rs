@@ -137,14 +137,22 @@ impl<'b> PointBlock<'b> {
     #[inline(always)]
     fn locals<R: Real<Scalar = f64>>(&self, first: usize, zero: R) -> (Coefficients<R>, [R; 2]) {
         let Some(locals) = &self.locals else {
-            return (self.tip.body.moduli.map(|constant| zero.broadcast(constant)), [zero; 2]);
+            return (broadcast(self.tip.body.moduli, zero), [zero; 2]);
         };
         let at = |k: usize| &locals[(first + k).min(locals.len() - 1)];
+        let part = |m: usize| zero.with_lanes(|k| at(k).moduli[m]);
         (
-            std::array::from_fn(|m| zero.with_lanes(|k| at(k).moduli[m])),
+            [part(0), part(1), part(2), part(3), part(4), part(5)],
             [zero.with_lanes(|k| at(k).force[0]), zero.with_lanes(|k| at(k).force[1])],
         )
     }
+}
+
+/// The coefficients in all lanes; no closure, which would leave the vectors' instructions.
+#[inline(always)]
+fn broadcast<R: Real>([a, b, c, d, e, f]: Coefficients, like: R) -> Coefficients<R> {
+    let all = |constant: f64| like.broadcast(constant);
+    [all(a), all(b), all(c), all(d), all(e), all(f)]
 }
 
 /// A point and the field there, in the tip's frame.
@@ -175,7 +183,7 @@ impl<R: Real> FieldSample<R> {
         moduli: Coefficients,
         auxiliary: &[Auxiliary<R>; MODES],
     ) -> Integrands<R> {
-        let moduli = moduli.map(|constant| self.point.x.broadcast(constant));
+        let moduli = broadcast(moduli, self.point.x);
         let (own, at_tip) = (stress(self.moduli, &self.elastic), stress(moduli, &self.u));
         let through = self.through(&own, &at_tip, moduli);
         let [mut flows, mut sources] = [[self.point.x.broadcast(0.0); MODES]; 2];
@@ -377,7 +385,7 @@ impl Kernels<'_> {
         let (q, slope) = flat_cut_off(square(&point), tip.radii[RINGS - 1]);
         let halves = tip.kernel_factors().map(|factor| zero.broadcast(factor));
         let bend = zero.broadcast(tip.body.curvature);
-        let at_tip = tip.body.moduli.map(|constant| zero.broadcast(constant));
+        let at_tip = broadcast(tip.body.moduli, zero);
         let mut densities = [[[zero; FACTORS]; 2]; 2];
         for (component, of_component) in densities.iter_mut().enumerate() {
             for (axis, of_modes) in of_component.iter_mut().enumerate() {

@@ -149,7 +149,8 @@ pub struct TipResult {
     pub interface: Option<f64>,
     /// Its factors; none if the clearance is too small for them, see [`TipResult::needed`].
     pub factors: Option<TipIntensity>,
-    /// True if faces that may touch do so at the tip, so that what opens them is nothing but an error.
+    /// True if faces that may touch do so at the tip, so that what opens them is nothing but an
+    /// error.
     pub touches: bool,
     /// The factor of the opening of the faces: K_I, of an anisotropic body K_I + C₁₂/C₁₁ K_II. Zero
     /// without factors.

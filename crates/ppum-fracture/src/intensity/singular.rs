@@ -164,6 +164,10 @@ mod tests {
                 let sign = if y >= 0.0 { 1.0 } else { -1.0 };
                 let fields = body.fields_at::<2>(&TipPoint { x, y, sign, branch: 1.0 });
                 let (q, _) = flat_cut_off(x * x + y * y, 1.1);
+                let theta = y.atan2(x);
+                let [cos, sin] = [(0.5 * theta).cos(), (0.5 * theta).sin()];
+                // the sides of cracks come after these
+                let polar = [x, y, x.hypot(y), theta, cos, sin];
                 for (functions, field) in functions.iter().zip(&fields) {
                     for (function, expected) in functions.iter().zip(field.derivative) {
                         let FunctionKind::Formula { text, parameters, .. } = &function.kind else {
@@ -171,15 +175,8 @@ mod tests {
                         };
                         let scope = function_scope(parameters, 1, &[]).expect("names");
                         let formula = Formula::parse(text, &scope).expect("a formula");
-                        let places = [("x", x), ("y", y), ("r", x.hypot(y)), ("theta", y.atan2(x))];
-                        let known = |name: &str| {
-                            let places = places.iter().map(|(name, value)| (*name, *value));
-                            let constants =
-                                parameters.iter().map(|(n, value)| (n.as_str(), *value));
-                            let mut all = places.chain(constants);
-                            all.find(|(known, _)| *known == name).map_or(0.0, |(_, value)| value)
-                        };
-                        let values: Vec<f64> = scope.inputs().map(known).collect();
+                        let mut values = polar.to_vec();
+                        values.resize(scope.inputs().count(), 0.0);
                         let found = formula.evaluate(&values);
                         assert!((found + q * expected).abs() < 1e-14, "{found} {expected}");
                     }

@@ -1,8 +1,8 @@
 //! Weight functions: K of any load on a body by an integral (Bueckner 1970, Rice 1972).
 //!
 //! The factors of a tip are K = m(u) − E′/2 (∫ t·𝓛uᵃ q ds + ∫ b·𝓛uᵃ q dA), m linear in ∇u
-//! (`intensity`). With the dual solution z of m, a(u, z) = m(u), and a(u, z) = ∫ t·z ds + ∫ b·z dA +
-//! ∫ σ(z):ε⁰ dA for all u that loads and given strains ε⁰ make,
+//! (`intensity`). With the dual solution z of m, a(u, z) = m(u), and a(u, z) =
+//! ∫ t·z ds + ∫ b·z dA + ∫ σ(z):ε⁰ dA for all u that loads and given strains ε⁰ make,
 //!
 //! ```text
 //! K = ∫ t·w ds + ∫ b·w dA + ∫ σ(w):ε⁰ dA + Σ F·w(x₀) − ∫ (σ(w) n)·g ds      w = z − E′/2 q 𝓛uᵃ

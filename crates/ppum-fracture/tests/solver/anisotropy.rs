@@ -195,7 +195,8 @@ fn cracks_in_a_plane() {
     }
 }
 
-/// Uniform stresses of fifty random laws are reproduced to rounding, with a crack along them.
+/// Uniform stresses of fifty random laws are reproduced with a crack along them, to what the
+/// quadrature at the tips leaves, which grows with the ratio of the moduli; T has more of it.
 #[test]
 fn patch_tests_of_random_laws() {
     let mut random = Random(41);
@@ -225,7 +226,9 @@ fn patch_tests_of_random_laws() {
         for found in &dataset.steps[0].intensities {
             let size = found.k1.abs().max(found.k2.abs());
             let t = found.t_stress.expect("T");
-            assert!(size < 1e-9 && (t - 1.0).abs() < 1e-8, "{found:?} in {material}");
+            // no eigenvalue is less than 0.2
+            let left = 1e-9 * (0..3).map(|i| entry(i, i)).sum::<f64>() / 0.2;
+            assert!(size < left && (t - 1.0).abs() < 10.0 * left, "{found:?} in {material}");
         }
     }
 }

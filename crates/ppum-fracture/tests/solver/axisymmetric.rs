@@ -170,6 +170,15 @@ impl Complex {
         let [a, b] = &self.0;
         Self([format!("({a}/({a}^2 + {b}^2))"), format!("(-{b}/({a}^2 + {b}^2))")])
     }
+
+    /// The number under a name, by which formulas stay short.
+    fn named(&self, name: &str, lets: &mut String) -> Self {
+        let own = [format!("{name}_re"), format!("{name}_im")];
+        for (own, text) in own.iter().zip(&self.0) {
+            lets.push_str(&format!("let {own} = {text}; "));
+        }
+        Self(own)
+    }
 }
 
 /// The stresses σ_xx, σ_yy and σ_xy of a penny-shaped crack of radius 1 in an infinite body that is
@@ -181,13 +190,16 @@ fn stresses_of_penny() -> [String; 3] {
     let s = y.plus(&i);
     let size = "sqrt((x^2 + y^2 - 1)^2 + 4*y^2)";
     let root = |sign: &str| format!("sqrt(({size} {sign} (x^2 + y^2 - 1))/2)");
-    let big = Complex([root("+"), root("-")]);
-    let [a, b] = s.plus(&big).0;
+    let mut lets = String::new();
+    let big = Complex([root("+"), root("-")]).named("big", &mut lets);
+    let sum = s.plus(&big).named("sum", &mut lets);
+    let [a, b] = &sum.0;
     let log = Complex([format!("(log({a}^2 + {b}^2)/2)"), format!("atan2({b}, {a})")]);
-    let inverse = big.inverse();
-    let log_x = x.times(&inverse).times(&s.plus(&big).inverse());
+    let log = log.named("log", &mut lets);
+    let inverse = big.inverse().named("inverse", &mut lets);
+    let log_x = x.times(&inverse).times(&sum.inverse()).named("slope", &mut lets);
     let minus = |z: &Complex| z.scaled(-1.0);
-    let cube = inverse.times(&inverse).times(&inverse);
+    let cube = inverse.times(&inverse).times(&inverse).named("cube", &mut lets);
     let parts = [
         s.times(&x).times(&inverse).scaled(0.75),
         x.times(&log).scaled(0.5),
@@ -201,14 +213,20 @@ fn stresses_of_penny() -> [String; 3] {
     let g_yyy = minus(&i.times(&s).times(&cube).plus(&inverse));
     let g_xyy = minus(&i.times(&x).times(&cube).plus(&log_x));
     let [f_x, f_yy, f_xy, f_yyy, f_xyy] =
-        [g_x, g_yy, g_xy, g_yyy, g_xyy].map(|g| format!("(-2/pi*{})", g.0[1]));
+        [("x", g_x), ("yy", g_yy), ("xy", g_xy), ("yyy", g_yyy), ("xyy", g_xyy)].map(
+            |(name, g)| {
+                lets.push_str(&format!("let f_{name} = -2/pi*{}; ", g.0[1]));
+                format!("f_{name}")
+            },
+        );
     let f_xx = format!("(-{f_x}/x - {f_yy})");
     let f_xxy = format!("(-{f_xy}/x - {f_yyy})");
     let (exx, eyy) = (format!("(0.4*{f_xx} + y*{f_xxy})"), format!("(-0.4*{f_yy} + y*{f_yyy})"));
     let hoop = format!("((0.4*{f_x} + y*{f_xy})/x)");
     let trace = format!("0.75*({exx} + {eyy} + {hoop})");
     // the two shears are 1.4 f_xy + y f_xyy and −1.4 f_xy + y f_xyy
-    [format!("{trace} + {exx}"), format!("{trace} + {eyy} + 1"), format!("y*{f_xyy}")]
+    let own = [format!("{trace} + {exx}"), format!("{trace} + {eyy} + 1"), format!("y*{f_xyy}")];
+    own.map(|own| format!("{lets}{own}"))
 }
 
 /// The exact tractions on a box: K = 2/√π, T = −(1 + 2ν)/2.

@@ -2,7 +2,7 @@
 //!
 //! The displacement u_x vanishes there, or the energy of its hoop strain u_x/x would be infinite,
 //! and no shear acts: a condition of symmetry, which every field satisfies exactly as beside a
-//! crack on the boundary. Of a temperature, which has no such energy, nothing is asked.
+//! crack on the boundary. A temperature has no such energy and no such condition.
 
 use ppum::border::{BorderLine, touch};
 

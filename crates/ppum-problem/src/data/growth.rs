@@ -16,8 +16,8 @@ pub struct GrowthRule {
     pub increment: Option<f64>,
     /// Most increments.
     pub steps: usize,
-    /// K_c > 0 of the place: the strength of a tip that grows \[stress·length^½\]. A formula may use
-    /// `direction`, the angle of the new path from the x axis in radians.
+    /// K_c > 0 of the place: the strength of a tip that grows \[stress·length^½\]. A formula may
+    /// use `direction`, the angle of the new path from the x axis in radians.
     pub toughness: Option<Expression>,
     /// The control of the load.
     pub load: LoadControl,

@@ -204,7 +204,8 @@ impl Kind {
             Value => "a number or a formula in quotes".to_owned(),
             Word(_) => self.all_words().join(", "),
             Array(count, items, form, _) => {
-                format!("{} {items} {form}", if count == 2 { "two" } else { "four" })
+                let count = ["two", "three", "four"][count.clamp(2, 4) - 2];
+                format!("{count} {items} {form}")
             }
             List(items, _) => format!("a list of {items}"),
             Components(..) => "an array of two, one per component".to_owned(),

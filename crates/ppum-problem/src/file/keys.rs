@@ -28,7 +28,7 @@ const AXES: Kind = Array(2, "half axes", "[a, b]", &Constant);
 const SEGMENT: Kind = Array(2, "points", "[[x0, y0], [x1, y1]]", &POINT);
 const POINTS: Kind = List("points [[x, y], …]", &POINT);
 const NUMBERS: Kind = List("numbers", &Number);
-const BLOCK: Kind = Either(&[List("three numbers [n, max, min]", &Constant)]);
+const BLOCK: Kind = Array(3, "numbers", "[n, max, min]", &Constant);
 
 const EXPONENT: NumberRange = within(0.0, 100.0);
 const USUAL: &str = "; 2 to 4 is usual";

@@ -149,7 +149,8 @@ impl Combination<'_> {
         let scope = self.material.document.scope()?;
         match Expression::parse_in(&format!("({whole})"), scope) {
             Ok(whole) => Some(whole.constant().map_or(whole, Expression::number)),
-            // the parts are formulas: their combination is too long, or a table has one of the names
+            // the parts are formulas: their combination is too long, or a table has one of the
+            // names
             Err(error) => self.material.error(format!("the moduli make no formula: {error}")),
         }
     }

@@ -85,7 +85,8 @@ fn named(section: &Section<'_>, law: &'static NamedLaw) -> Option<GrowthLaw> {
     Some(GrowthLaw::named(law, all(law.parameters.iter().map(value))?))
 }
 
-/// The loads of a law: blocks, or cycles of one ratio, which Paris' law has among its own keys, too.
+/// The loads of a law: blocks, or cycles of one ratio, which Paris' law has among its own keys,
+/// too.
 fn blocks(section: &Section<'_>, own_ratio: Option<DocumentValue<'_>>) -> Option<Vec<LoadBlock>> {
     let all_given = [own_ratio, section.value("ratio"), section.value("cycles")];
     let mut given = all_given.into_iter().flatten();

@@ -27,7 +27,7 @@ from ._sample import Sample as _Sample
 from ._sections import arc, ellipse
 from ._sweep import Sweep, sweep
 from ._views import View
-from ._weights import Factors, Influence, Weight, weight as _weight
+from ._weights import Weight, weight as _weight
 from ._warnings import renamed as _renamed
 
 # of `ppum.` alone: `from ppum import *` leaves Python's own as it is
@@ -39,8 +39,8 @@ __version__ = _core.VERSION
 COLORMAPS: tuple[str, ...] = tuple(_core.colormaps())
 
 __all__ = [
-    "COLORMAPS", "Animation", "Anisotropic", "BuildError", "Crack", "Dataset", "Diagnostic", "Elastic", "Factors", "Field", "Figure",
-    "FormatError", "Hole", "Influence", "InternalError", "Poisson", "PpumError", "Problem", "ProblemError", "QuantityError",
+    "COLORMAPS", "Animation", "Anisotropic", "BuildError", "Crack", "Dataset", "Diagnostic", "Elastic", "Field", "Figure",
+    "FormatError", "Hole", "InternalError", "Poisson", "PpumError", "Problem", "ProblemError", "QuantityError",
     "RenderError", "SolveError", "Step", "Sweep", "Tip", "TriangleMesh", "View", "Weight", "arc", "basis", "build", "ellipse",
     "link", "meshes",
     "plots", "results", "solve", "sweep",

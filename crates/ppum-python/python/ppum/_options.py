@@ -21,12 +21,16 @@ from ._text import hint, one_of
 
 _F = TypeVar("_F", bound=Callable[..., Any])
 
-#: The names that other packages have for options.
+#: The program's names of options that have those of matplotlib here.
+_RENAMED = {
+    "bar": "colorbar", "colormap": "cmap", "extremes": "contrast", "overlay": "overlays", "range": "clim", "scale": "norm",
+}  # fmt: skip
+
+#: The names that other packages and the program have for options.
 FOREIGN = {
-    "axes": "ax", "bar": "colorbar", "cbar_kwargs": "colorbar", "centre": "center", "color_map": "cmap",
-    "colormap": "cmap", "contours": "isolines", "extremes": "contrast", "figsize": "inches",
-    "fontsize": "font_size", "levels": "isolines", "log_scale": "norm", "overlay": "overlays", "range": "clim",
-    "scale": "norm", "warp": "deformed",
+    **{foreign: _RENAMED.get(ours, ours) for foreign, ours in _core.foreign_options()},
+    **_RENAMED,
+    "axes": "ax", "cbar_kwargs": "colorbar", "log_scale": "norm",
 }  # fmt: skip
 
 

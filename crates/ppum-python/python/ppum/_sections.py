@@ -1,4 +1,4 @@
-"""The keys of problem files as options of `Problem`; what has no default here has that of docs/problem-file.md.
+"""The keys of problem files as options of `Problem`, whose defaults are those of docs/problem-file.md.
 
 Curves have angles in radians, as everywhere in Python; tables of problem files have degrees.
 """
@@ -19,8 +19,9 @@ Table = Mapping[str, Any]
 PROGRESS = "True for a line on standard error; or a function of phase, parts done, all parts and step, which may raise to end it"
 
 
-def _key(text: str) -> Option:
-    return Option(UNSET, text)
+def _key(text: str, default: str = "") -> Option:
+    """Describe a key; one that is left out has the default of problem files, by the solver."""
+    return Option(UNSET, f"{text} [default: {default}]" if default else text)
 
 
 class CurveOptions(TypedDict, total=False):
@@ -45,8 +46,8 @@ class CrackOptions(CurveOptions, total=False):
     """A curve in place of points, and the contact of the faces."""
 
     arc: Annotated[Table, _key("an arc of a circle: `ppum.arc`, or a table of problem files")]
-    contact: Annotated[bool, _key("whether its faces press on each other where they touch, instead of overlapping")]
-    friction: Annotated[float, _key("the coefficient of friction between faces that touch")]
+    contact: Annotated[bool, _key("whether its faces press on each other where they touch, instead of overlapping", "False")]
+    friction: Annotated[float, _key("the coefficient of friction between faces that touch", "0")]
 
 
 class BoundaryOptions(TypedDict, total=False):
@@ -65,27 +66,27 @@ class BoundaryOptions(TypedDict, total=False):
 class SpaceOptions(TypedDict, total=False):
     """The functions."""
 
-    refine: Annotated[bool, _key("whether cells are refined where the field needs it")]
-    order: Annotated[int | str, _key("degree of the polynomials, 0 to 8, or a formula of x and y")]
-    overlap: Annotated[float, _key("the factor by which a patch is larger than its cell")]
-    weight: Annotated[str, _key("the weight function: a name or a formula of t")]
+    refine: Annotated[bool, _key("whether cells are refined where the field needs it", "True")]
+    order: Annotated[int | str, _key("degree of the polynomials, 0 to 8, or a formula of x and y", "2; 4 if nu > 0.476 in plane strain")]
+    overlap: Annotated[float, _key("the factor by which a patch is larger than its cell, 1.01 to 1.99", "1.3")]
+    weight: Annotated[str, _key("the weight function: linear, quadratic, cubic, bump, cosine, wendland, or a formula of t", "linear")]
     enrichment: Annotated[
         Literal["none", "tip-patch", "zone", "williams", "additive-only", "jumps"],
-        _key("the functions beside polynomials"),
+        _key("the functions in addition to polynomials", "williams"),
     ]
-    interfaces: Annotated[bool, _key("whether interfaces of materials are resolved")]
-    enrichment_radius: Annotated[float, _key("radius of the zone around each tip")]
-    tip_degree: Annotated[int, _key("degree of the polynomial at tips")]
-    tip_terms: Annotated[int, _key("number of terms of Williams' series")]
+    interfaces: Annotated[bool, _key("whether interfaces of materials are resolved", "True")]
+    enrichment_radius: Annotated[float, _key("radius of the zone around each tip", "a quarter of the crack's length")]
+    tip_degree: Annotated[int, _key("degree of the polynomial at tips, 0 to 8", "1")]
+    tip_terms: Annotated[int, _key("number of terms of Williams' series, 1 to 9", "the order, from 3 to 6")]
 
 
 class DiscretizationOptions(SpaceOptions, total=False):
     """Cells and functions."""
 
-    level: Annotated[int, _key("4^level cells")]
+    level: Annotated[int, _key("4^level cells, 0 to 10")]
     cells: Annotated[tuple[int, int], _key("columns and rows of cells")]
     points: Annotated[str | os.PathLike[str], _key("a file of points that cells are made around")]
-    accuracy: Annotated[float, _key("the relative error of K that is wanted")]
+    accuracy: Annotated[float, _key("the requested relative error of K, 1e-9 to 0.5")]
 
 
 class SolveOptions(TypedDict, total=False):
@@ -99,10 +100,10 @@ class SolveOptions(TypedDict, total=False):
 class GrowthOptions(TypedDict, total=False):
     """The growth of cracks."""
 
-    criterion: Annotated[Literal["hoop", "local-symmetry", "energy"], _key("the direction in which a tip goes")]
-    increment: Annotated[float, _key("length by which the fastest tip grows in a step")]
-    toughness: Annotated[Value, _key("K_c: a tip of less strength stays")]
-    load: Annotated[Literal["constant", "critical"], _key("whether loads are those at which a tip reaches K_c")]
+    criterion: Annotated[Literal["hoop", "local-symmetry", "energy"], _key("the direction in which a tip grows", "hoop")]
+    increment: Annotated[float, _key("length by which the fastest tip grows in a step", "automatic")]
+    toughness: Annotated[Value, _key("K_c: a tip of less strength stays", "none")]
+    load: Annotated[Literal["constant", "critical"], _key("constant loads, or in each step those at which a tip reaches K_c", "constant")]
     rate: Annotated[str, _key("growth per cycle or unit of time: a formula of dk, kmax, ratio, ...")]
     paris: Annotated[Table, _key("Paris' law: a dictionary of c, m, threshold")]
     walker: Annotated[Table, _key("Walker's law: a dictionary of c, m, gamma, threshold")]
@@ -117,12 +118,12 @@ class GrowthOptions(TypedDict, total=False):
 class AdaptivityOptions(TypedDict, total=False):
     """The improvement of cells."""
 
-    kind: Annotated[Literal["h", "p", "hp"], _key("cells are divided, or their order is raised")]
-    steps: Annotated[int, _key("most times that cells are improved")]
-    fraction: Annotated[float, _key("the part of the squared error whose cells are improved")]
-    max_unknowns: Annotated[int, _key("most unknowns of a step")]
+    kind: Annotated[Literal["h", "p", "hp"], _key("divide cells, raise their order, or what suits each", "h")]
+    steps: Annotated[int, _key("maximum number of improvements", "10")]
+    fraction: Annotated[float, _key("the fraction of the squared error whose cells are improved, up to 1", "0.6")]
+    max_unknowns: Annotated[int, _key("maximum number of unknowns of a step", "100000")]
     tolerance: Annotated[float, _key("the relative error in the energy norm that is small enough")]
-    keep: Annotated[Literal["last", "all"], _key("the steps that the dataset keeps")]
+    keep: Annotated[Literal["last", "all"], _key("the steps that the dataset keeps", "last")]
 
 
 def arc(center: ArrayLike, radius: float, start: float, end: float) -> dict[str, Any]:

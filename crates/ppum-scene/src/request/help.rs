@@ -16,6 +16,63 @@ pub static TEXTS: LazyLock<BTreeMap<String, String>> = LazyLock::new(|| {
     command.get_arguments().filter_map(text).collect()
 });
 
+/// Names of options in ParaView, matplotlib and other programs, with `_` for `-`, and ours.
+pub const FOREIGN: [(&str, &str); 46] = [
+    ("antialias", "samples"),
+    ("antialiasing", "samples"),
+    ("axes", "figure"),
+    ("axis", "figure"),
+    ("centre", "center"),
+    ("clim", "range"),
+    ("cmap", "colormap"),
+    ("color_map", "colormap"),
+    ("colorbar", "bar"),
+    ("colors", "colormap"),
+    ("colour_map", "colormap"),
+    ("colourmap", "colormap"),
+    ("component", "quantity"),
+    ("contour", "isolines"),
+    ("contours", "isolines"),
+    ("device", "backend"),
+    ("extent", "view"),
+    ("field", "quantity"),
+    ("figsize", "inches"),
+    ("fontsize", "font_size"),
+    ("format", "output"),
+    ("frame", "step"),
+    ("framerate", "fps"),
+    ("glyphs", "arrows"),
+    ("jobs", "threads"),
+    ("levels", "isolines"),
+    ("limits", "range"),
+    ("magnify", "zoom"),
+    ("mesh", "overlay"),
+    ("norm", "scale"),
+    ("nproc", "threads"),
+    ("out", "output"),
+    ("palette", "colormap"),
+    ("point", "at"),
+    ("quiver", "arrows"),
+    ("resolution", "size"),
+    ("scalars", "quantity"),
+    ("time", "step"),
+    ("title", "labels"),
+    ("vectors", "arrows"),
+    ("vmax", "range"),
+    ("vmin", "range"),
+    ("warp", "deformed"),
+    ("xlabel", "labels"),
+    ("xlim", "view"),
+    ("ylabel", "labels"),
+];
+
+/// Returns the option that another program calls `name`, with or without hyphens.
+#[must_use]
+pub fn own_option(name: &str) -> Option<&'static str> {
+    let name = name.trim_start_matches('-').to_lowercase().replace('-', "_");
+    FOREIGN.iter().find(|(foreign, _)| *foreign == name).map(|&(_, own)| own)
+}
+
 /// The text of an option as a tooltip, without the default.
 ///
 /// # Panics
@@ -29,6 +86,18 @@ pub fn tooltip(option: &str) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// No name is one of ours, and those that are ours in images are options.
+    #[test]
+    fn foreign_names_are_not_ours() {
+        let elsewhere = ["at", "fps", "labels", "output", "quantity", "step", "threads"];
+        for (foreign, own) in FOREIGN {
+            assert!(!TEXTS.contains_key(foreign), "{foreign}");
+            assert!(TEXTS.contains_key(own) || elsewhere.contains(&own), "{own}");
+        }
+        assert_eq!(own_option("--color-map"), Some("colormap"));
+        assert_eq!(own_option("--colormap"), None);
+    }
 
     /// Each field that a request has in JSON, except for what programs read by options of their
     /// own.

@@ -57,8 +57,7 @@ pub struct Request {
     #[cfg_attr(feature = "clap", command(flatten))]
     #[serde(flatten)]
     pub scene: SceneRequest,
-    /// Show in each pixel the mean of N x N values, for smooth edges, in place of that at
-    /// its centre
+    /// Supersampling: average N x N values in each pixel, for smooth edges
     #[cfg_attr(feature = "clap", arg(long, value_name = "N", default_value = "1"))]
     #[serde(serialize_with = "side", deserialize_with = "samples")]
     pub samples: Samples,

@@ -21,7 +21,7 @@ pub const SPACING: f64 = 36.0;
 #[cfg_attr(feature = "clap", derive(clap::Args))]
 #[serde(default)]
 pub struct Overlays {
-    /// Overlays, in any number and order; a figure shows the cracks without being asked
+    /// Overlays, in any number and order; figures always show the cracks
     #[cfg_attr(
         feature = "clap",
         arg(long = "overlay", value_enum, value_name = "NAME,…", value_delimiter = ',')
@@ -39,15 +39,15 @@ pub struct Overlays {
     /// Label the isolines with their levels, where there is room
     #[cfg_attr(feature = "clap", arg(long, requires = "isolines"))]
     pub level_labels: bool,
-    /// Arrows of the displacement, or of the gradient of a potential, so many pixels of a bare
-    /// image apart, usually 36
+    /// Arrows of the displacement or of the gradient of a potential; PIXELS is their distance in a
+    /// bare image, 36 if not given
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "PIXELS", num_args = 0..=1, require_equals = true),
         arg(default_missing_value = SPACING_TEXT, value_parser = spacing)
     )]
     pub arrows: Option<f64>,
-    /// Crosses of the principal stresses, so many pixels of a bare image apart, usually 36
+    /// Crosses of the principal stresses; PIXELS is their distance in a bare image, 36 if not given
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "PIXELS", num_args = 0..=1, require_equals = true),

@@ -33,18 +33,18 @@ pub struct SceneRequest {
     /// The overlays over the colours.
     #[cfg_attr(feature = "clap", command(flatten))]
     pub overlays: Overlays,
-    /// Draw the body deformed by so many times its displacement; with auto the largest displacement
-    /// is some 5 % of its size
+    /// Draw the deformed body, with displacements times this factor; auto makes the largest one
+    /// some 5 % of the body's size
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "FACTOR|auto", allow_hyphen_values = true)
     )]
     pub deformed: Option<Magnification>,
-    /// Draw the border of the undeformed body too, dashed
+    /// Draw the outline of the undeformed body too, dashed
     #[cfg_attr(feature = "clap", arg(long, requires = "deformed"))]
     pub outline: bool,
-    /// Draw the whole of a half or quarter model, mirrored at the edges whose symmetry the dataset
-    /// knows (auto), or at these, `:antisymmetric` behind those of an antisymmetric field
+    /// Draw the full body of a half or quarter model: mirrored at the symmetry edges of its problem
+    /// (auto), or at these edges, with `:antisymmetric` after those of an antisymmetric field
     #[cfg_attr(
         feature = "clap",
         arg(long, value_name = "auto|EDGE,…", num_args = 0..=1, require_equals = true),

@@ -5,8 +5,9 @@
 //! f(w) = ∫ t·w ds + ∫ b·w dA + ∫ σ(w):ε⁰ dA + Σ F·w(x₀) + ∫ h g·w ds − ∫ (σ(w) n)·g ds
 //! ```
 //!
-//! On boundaries that are held w is nothing but for its error. Nitsche's penalty of it, β ∫ w·g ds, is
-//! what makes the traction of a solution converge like its energy, so a step may have β of each cell.
+//! On boundaries that are held w is nothing but for its error. Nitsche's penalty of it, β ∫ w·g ds,
+//! is what makes the traction of a solution converge like its energy, so a step may have β of each
+//! cell.
 
 use super::boundary::CellBoundary;
 use super::cell::SourceTerm;

@@ -44,7 +44,7 @@ macro_rules! example {
 }
 
 /// All examples, those for a first look first.
-pub const ALL: [Example; 40] = [
+pub const ALL: [Example; 42] = [
     example!("centre-crack", "Held at the bottom, pulled at the top"),
     example!("edge-crack", "A strip in tension, K_I known"),
     example!("slanted-crack", "Both modes at 45°, K known"),
@@ -67,6 +67,8 @@ pub const ALL: [Example; 40] = [
     example!("centre-crack-tension", "The reference case for K_I"),
     example!("quarter-plate", "A quarter of it, with symmetry"),
     example!("penny-crack", "A body of revolution, K known"),
+    example!("orthotropic-plate", "Fibres at 60°, K known"),
+    example!("fatigue", "Cycles with overloads, counted"),
     example!("thermal-hot-spot", "A temperature alone"),
     Example {
         numbers: Some((

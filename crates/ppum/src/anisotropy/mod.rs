@@ -65,9 +65,9 @@ impl Anisotropy {
         TipLaw::new(&turned(self.plane_at(tip), [axis.x, -axis.y]))
     }
 
-    /// c₁₂, c₁₆, c₂₆ and c₆₆ in the world's axes, c₁₁ − c₁₂ − 2c₆₆ and c₂₂ − c₁₂ − 2c₆₆, the modulus
-    /// of the third direction, and the given strains: those of the plane under which its stresses
-    /// vanish, and ε⁰_zz.
+    /// c₁₂, c₁₆, c₂₆ and c₆₆ in the world's axes, c₁₁ − c₁₂ − 2c₆₆ and c₂₂ − c₁₂ − 2c₆₆, the
+    /// modulus of the third direction, and the given strains: those of the plane under which its
+    /// stresses vanish, and ε⁰_zz.
     pub(crate) fn moduli_at(&self, p: Vec2, [xx, yy, xy, zz]: [f64; 4]) -> [f64; MODULI] {
         let plane = self.plane_at(p);
         let [c11, c12, c16, c22, c26, c66] = plane;

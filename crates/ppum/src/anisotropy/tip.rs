@@ -78,8 +78,8 @@ impl TipLaw {
         &self.compliance
     }
 
-    /// The factors of σ_12 and σ_22 at the faces in T = M/a₁₁ − (a₁₆/a₁₁) σ_12 − Re(s₁s₂) σ_22: of a
-    /// stress that is the same everywhere M is ε_11 and the work of the loads on the opening that
+    /// The factors of σ_12 and σ_22 at the faces in T = M/a₁₁ − (a₁₆/a₁₁) σ_12 − Re(s₁s₂) σ_22: of
+    /// a stress that is the same everywhere M is ε_11 and the work of the loads on the opening that
     /// the force's own field has.
     #[must_use]
     pub fn faces(&self) -> [f64; 2] {
@@ -101,7 +101,8 @@ impl TipLaw {
         0.5 * (a * k1 * k1 + 2.0 * b * k1 * k2 + c * k2 * k2)
     }
 
-    /// The factor of the opening of the faces, K_I + C₁₂/C₁₁ K_II: they are closed where it is zero.
+    /// The factor of the opening of the faces, K_I + C₁₂/C₁₁ K_II: they are closed where it is
+    /// zero.
     #[must_use]
     pub fn opening(&self, [k1, k2]: [f64; 2]) -> f64 {
         let [along, across, _] = self.energy();
@@ -131,8 +132,9 @@ impl TipLaw {
         xx * s * s + yy * c * c - 2.0 * xy * s * c
     }
 
-    /// The factors A and B of the components u_i = 2 Re(A_i w₁ + B_i D) of the fields whose stresses
-    /// (σ_22, σ_12) ahead are (1, 0)/√r and (0, 1)/√r; of the next orders they are the same.
+    /// The factors A and B of the components u_i = 2 Re(A_i w₁ + B_i D) of the fields whose
+    /// stresses (σ_22, σ_12) ahead are (1, 0)/√r and (0, 1)/√r; of the next orders they are the
+    /// same.
     #[must_use]
     pub fn modes(&self) -> [[[Complex<f64>; 2]; 2]; 2] {
         let [one, two] = [self.potentials(0), self.potentials(1)];

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::foreign::own_name;
 use super::formula::{QuantityFormula, QuantityFormulaError, Vocabulary};
 use super::sample::{Sample, Source};
 use super::tensors::Strain;
@@ -203,10 +204,14 @@ fn underscored(text: &str) -> Cow<'_, str> {
 
 impl QuantityError {
     fn unknown(name: &str, known: Vec<String>) -> Self {
-        let is_hoop = name == "szz" && known.iter().any(|known| known == "shoop");
-        let hint = match is_hoop {
-            true => "; the third stress of a body of revolution is `shoop`".to_owned(),
-            false => hint(name, known.iter().map(String::as_str)),
+        let is_known = |name: &str| known.iter().any(|known| known == name);
+        let own = own_name(name).filter(|own| is_known(own));
+        let hint = match own {
+            _ if name == "szz" && is_known("shoop") => {
+                "; the third stress of a body of revolution is `shoop`".to_owned()
+            }
+            Some(own) => format!(" (did you mean `{own}`?)"),
+            None => hint(name, known.iter().map(String::as_str)),
         };
         Self::Unknown { name: name.into(), hint, known: known.join(", ") }
     }

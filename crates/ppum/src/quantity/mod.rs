@@ -6,6 +6,7 @@
 //! Quantities have names, or are [formulas](QuantityFormula) of those that have;
 //! [`QuantityGradient`] has their exact gradients.
 
+mod foreign;
 mod formula;
 mod gradient;
 mod kinds;

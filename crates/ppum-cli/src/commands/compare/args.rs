@@ -31,16 +31,16 @@ pub(crate) struct CompareArgs {
     /// Image to write, - for standard output; without it numbers only
     #[arg(short, long, value_name = "OUT.png|svg|pdf")]
     pub(super) output: Option<PathBuf>,
-    /// Points of the grid, borders included
+    /// Points of the grid, including those on its edges
     #[arg(long, value_name = "N|NXxNY", value_parser = grid, default_value = "64")]
     pub(super) grid: [u32; 2],
     /// The rectangle of the grid
     #[arg(long, value_enum, default_value = "domain")]
     pub(super) over: ComparisonRegion,
-    /// How values between the points are found
+    /// Interpolation between the points
     #[arg(long, value_enum, value_delimiter = ',', default_value = "bilinear")]
     pub(super) method: Vec<MethodArg>,
-    /// Find the grids that have no larger relative error
+    /// Find the smallest grids with at most this relative error
     #[arg(long, value_name = "E", value_parser = positive)]
     pub(super) error: Option<f64>,
     #[command(flatten)]
@@ -59,11 +59,11 @@ pub(crate) struct CompareArgs {
     pub(super) threads: Option<NonZeroUsize>,
 }
 
-const QUANTITY: &str = "Quantity, see `ppum info`, or a formula of quantities, or @FILE with one \
-     [default: von-mises; for Poisson problems u]";
+const QUANTITY: &str = "Quantity: von-mises, s1, sxx, ux or another of `ppum info`, a formula of quantities, or \
+     @FILE with one [default: von-mises; for Poisson problems u]";
 
-const PART: &str =
-    "Only a part of the field: smooth, jump, tip, other (of corners, of one's own), or patch:N";
+const PART: &str = "Evaluate only one contribution to the field: smooth, jump, tip, other (corner and \
+     user-defined functions), or patch:N";
 
 const EXAMPLES: &str = "\
 Examples:

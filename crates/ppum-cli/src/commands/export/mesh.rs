@@ -32,7 +32,7 @@ use ppum_scene::arguments::positive;
 /// The features that a mesh has to resolve.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Options {
-    /// Largest difference of a mesh from the field, in parts of the range of each quantity
+    /// Largest difference of a mesh from the field, as a fraction of the range of each quantity
     /// [default: 1e-3]
     #[arg(long, value_name = "T", value_parser = positive)]
     tolerance: Option<f64>,
@@ -41,15 +41,15 @@ pub(crate) struct Options {
     /// other borders and cracks if that is less]
     #[arg(long, value_name = "R", value_parser = positive)]
     tip_radius: Option<f64>,
-    /// Most triangles of a mesh [default: 1000000]
+    /// Maximum number of triangles [default: 1000000]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=100_000_000))]
     max_cells: Option<u32>,
     /// Degree of the polynomials between the points of a triangle, 1 to 4: higher ones take fewer
     /// triangles for fine tolerances [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(1..=i64::from(HIGHEST_ORDER)))]
     order: Option<u8>,
-    /// Average where stresses jump between patches or elements, so that a mesh is in one piece but
-    /// for cracks and interfaces
+    /// Average where stresses jump between patches or elements, so that a mesh is torn at cracks
+    /// and interfaces only
     #[arg(long)]
     average: bool,
 }

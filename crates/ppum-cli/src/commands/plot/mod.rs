@@ -31,8 +31,8 @@ pub(crate) struct PlotArgs {
     files: Vec<PathBuf>,
     #[command(flatten)]
     profile: ProfileArgs,
-    /// Errors against unknowns, a dataset each: those of the exact solution, or the distance of
-    /// energy and stress intensity factors from those of the largest dataset
+    /// Errors against unknowns, one dataset each: with respect to the exact solution, or of energy
+    /// and stress intensity factors with respect to the largest dataset
     #[arg(long, group = "where")]
     convergence: bool,
     /// The solver's work: seconds of its phases, or --history=residuals and others
@@ -42,11 +42,12 @@ pub(crate) struct PlotArgs {
     /// Stress intensity factors of all tips in the steps of a series
     #[arg(long, group = "where", conflicts_with = "step")]
     series: bool,
-    /// Axis that --series is drawn over
+    /// Horizontal axis of --series
     #[arg(long, value_enum, requires = "series", default_value = "step")]
     over: plots::SeriesAxis,
-    /// Quantities, see `ppum info`, or formulas of them, or @FILE [default: those that suit]; with
-    /// --series of k1, k2, load, length and extension [default: k1,k2]
+    /// Quantities: von-mises, s1, sxx, ux or others of `ppum info`, formulas of them, or @FILE
+    /// [default: those that suit]; with --series of k1, k2, load, length and extension [default:
+    /// k1,k2]
     #[arg(short, long, value_name = "Q,…", allow_hyphen_values = true)]
     #[arg(conflicts_with_all = ["convergence", "history"])]
     quantity: Vec<String>,

@@ -5,7 +5,8 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::mesh;
 use crate::content::ObjectTree;
 use crate::{checksum, encode, everything};
-use ppum::dataset::{Dataset, Equation};
+use ppum::anisotropy::Anisotropy;
+use ppum::dataset::{Dataset, Equation, StressState};
 use ppum::expression::Expression;
 
 const PAGE: &str = include_str!("../../../../../FORMAT.md");
@@ -85,7 +86,8 @@ fn of_files() -> Types {
     };
     (0..12).for_each(|seed| add(encode::content(&everything::dataset(seed)).expect("valid")));
     add(encode::content(&mesh::dataset()).expect("valid"));
-    heated().iter().for_each(|dataset| add(encode::content(dataset).expect("valid")));
+    let others = heated().into_iter().chain(anisotropic());
+    others.for_each(|dataset| add(encode::content(&dataset).expect("valid")));
     types
 }
 
@@ -98,6 +100,26 @@ fn heated() -> Vec<Dataset> {
     };
     body.eigenstrain.as_mut().expect("strains").expansion = Some(Expression::number(0.5));
     heated
+}
+
+/// Anisotropic bodies, by numbers and by formulas.
+fn anisotropic() -> [Dataset; 2] {
+    let number = |value: f64| Expression::number(value);
+    let formula = |value: f64| -> Expression {
+        Expression::parse(&format!("{value} + 0*x")).expect("a formula")
+    };
+    let body = |of: &dyn Fn(f64) -> Expression| {
+        let law = Anisotropy {
+            plane: [10.0, 3.0, 0.0, 8.0, 0.0, 2.0].map(of),
+            through: [3.0, 2.0, 0.0, 9.0].map(of),
+            axis: of(0.3),
+        };
+        let mut all = ppum_testkit::fields::equations().into_iter().map(|case| case.dataset);
+        let mut dataset = all.next().expect("an elastic body");
+        dataset.equation = Equation::Elasticity(law.body(StressState::PlaneStrain, None));
+        dataset
+    };
+    [body(&number), body(&formula)]
 }
 
 #[test]

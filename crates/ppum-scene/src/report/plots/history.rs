@@ -12,13 +12,12 @@ use super::{NamedDataset, PlotError, label};
 #[derive(serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SolverWork {
-    /// Seconds of the phases, of a series their sums
+    /// Seconds of the phases; for a series, their sums
     #[default]
     Seconds,
-    /// Megabytes that the phases make and keep, of a series the most
+    /// Megabytes that the phases allocate and keep; for a series, the maximum
     Bytes,
-    /// Residuals after each iteration of the multilevel solver; of one file those that reach each
-    /// level too
+    /// Residuals after each iteration of the multilevel solver; for one file, also on each level
     Residuals,
     /// Patches, unknowns and values of the matrix on each level of the multilevel solver
     Levels,
