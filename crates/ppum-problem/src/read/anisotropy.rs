@@ -17,6 +17,11 @@ pub(super) fn is_anisotropic(material: &Section<'_>) -> bool {
 
 /// The law; values that are missing or wrong are reported.
 pub(super) fn anisotropy(material: &Section<'_>, state: StressState) -> Option<Anisotropy> {
+    if state == StressState::Axisymmetric {
+        return material.value("state")?.error(
+            "is for isotropic bodies; give numbers for `young` and `poisson`, or write \"plane-strain\" or \"plane-stress\"",
+        );
+    }
     let axis = angle(material)?;
     if !material.mentions("stiffness") {
         return engineering(material, state, axis);

@@ -99,6 +99,10 @@ fn what_is_refused_says_what_to_do() {
         (body(&stress("").replace("shear = 9.66\n", ""), ""), "`shear` is missing"),
         (body(&stress("").replace("[0.21]", "[4.0]"), ""), "indefinite: its least eigenvalue"),
         (
+            body(&stress("").replace("plane-stress", "axisymmetric"), ""),
+            "is for isotropic bodies; give numbers for `young` and `poisson`",
+        ),
+        (
             body(&stress("stiffness = [[1, 0, 0], [0, 1, 0], [0, 0, 1]]"), ""),
             "contradicts `stiffness`",
         ),
