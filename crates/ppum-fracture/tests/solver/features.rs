@@ -78,14 +78,17 @@ fn plate(features: &BTreeMap<Feature, f64>) -> String {
         true => format!(", expansion = {}", size(F::SolvedTemperature)),
         false => String::new(),
     };
-    let young = format!("\"1 + {}*x\"", size(F::VaryingMaterial));
-    let young = if has(F::VaryingMaterial) { young.as_str() } else { "1" };
-    let across = 1.0 + size(F::Anisotropic);
+    let modulus = |factor: f64| match has(F::VaryingMaterial) {
+        true => format!("\"{factor:?}*(1 + {}*x)\"", size(F::VaryingMaterial)),
+        false => format!("{factor:?}"),
+    };
+    let young = modulus(1.0);
     all += &match has(F::Potential) {
         false if has(F::Anisotropic) => format!(
-            "material = {{ young = [{young}, {across}, 1], poisson = [0.3, 0.3, 0.3], shear = {:?}, \
+            "material = {{ young = [{young}, {}, {young}], poisson = [0.3, 0.3, 0.3], shear = {}, \
              state = \"plane-strain\"{expansion} }}\n",
-            1.0 / 2.6
+            modulus(1.0 + size(F::Anisotropic)),
+            modulus(1.0 / 2.6)
         ),
         true => "equation = { kind = \"poisson\" }\n".to_owned(),
         false => format!(
