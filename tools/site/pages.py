@@ -20,6 +20,7 @@ START = "README.md"
 IMAGES = {".gif", ".jpg", ".png", ".svg"}
 LANGUAGES = {".bib": "bibtex", ".json": "json", ".py": "python", ".rs": "rust", ".toml": "toml", ".wgsl": "wgsl", "": "bash"}
 LINK = re.compile(r"(\]\()([^)#\s]+)")
+CODE = re.compile(r"`[^`]*`")
 
 
 def links(text):
@@ -68,8 +69,9 @@ def page(path):
     if path.is_dir():
         return listing(path)
     if path.suffix == ".md":
-        # words behind a language are for the project's tests
-        return re.sub(r"^```(\w+) .*$", r"```\1", path.read_text(), flags=re.MULTILINE)
+        # words behind a language are for the project's tests; in code of tables the generator takes bars as they are
+        text = re.sub(r"^```(\w+) .*$", r"```\1", path.read_text(), flags=re.MULTILINE)
+        return re.sub(r"^\|.*", lambda row: CODE.sub(lambda code: code[0].replace("\\|", "|"), row[0]), text, flags=re.MULTILINE)
     return notebook(path) if path.suffix == ".ipynb" else source(path)
 
 

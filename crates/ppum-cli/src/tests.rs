@@ -1,6 +1,7 @@
-//! The tables of options in docs/cli.md, which are those of the program's help.
+//! The tables of options in docs/commands, which are those of the program's help.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use clap::Arg;
 
@@ -8,29 +9,9 @@ use crate::cli::Cli;
 
 const HEAD: &str = "| option | default | meaning |\n|---|---|---|\n";
 
-/// The page with the tables of all commands as they are now: each takes the place of the first one
-/// of options in the command's section.
-fn with_tables(page: &str) -> String {
-    let program = Cli::whole();
-    let mut shown = BTreeMap::new();
-    let sections = page.split("\n## ").map(|section| {
-        let mut commands = program.get_subcommands();
-        let command = commands.find(|command| {
-            let heading = format!("`ppum {}", command.get_name());
-            section.strip_prefix(&heading).is_some_and(|rest| rest.starts_with(['`', ' ']))
-        });
-        command.map_or_else(|| section.to_owned(), |found| with_table(section, found, &mut shown))
-    });
-    sections.collect::<Vec<_>>().join("\n## ")
-}
-
-/// A section with the table of its command. Options that a command before has too are in one row;
-/// `shown` are the rows of those, with the command.
-fn with_table(
-    section: &str,
-    command: &clap::Command,
-    shown: &mut BTreeMap<String, String>,
-) -> String {
+/// A page with the table of its command as it is now. Options that a command before has too are in
+/// one row; `shown` are the rows of those, with the command.
+fn with_table(page: &str, command: &clap::Command, shown: &mut BTreeMap<String, String>) -> String {
     let (mut table, mut known) = (HEAD.to_owned(), BTreeMap::<String, Vec<String>>::new());
     for arg in command.get_arguments().filter(|arg| arg.get_long().is_some()) {
         match shown.get(&row(arg)) {
@@ -40,11 +21,12 @@ fn with_table(
         shown.entry(row(arg)).or_insert_with(|| command.get_name().to_owned());
     }
     for (before, options) in known {
-        table += &format!("| {} | | As for `ppum {before}`. |\n", options.join(", "));
+        let options = options.join(", ");
+        table += &format!("| {options} | | As for [`ppum {before}`]({before}.md). |\n");
     }
-    let Some((start, rest)) = section.split_once("| option |") else {
+    let Some((start, rest)) = page.split_once("| option |") else {
         assert_eq!(table, HEAD, "ppum {}: write `| option |` for a table", command.get_name());
-        return section.to_owned();
+        return page.to_owned();
     };
     let rest = rest.split_inclusive('\n').skip(1).skip_while(|line| line.starts_with('|'));
     format!("{start}{table}{}", rest.collect::<String>())
@@ -104,12 +86,20 @@ fn value_name(arg: &Arg) -> String {
 /// `PPUM_WRITE=1 cargo test --release -p ppum-cli tables` writes them again.
 #[test]
 fn tables_of_options_are_those_of_the_program() {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/cli.md");
-    let page = std::fs::read_to_string(path).unwrap();
-    let wanted = with_tables(&page);
-    if std::env::var_os("PPUM_WRITE").is_some() {
-        return std::fs::write(path, wanted).unwrap();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs");
+    let read = |file: &str| std::fs::read_to_string(folder.join(file)).expect(file);
+    let (overview, mut shown) = (read("cli.md"), BTreeMap::new());
+    for command in Cli::whole().get_subcommands() {
+        let file = format!("commands/{}.md", command.get_name());
+        assert!(overview.contains(&format!("]({file})")), "docs/cli.md has no link to {file}");
+        let page = read(&file);
+        let wanted = with_table(&page, command, &mut shown);
+        assert!(wanted.matches("| option |").count() <= 1, "docs/{file} has two tables of options");
+        if std::env::var_os("PPUM_WRITE").is_some() {
+            std::fs::write(folder.join(&file), &wanted).unwrap();
+            continue;
+        }
+        let rows = page.lines().zip(wanted.lines()).find(|(ours, theirs)| ours != theirs);
+        assert!(page == wanted, "{rows:?}: write the table of docs/{file} anew");
     }
-    let rows = page.lines().zip(wanted.lines()).find(|(ours, theirs)| ours != theirs);
-    assert!(page == wanted, "{rows:?}: write the tables of docs/cli.md anew");
 }

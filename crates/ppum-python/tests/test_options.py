@@ -61,8 +61,8 @@ def test_options_have_the_texts_of_the_program(_, kind):
 
 
 def test_defaults_of_keys_are_those_of_problem_files():
-    """The texts say the defaults of the tables of docs/problem-file, which are those of the solver."""
-    pages = (page for page in ROOT.joinpath("docs").rglob("*.md") if "problem-file" in page.as_posix())
+    """The texts say the defaults of the tables of docs/problem, which are those of the solver."""
+    pages = ROOT.joinpath("docs/problem").glob("*.md")
     tables = dict(re.findall(r"<!-- keys: (.*?) -->\n((?:\|.*\n)+)", "".join(page.read_text() for page in pages)))
     kinds = {
         "crack": sections.CrackOptions, "discretization": sections.DiscretizationOptions,

@@ -2,7 +2,7 @@
 //!
 //! All of them are datasets as a writer could make them, most of equal numbers, so that thousands
 //! of patches, cracks or operations are some ten kilobytes of a file. They are read and drawn
-//! within the bounds of docs/cli.md.
+//! within the bounds of docs/commands/cost.md.
 
 use ppum::cover::Cover;
 use ppum::crack::{Crack, CrackEnd, TipId, tips};

@@ -1,5 +1,5 @@
-//! The cost of commands: small files that ask for much are read within the bounds that docs/cli.md
-//! states.
+//! The cost of commands: small files that ask for much are read within the bounds that
+//! docs/commands/cost.md states.
 //!
 //! The system holds the bounds: a command that passes one is killed, or has no memory.
 
@@ -15,7 +15,8 @@ use crate::errors::unchecked;
 const SMALL: usize = 250_000;
 
 /// A command, the seconds of the processor it may take, and the memory in MiB beside that of
-/// reading the file: the bounds of docs/cli.md for two threads, 2,000 points and 3,072 pixels.
+/// reading the file: the bounds of docs/commands/cost.md for two threads, 2,000 points and
+/// 3,072 pixels.
 struct Bound {
     command: &'static str,
     seconds: u32,

@@ -321,12 +321,12 @@ fn wgsl_is_valid_and_the_same_function() {
     Module::new(&quantity).unwrap();
 }
 
-/// The example of docs/cli.md, up to the numbers at a point, whose last digits are the processor's:
-/// lines that the page leaves out it marks with `…`.
+/// The example of docs/commands/formula.md, up to the numbers at a point, whose last digits are the
+/// processor's: lines that the page leaves out it marks with `…`.
 #[test]
 fn the_example_of_the_page_is_what_the_program_says() {
     const FORMULA: &str = "abs(x - 2*y)*sqrt(r)";
-    let page = include_str!("../../../../docs/cli.md");
+    let page = include_str!("../../../../docs/commands/formula.md");
     let (_, example) =
         page.split_once(&format!("$ ppum formula '{FORMULA}' --at x=3,y=4\n")).expect("an example");
     let told = Lab::new().run_with("formula --at x=3,y=4", &[FORMULA]);

@@ -1,5 +1,5 @@
 //! The keys of a problem file: one row a key, from which come what its reader knows, the ranges of
-//! its numbers, the tables of `docs/problem-file.md`, its JSON schema, and what editors complete.
+//! its numbers, the tables of `docs/problem`, the JSON schema, and what editors complete.
 
 use std::fmt::Debug;
 
@@ -239,7 +239,7 @@ tables! {
         segments: Whole => "Has no effect any more: curves are exact.";
         contact: Flag, default(|| toml(false)), only(Elasticity, &[]) =>
             "`true`: its faces press on each other where they touch, instead of overlapping; see "
-            "[contact](#contact).";
+            "[contact](contact.md).";
         friction: Number, range(NOT_NEGATIVE), default(|| "0".into()), only(Elasticity, &[]) =>
             "Coulomb's coefficient μ of friction between faces that touch.";
     }
@@ -344,19 +344,19 @@ tables! {
             "relative to that 1 %); if no tip has a K, as with Poisson's equation, the error of the energy. Cells are "
             "divided and orders raised until the estimated error is that small. No cells need be given: the first "
             "cover has level 2, below 1e-3 level 3, with automatic refinement. The keys of "
-            "[`[adaptivity]`](#adaptivity) set the bounds, by default 30 steps and 100,000 unknowns; the warning "
-            "`tolerance` says if a bound is reached first.";
+            "[`[adaptivity]`](accuracy.md#adaptivity) set the bounds, by default 30 steps and 100,000 unknowns; "
+            "the warning `tolerance` says if a bound is reached first.";
         refine: Flag, default(|| toml(discretization().refine)) =>
             "Refine the cells where the field needs it: around tips, where a tip has little clearance, where the rim "
             "of a polygon would cross a patch twice, towards [singular points](#singular-points), at round holes and "
             "in ligaments. `false` keeps the base cells, except for [`[[refine]]`](#refine).";
         order: Either(&[Whole, Value]), range(DEGREE), default(|| "2, see below".into()) =>
             "Degree of the local polynomials. A formula of `x` and `y` is evaluated at each patch's centre and "
-            "rounded. See [validation](validation.md#rates-beside-a-tip) for rates.";
+            "rounded. See [validation](../validation.md#rates-beside-a-tip) for rates.";
         overlap: Number, range(within(*OVERLAP.start(), *OVERLAP.end())), default(|| toml(discretization().overlap)),
             remedy("; 1.3 to 1.5 is the useful range") =>
             "α: a patch is its cell enlarged by this factor. Towards 1, patches overlap in ever thinner strips, and "
-            "the solution gets stiffer (error of K 2e-3 at 1.01 instead of 4e-4, for the plate above with level 3); "
+            "the solution gets stiffer (error of K 2e-3 at 1.01 instead of 4e-4, for the first example with level 3); "
             "towards 2, more patches cover each point, which costs time.";
         weight: Text("name or formula"), default(|| "\"linear\"".into()) =>
             "The weight function: `\"linear\"`, `\"quadratic\"`, `\"cubic\"` (B-splines), `\"bump\"`, `\"cosine\"`, "
@@ -364,7 +364,8 @@ tables! {
             "1/((1 - t)*(1 + t)))\"`.";
         enrichment: Word(words::<Enrichment>), default(|| toml(discretization().enrichment.word())) =>
             "The functions of the local spaces besides polynomials.";
-        interfaces: Flag, default(|| toml(discretization().interfaces)) => "Resolve the interfaces at which the [material](#material) jumps.";
+        interfaces: Flag, default(|| toml(discretization().interfaces)) =>
+            "Resolve the interfaces at which the [material](material.md#material) jumps.";
         enrichment_radius: Number, range(POSITIVE), default(|| "see below".into()) => "Radius of the zone around each tip.";
         tip_degree: Whole, range(DEGREE), default(|| toml(discretization().tip_degree)), remedy(IS_DEFAULT) =>
             "Degree of the polynomials that multiply the tip functions on patches that contain a tip; not with "

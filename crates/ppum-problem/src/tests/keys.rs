@@ -1,4 +1,4 @@
-//! The tables of `docs/problem-file.md` and the schema beside it are those of the keys.
+//! The tables of `docs/problem-file.md` and `docs/problem`, and the schema, are those of the keys.
 //!
 //! `PPUM_WRITE=1 cargo test -p ppum-problem --lib tests::keys` writes them anew.
 
@@ -89,14 +89,15 @@ fn mark(path: &str) -> String {
     format!("<!-- keys: {path} -->\n")
 }
 
-/// The page with the tables of the keys.
-fn page(text: &str) -> String {
+/// A page with the tables of the keys that it has marks for; no page before may have had them.
+fn page(text: &str, missing: &mut BTreeMap<String, &'static KeyTable>) -> String {
     let mut text = text.to_owned();
     for (path, table) in all_tables() {
         let mark = mark(&path);
-        assert_eq!(text.matches(&mark).count(), 1, "docs/problem-file.md has one {mark}");
-        let start = text.find(&mark).expect("there") + mark.len();
-        let end = start + text[start..].find("\n\n").expect("something follows");
+        let Some(start) = text.find(&mark).map(|at| at + mark.len()) else { continue };
+        let is_first = missing.remove(&path).is_some() && !text[start..].contains(&mark);
+        assert!(is_first, "the pages have one {mark}");
+        let end = start + text[start..].find("\n\n").unwrap_or(text[start..].trim_end().len());
         let rows = table.keys.iter().map(markdown).collect::<Vec<_>>().join("\n");
         let head = "| key | type | default | meaning |\n|---|---|---|---|\n";
         text.replace_range(start..end, &(head.to_owned() + &rows));
@@ -234,8 +235,16 @@ fn holds(file: &str, expected: impl FnOnce(&str) -> String) {
 }
 
 #[test]
-fn the_page_has_the_tables_of_the_keys() {
-    holds("problem-file.md", page);
+fn the_pages_have_the_tables_of_the_keys() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../docs/problem");
+    let names = std::fs::read_dir(folder).expect("pages of groups of keys");
+    let names = names.map(|entry| entry.expect("a page").file_name().into_string());
+    let groups = names.map(|name| format!("problem/{}", name.expect("a name")));
+    let mut missing = all_tables();
+    for file in groups.chain(["problem-file.md".to_owned()]) {
+        holds(&file, |text| page(text, &mut missing));
+    }
+    assert!(missing.is_empty(), "no page has the keys of {:?}", missing.keys());
 }
 
 #[test]

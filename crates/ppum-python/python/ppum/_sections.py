@@ -1,4 +1,4 @@
-"""The keys of problem files as options of `Problem`, whose defaults are those of docs/problem-file.md.
+"""The keys of problem files as options of `Problem`, whose defaults are those of docs/problem.
 
 Curves have angles in radians, as everywhere in Python; tables of problem files have degrees.
 """

@@ -30,7 +30,7 @@ const AREA_ACCURACY: f64 = 1e-8;
 /// Most parts that one piece is divided into.
 const BUDGET: usize = 400;
 
-/// Most divisions in one cell, or along one line through it. Documented in docs/problem-file.md.
+/// Most divisions in one cell, or along one line through it (docs/problem/accuracy.md).
 pub(super) const MOST_DIVISIONS: usize = 10_000;
 
 /// Number of parts from which on errors must come down whenever it doubles. A layer of 1e-9 of a

@@ -1,7 +1,7 @@
 //! The facts of a dataset, made once: the commands print them as text and JSON, Python has them as
 //! objects, the window as tables.
 //!
-//! Each is a plain value in the shape of its JSON, which docs/cli.md documents.
+//! Each is a plain value in the shape of its JSON, which docs/commands documents.
 
 mod about;
 mod number;
