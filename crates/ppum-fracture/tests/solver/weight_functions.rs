@@ -307,12 +307,12 @@ fn few_random_loads() {
 
 /// An estimate may fall short where the error of one load cancels by chance: by little, and rarely.
 #[test]
-#[ignore = "slow: solves 200 problems"]
-fn two_hundred_random_loads() {
-    let mut ratios: Vec<f64> = (10..30).flat_map(|seed| random_loads(seed, 10, 5)).collect();
+#[ignore = "slow: solves 50 problems"]
+fn fifty_random_loads() {
+    let mut ratios: Vec<f64> = (10..15).flat_map(|seed| random_loads(seed, 10, 5)).collect();
     ratios.sort_by(f64::total_cmp);
-    println!("median {}, 95 of 100 {}, all {}", ratios[100], ratios[190], ratios[199]);
-    assert!(ratios[190] < 1.0 && ratios[199] < 10.0, "{ratios:?}");
+    println!("median {}, 45 of 50 {}, all {}", ratios[25], ratios[44], ratios[49]);
+    assert!(ratios[44] < 1.0 && ratios[49] < 10.0, "{ratios:?}");
 }
 
 /// The factor of a sum of loads is the sum of their factors, by points and by formulas.
