@@ -380,6 +380,109 @@ def test_series():
     seen(page, "series")
 
 
+SPLINE = """title = "Crack along a spline"
+[domain]
+min = [-1.0, -1.0]
+max = [1.0, 1.0]
+[material]
+young = 1.0
+poisson = 0.3
+state = "plane-strain"
+[[crack]]
+spline = [[-0.6, -0.1], [-0.3, 0.12], [0.0, -0.05], [0.3, 0.1], [0.6, -0.12]]
+[[boundary]]
+on = "bottom"
+traction = [0.0, -1.0]
+[[boundary]]
+on = "top"
+traction = [0.0, 1.0]
+[discretization]
+level = 4
+"""
+
+
+def solved(name, text=None):
+    """The dataset of an example, or of the text of a problem."""
+    (FOLDER / f"{name}.toml").write_text(text or (ROOT / "examples" / f"{name}.toml").read_text())
+    run("solve", f"{name}.toml")
+    return f"{name}.h5"
+
+
+def drawn(name, dataset, center, width, *quantities):
+    """A page whose pixels were compared: a place of the given width, and quantities of the whole body."""
+    page = opened(export(f"{name}.html", dataset))
+    compared(page)
+    seen(page, name)
+    page.run(f"page.move({{center: {json.dumps(center)}, width: {width}}})")
+    page.rest()
+    compared(page)
+    seen(page, f"{name}-near")
+    page.run("document.getElementById('whole').click()")
+    for quantity in quantities:
+        chosen(page, "quantity", quantity)
+        assert page.run("page.scene.quantity") == quantity
+        compared(page)
+    return page
+
+
+def test_cracks_along_arcs():
+    page = drawn("arc", solved("arc-crack"), [math.sin(0.75), math.cos(0.75)], 1e-9, "uy")
+    page.run("page.move({center: [0, 1], width: 0.1})")
+    page.rest()
+    compared(page)
+    x, y = middle(page)
+    page.mouse("mouseMoved", x, y + 2)
+    page.rest()
+    assert [side["name"] for side in page.run("page.hover.sides")] == ["above", "below"]
+
+
+def test_cracks_along_splines():
+    page = drawn("spline", solved("spline", SPLINE), [0.6, -0.12], 1e-9, "uy")
+    page.run("page.move({center: [0, -0.05], width: 0.1})")
+    page.rest()
+    compared(page)
+
+
+def test_rims_of_arcs():
+    drawn("ellipse", solved("elliptic-hole"), [0.1, 0], 0.01, "uy")
+
+
+#: Calls `onRows` with the columns of an image whose rows have been asked for.
+ROWS_ASKED = """(post => {
+  Worker.prototype.postMessage = function (message, ...more) {
+    post.call(this, message, ...more);
+    if (message.task === "rows") globalThis.onRows?.(message.rows.frame.view.pixels[0]);
+  };
+})(Worker.prototype.postMessage)"""
+
+#: Moves on while the image of a view is evaluated, and gives all messages until the page is at rest.
+LEAVE = """(async (width, next) => {
+  const said = [];
+  const element = document.getElementById("message");
+  const observer = new MutationObserver(() => said.push(element.textContent));
+  observer.observe(element, {childList: true});
+  const {center} = page.view;
+  globalThis.onRows = columns => {
+    if (columns < document.getElementById("image").width) return;
+    globalThis.onRows = null;
+    page.move({center, width: next});
+  };
+  page.move({center, width});
+  do await new Promise(done => setTimeout(done, 10)); while (!page.isAtRest);
+  observer.disconnect();
+  return [said.filter(text => text), globalThis.onRows === null];
+})"""
+
+
+def test_a_view_that_is_left_leaves_no_values():
+    page = opened(export("left.html", "plate.h5"), before=ROWS_ASKED)
+    whole = size(page)
+    # first after a coarse image of the same view, then without one
+    for width, following in [(0.5, 0.5), (0.4, 0.5), (0.3, 0.3)]:
+        assert page.run(f"{LEAVE}({width * whole}, {following * whole})") == [[], True]
+        compared(page)
+
+
 def test_nothing_is_fetched():
     page = opened(export("offline.html", "plate.h5"))
     page.ask("Network.emulateNetworkConditions", offline=True, latency=0, downloadThroughput=0, uploadThroughput=0)

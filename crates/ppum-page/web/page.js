@@ -203,6 +203,8 @@
     const begin = performance.now();
     let strips;
     if (key !== known) {
+      // each strip takes the place of the values that the painter holds, also if not all are wanted
+      known = null;
       strips = await values(frame, isOff);
       if (!strips) return;
     }
@@ -732,7 +734,6 @@
     about = scene.subject.step === 0 ? last : await workers[0].ask("describe", { step: scene.subject.step });
     const [[x0, y0], [x1, y1]] = about.bounds;
     size = Math.max(x1 - x0, y1 - y0);
-    at("title").textContent = about.title || start.file;
     at("colormap").replaceChildren(new Option("Default", ""), ...about.colormaps.map(name => new Option(name, name)));
     fill();
     view = start.view ? shaped(start.view) : whole();
