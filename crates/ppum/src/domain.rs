@@ -11,7 +11,11 @@ use crate::box_tree::BoxTree;
 use crate::compensated::{arc, circle, cross};
 use crate::edge::Edge;
 use crate::segment;
+use crate::side_index::{MANY, SideIndex, SideTree};
 use crate::vec2::{Rect, Vec2, vec2};
+
+/// Heights of all points.
+pub(crate) const ALL_HEIGHTS: [f64; 2] = [f64::NEG_INFINITY, f64::INFINITY];
 
 /// A box minus holes; outside nothing is defined.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +46,8 @@ pub enum Hole {
         bulges: Vec<f64>,
         /// The side that is cut out.
         side: PolygonSide,
+        /// Finds sides where there are many. The others do not change once it was asked.
+        index: SideIndex,
     },
 }
 
@@ -65,8 +71,16 @@ impl Domain {
     /// The domain as seen from an anchor. Linear in the number of rims' corners.
     #[must_use]
     pub fn at(&self, anchor: Vec2) -> LocalDomain {
+        self.between(anchor, ALL_HEIGHTS)
+    }
+
+    /// The domain as seen from an anchor, as far as points from one height above the anchor to
+    /// another ask for it.
+    #[must_use]
+    pub fn between(&self, anchor: Vec2, heights: [f64; 2]) -> LocalDomain {
         let bounds = Rect::new(self.bounds.min - anchor, self.bounds.max - anchor);
-        LocalDomain { bounds, holes: self.holes.iter().map(|hole| hole.at(anchor)).collect() }
+        let holes = self.holes.iter().map(|hole| hole.between(anchor, heights)).collect();
+        LocalDomain { bounds, holes }
     }
 
     /// The index of the hole that is all outside of the body's outline, if there is one.
@@ -93,13 +107,19 @@ impl Hole {
     /// The inside of a polygon.
     #[must_use]
     pub fn polygon(points: Vec<Vec2>) -> Self {
-        Self::Polygon { points, bulges: Vec::new(), side: PolygonSide::Inside }
+        Self::with_arcs(points, Vec::new(), PolygonSide::Inside)
     }
 
     /// The outside of a polygon, which is the outline of the body.
     #[must_use]
     pub fn outside(points: Vec<Vec2>) -> Self {
-        Self::Polygon { points, bulges: Vec::new(), side: PolygonSide::Outside }
+        Self::with_arcs(points, Vec::new(), PolygonSide::Outside)
+    }
+
+    /// A side of a closed polygon with the bulges of its sides, empty if all are segments.
+    #[must_use]
+    pub fn with_arcs(points: Vec<Vec2>, bulges: Vec<f64>, side: PolygonSide) -> Self {
+        Self::Polygon { points, bulges, side, index: SideIndex::default() }
     }
 
     /// The inside of a closed chain of edges.
@@ -107,7 +127,7 @@ impl Hole {
     pub fn enclosed(edges: &[Edge]) -> Self {
         let points = edges.iter().map(|edge| edge.from).collect();
         let bulges = edges.iter().map(|edge| edge.bulge).collect();
-        Self::Polygon { points, bulges, side: PolygonSide::Inside }
+        Self::with_arcs(points, bulges, PolygonSide::Inside)
     }
 
     /// True if it is the outside of an outline, and not bounded.
@@ -119,7 +139,7 @@ impl Hole {
     /// The hole as seen from an anchor.
     #[must_use]
     pub fn at(&self, anchor: Vec2) -> LocalHole {
-        self.between(anchor, [f64::NEG_INFINITY, f64::INFINITY])
+        self.between(anchor, ALL_HEIGHTS)
     }
 
     /// The hole seen from an anchor, as far as points from one height above the anchor to another
@@ -135,8 +155,13 @@ impl Hole {
                 LocalRim::Circle { d: anchor - *center, excess: circle(*center, *radius, anchor) }
             }
             Self::Polygon { side, .. } => {
-                let sides = self.edges().filter(meets).map(|edge| LocalSide::new(edge, anchor));
-                LocalRim::Polygon(sides.collect(), *side)
+                // the heights, and what rounding of differences from the anchor adds
+                let rounding = 4.0 * f64::EPSILON * anchor.y.abs();
+                let [low, high] = [anchor.y + low - rounding, anchor.y + high + rounding];
+                let level = Rect::new(vec2(-f64::INFINITY, low), vec2(f64::INFINITY, high));
+                let sides = self.edges_near(&level).map(|(_, edge)| edge).filter(meets);
+                let sides = sides.map(|edge| LocalSide::new(edge, anchor)).collect();
+                LocalRim::Polygon(sides, *side)
             }
         })
     }
@@ -179,6 +204,20 @@ impl Hole {
         self.sides().zip(bulges).map(|([from, to], bulge)| Edge { from, to, bulge })
     }
 
+    /// The sides of a polygon with their numbers, in order, without those of many that surely do
+    /// not meet a closed box.
+    pub fn edges_near(&self, rect: &Rect) -> impl Iterator<Item = (usize, Edge)> + use<'_> {
+        let found = self.tree().map(|tree| tree.near(rect));
+        let all = found.is_none().then(|| self.edges().enumerate());
+        all.into_iter().flatten().chain(found.into_iter().flatten())
+    }
+
+    /// The sides of a polygon in a search tree, if they are many.
+    fn tree(&self) -> Option<&SideTree> {
+        let Self::Polygon { points, index, .. } = self else { return None };
+        index.of(self.edges(), points.len())
+    }
+
     /// The edges of the rim, each from where the one before ends; a circle is two half turns.
     #[must_use]
     pub fn rim_edges(&self) -> Vec<Edge> {
@@ -214,9 +253,10 @@ impl Hole {
     pub fn rim_distance(&self, p: Vec2) -> f64 {
         match self {
             Self::Circle { center, radius } => ((p - *center).length() - radius).abs(),
-            Self::Polygon { .. } => {
-                self.edges().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min)
-            }
+            Self::Polygon { .. } => match self.tree() {
+                Some(tree) => tree.distance(p),
+                None => self.edges().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min),
+            },
         }
     }
 }
@@ -257,9 +297,6 @@ impl LocalDomain {
         [out, inside(out)].into_iter().find(|&p| self.contains(p))
     }
 }
-
-/// Sides of a rim from which on those at the height of a point are looked up.
-const MANY: usize = 32;
 
 /// A hole seen from an anchor.
 #[derive(Clone, Debug)]
@@ -558,6 +595,33 @@ mod tests {
         }
     }
 
+    /// Rims with many sides answer as their sides one by one do.
+    #[test]
+    fn many_sides_are_looked_up() {
+        let mut random = Random(17);
+        for n in [33, 100, 1000] {
+            let at = |k: usize| TAU * k as f64 / n as f64;
+            let radius = |k: usize| [0.8, 0.79, 0.7][k % 3];
+            let points = (0..n).map(|k| vec2(at(k).cos(), at(k).sin()) * radius(k)).collect();
+            let bulges = (0..n).map(|_| random.between(-0.2, 0.2)).collect();
+            let hole = Hole::with_arcs(points, bulges, PolygonSide::Inside);
+            let sides: Vec<Edge> = hole.edges().collect();
+            for _ in 0..300 {
+                let p = vec2(random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+                let distances = sides.iter().map(|side| side.distance(p));
+                assert_eq!(hole.rim_distance(p), distances.fold(f64::INFINITY, f64::min));
+                let (anchor, heights) = (vec2(0.3, p.y + 0.1), [-0.15, -0.05]);
+                assert_eq!(hole.contains(p), hole.at(p).contains(Vec2::ZERO));
+                let near = hole.between(anchor, heights);
+                assert_eq!(near.contains(p - anchor), hole.at(anchor).contains(p - anchor));
+                let rect = Rect::around(p, vec2(0.05, 0.02));
+                let near: Vec<_> = hole.edges_near(&rect).map(|(k, _)| k).collect();
+                let meets = |k: &usize| !sides[*k].within(&rect).is_empty();
+                assert!((0..n).filter(meets).all(|k| near.contains(&k)) && near.len() < n / 2);
+            }
+        }
+    }
+
     #[test]
     fn bounds_and_distances() {
         let round = Hole::Circle { center: vec2(0.5, 0.25), radius: 0.5 };
@@ -591,7 +655,7 @@ mod tests {
                 .collect();
             let least = if n == 2 { 0.2 } else { -0.25 };
             let bulges: Vec<f64> = (0..n).map(|_| random.between(least, 0.8)).collect();
-            let hole = |points, bulges| Hole::Polygon { points, bulges, side: PolygonSide::Inside };
+            let hole = |points, bulges| Hole::with_arcs(points, bulges, PolygonSide::Inside);
             let own = hole(points.clone(), bulges.clone());
             let mut turned = (points.clone(), bulges.iter().map(|b| -b).collect::<Vec<_>>());
             turned.0.reverse();
@@ -626,7 +690,7 @@ mod tests {
     #[test]
     fn arcs_are_sharp_at_a_width_of_1e_12() {
         let points = vec![vec2(5.0, 0.0), vec2(-5.0, 0.0)];
-        let half = Hole::Polygon { points, bulges: vec![1.0, 0.0], side: PolygonSide::Inside };
+        let half = Hole::with_arcs(points, vec![1.0, 0.0], PolygonSide::Inside);
         let anchor = vec2(3.0, 4.0);
         let local = half.at(anchor);
         for k in -500..500 {
@@ -642,8 +706,7 @@ mod tests {
             [vec2(5.0, 0.0), vec2(0.0, 5.0), vec2(3.0, 4.0), vec2(-4.0, 3.0)]
                 .map(|end| (turned, end))
         }) {
-            let bulges = vec![turned; 2];
-            let disc = Hole::Polygon { points: vec![end, -end], bulges, side: PolygonSide::Inside };
+            let disc = Hole::with_arcs(vec![end, -end], vec![turned; 2], PolygonSide::Inside);
             for k in -9_i32..10 {
                 let p = end * (0.125 * f64::from(k));
                 assert_eq!(disc.contains(p), k.abs() < 8, "on the chord of both, {end:?} {k}");

@@ -286,7 +286,7 @@ impl Edge {
     }
 
     /// A box in which the edge surely lies.
-    fn reach(&self) -> Rect {
+    pub(crate) fn reach(&self) -> Rect {
         let (a, b, d) = (self.from, self.to, self.chord());
         // an arc stays as near to its chord as its middle: |D| |β|/2 or more, also after rounding
         let beside = 0.51 * self.bulge.abs() * (d.x.abs() + d.y.abs());

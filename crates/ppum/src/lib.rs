@@ -162,6 +162,7 @@ pub mod quantity;
 pub mod replace;
 pub mod sample;
 pub mod segment;
+mod side_index;
 pub mod sides;
 pub mod smooth_curve;
 pub mod spline;

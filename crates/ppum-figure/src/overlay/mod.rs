@@ -200,11 +200,7 @@ mod tests {
     #[test]
     fn rims_with_arcs_are_in_place() {
         let corners = [[0.2, 0.3], [0.7, 0.3], [0.7, 0.6], [0.2, 0.6]].map(Vec2::from).to_vec();
-        let hole = Hole::Polygon {
-            points: corners,
-            bulges: vec![0.0, 1.0, 0.0, -0.4],
-            side: PolygonSide::Inside,
-        };
+        let hole = Hole::with_arcs(corners, vec![0.0, 1.0, 0.0, -0.4], PolygonSide::Inside);
         let arc = hole.edges().nth(1).unwrap();
         for (center, width) in [
             (vec2(0.5, 0.4), 1.5),

@@ -68,7 +68,7 @@ impl StoredHole {
         let is_curved = hole.edges().any(|edge| edge.is_arc());
         let (kind, points, bulges, radius) = match hole {
             Hole::Circle { center, radius } => (HoleKind::Circle, vec![*center], vec![], *radius),
-            Hole::Polygon { points, bulges, side } => {
+            Hole::Polygon { points, bulges, side, .. } => {
                 let kind = match (side, is_curved) {
                     (PolygonSide::Inside, false) => HoleKind::Polygon,
                     (PolygonSide::Inside, true) => HoleKind::CurvedPolygon,
@@ -107,6 +107,6 @@ impl StoredHole {
             (HoleKind::Polygon | HoleKind::CurvedPolygon, _) => PolygonSide::Inside,
             (HoleKind::Outside | HoleKind::CurvedOutside, _) => PolygonSide::Outside,
         };
-        Some(Hole::Polygon { points, bulges, side })
+        Some(Hole::with_arcs(points, bulges, side))
     }
 }

@@ -112,7 +112,7 @@ fn with_noise(step: &Step) -> Step {
 
 /// Largest |∇u| at the places of a cell; zero where all of them lie in holes.
 fn gradient(field: &Field<'_>, cell: &Rect) -> f64 {
-    let (mut local, size) = (field.at(cell.center()), cell.size());
+    let (mut local, size) = (field.inside(cell), cell.size());
     let mut u = vec![Jet::constant(0.0); field.components()];
     let mut at = |[x, y]: [f64; 2]| {
         let offset = ppum::vec2::vec2(x * size.x, y * size.y);

@@ -656,10 +656,9 @@ fn insides_of_holes() {
     }";
     let polygon =
         |points: &[[f64; 2]]| Hole::polygon(points.iter().copied().map(Vec2::from).collect());
-    let with_arcs = |points: &[[f64; 2]], bulges: &[f64], side| Hole::Polygon {
-        points: points.iter().copied().map(Vec2::from).collect(),
-        bulges: bulges.to_vec(),
-        side,
+    let with_arcs = |points: &[[f64; 2]], bulges: &[f64], side| {
+        let points = points.iter().copied().map(Vec2::from).collect();
+        Hole::with_arcs(points, bulges.to_vec(), side)
     };
     let (keyhole, outline) = (
         [[1.0, -1.0], [1.25, -1.0], [1.25, -0.5], [1.0, -0.5]],

@@ -107,26 +107,17 @@ pub fn without(range: [f64; 2], others: &[[f64; 2]]) -> Vec<[f64; 2]> {
     others.iter().fold(vec![range], beside)
 }
 
-/// Number of connected parts of edges one after the other inside an open box.
-pub(crate) fn runs_inside(edges: &[Edge], open: &Rect) -> usize {
-    let ranges: Vec<_> = edges.iter().map(|edge| clipped(*edge, open)).collect();
-    let joins = (1..edges.len()).filter(|&k| goes_on(edges[k - 1], &ranges[k - 1..], open)).count();
-    ranges.iter().map(Vec::len).sum::<usize>() - joins
-}
-
-/// True if the last part of an edge in a box goes on in the first one of the next edge.
-fn goes_on(edge: Edge, ranges: &[Vec<[f64; 2]>], open: &Rect) -> bool {
-    let ends = ranges[0].last().is_some_and(|[_, to]| *to == 1.0);
-    ends && ranges[1].first().is_some_and(|[from, _]| *from == 0.0) && inside(open, edge.to)
-}
-
-/// Number of connected parts of a closed rim, given by its sides, inside an open box.
-pub fn runs_of_rim(sides: &[Edge], open: &Rect) -> usize {
-    let round: Vec<Edge> = sides.iter().chain(sides.first()).copied().collect();
-    let runs = runs_inside(&round, open) - runs_inside(&round[..sides.len().min(1)], open);
+/// Number of connected parts of the rim of a polygon inside an open box.
+pub fn runs_of_rim(hole: &Hole, open: &Rect) -> usize {
+    let parts = |side: Edge| clipped(side, open).into_iter().map(move |range| (side, range));
+    let parts: Vec<_> = hole.edges_near(open).flat_map(|(_, side)| parts(side)).collect();
+    let goes_on =
+        |((side, [_, to]), (next, [from, _])): &(&(Edge, [f64; 2]), &(Edge, [f64; 2]))| {
+            *to == 1.0 && *from == 0.0 && side.to == next.from && inside(open, side.to)
+        };
+    let joins = parts.iter().zip(parts.iter().cycle().skip(1)).filter(goes_on).count();
     // a rim that lies all inside goes on at each vertex
-    let is_inside = runs == 0 && sides.iter().any(|side| !clipped(*side, open).is_empty());
-    if is_inside { 1 } else { runs }
+    (parts.len() - joins).max(parts.len().min(1))
 }
 
 /// Length of an edge inside an open box.
@@ -172,11 +163,11 @@ mod tests {
     use ppum::vec2::vec2;
 
     #[test]
-    fn runs_of_a_crack_in_a_box() {
+    fn runs_of_a_rim_that_closes_outside() {
         let unit = Rect::new(vec2(0.0, 0.0), vec2(1.0, 1.0));
         let runs = |points: &[[f64; 2]]| {
-            let points: Vec<Vec2> = points.iter().map(|&p| p.into()).collect();
-            runs_inside(&Crack::from(points).edges().collect::<Vec<_>>(), &unit)
+            let points = points.iter().chain(&[[9.0, 9.0], [-9.0, 9.0]]);
+            runs_of_rim(&Hole::polygon(points.map(|&p| p.into()).collect()), &unit)
         };
         assert_eq!(runs(&[[-1.0, 0.5], [2.0, 0.6]]), 1);
         assert_eq!(runs(&[[-1.0, 0.5], [0.4, 0.5], [2.0, 0.6]]), 1, "a kink inside");
@@ -195,7 +186,7 @@ mod tests {
             let mut points: Vec<Vec2> = points.iter().map(|&p| p.into()).collect();
             let mut turned = || {
                 points.rotate_left(1);
-                runs_of_rim(&Hole::polygon(points.clone()).edges().collect::<Vec<_>>(), &unit)
+                runs_of_rim(&Hole::polygon(points.clone()), &unit)
             };
             let all: Vec<_> = (0..turns).map(|_| turned()).collect();
             assert!(all.iter().all(|n| *n == all[0]), "wherever it begins: {all:?}");

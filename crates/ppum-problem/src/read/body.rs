@@ -228,7 +228,7 @@ fn closed(section: &Section<'_>, keys: &[&'static str]) -> Option<Rim> {
         "points" => {
             let points: Vec<Vec2> = Vec::read(value)?;
             let bulges = bulges(section, points.len())?;
-            let hole = Hole::Polygon { points, bulges, side: PolygonSide::Inside };
+            let hole = Hole::with_arcs(points, bulges, PolygonSide::Inside);
             let edges: Vec<Edge> = hole.edges().collect();
             let is_outline = keys == CURVES;
             Some(closed(if is_outline { needed_of(&edges, &[0]).0 } else { edges }))
@@ -246,7 +246,7 @@ fn closed(section: &Section<'_>, keys: &[&'static str]) -> Option<Rim> {
 fn polygon(edges: &[Edge]) -> Hole {
     let Crack { mut points, bulges, .. } = Crack::along(edges);
     points.pop();
-    Hole::Polygon { points, bulges, side: PolygonSide::Inside }
+    Hole::with_arcs(points, bulges, PolygonSide::Inside)
 }
 
 /// Pieces one after the other, the last of which ends where the first begins.

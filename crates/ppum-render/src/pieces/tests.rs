@@ -210,10 +210,9 @@ fn curved_dataset() -> Dataset {
         crack(&[[0.3, 0.4], [0.304, 0.402]], &[0.7], [CrackEnd::Tip; 2]),
     ];
     let mut dataset = Recipe { cracks, ..Recipe::default() }.dataset();
-    let round = |points: &[[f64; 2]], bulges: &[f64]| Hole::Polygon {
-        points: points.iter().map(|&p| p.into()).collect(),
-        bulges: bulges.to_vec(),
-        side: PolygonSide::Inside,
+    let round = |points: &[[f64; 2]], bulges: &[f64]| {
+        let points = points.iter().map(|&p| p.into()).collect();
+        Hole::with_arcs(points, bulges.to_vec(), PolygonSide::Inside)
     };
     dataset.domain.holes = vec![
         // a stadium, a lens in clockwise order, and one with a bite

@@ -124,7 +124,7 @@ mod tests {
                 .to_vec();
             let bulges: Vec<f64> = (0..4).map(|_| random.between(-0.3, 0.3)).collect();
             let side = [PolygonSide::Inside, PolygonSide::Outside][k % 2];
-            let hole = Hole::Polygon { points, bulges, side };
+            let hole = Hole::with_arcs(points, bulges, side);
             let Hole::Polygon { points, bulges, .. } = polygon(&hole) else { panic!("a polygon") };
             assert!(bulges.is_empty());
             for p in sides(&points).flat_map(|[a, b]| [a, (a + b) * 0.5]) {

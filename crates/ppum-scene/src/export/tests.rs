@@ -154,8 +154,8 @@ fn meshes_follow_arcs() {
 
 fn follows_arcs(mut dataset: Dataset) {
     let corners = [[0.4, 0.5], [0.7, 0.5], [0.7, 0.6], [0.4, 0.6]].map(Vec2::from).to_vec();
-    let (bulges, side) = (vec![0.0, 1.0, 0.0, 1.0], PolygonSide::Inside);
-    dataset.domain.holes = vec![Hole::Polygon { points: corners, bulges, side }];
+    let bulges = vec![0.0, 1.0, 0.0, 1.0];
+    dataset.domain.holes = vec![Hole::with_arcs(corners, bulges, PolygonSide::Inside)];
     let field = Field::new(&dataset, 0).unwrap();
     let arrays = PointArray::defaults(&field).unwrap();
     let accuracy =

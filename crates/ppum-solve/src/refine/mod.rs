@@ -33,7 +33,7 @@ use ppum::border::touch;
 use ppum::cover::{Cover, CoverError};
 use ppum::crack::{Crack, CrackEnd, End, TipId, tips};
 use ppum::dataset::BoxPartition;
-use ppum::domain::Domain;
+use ppum::domain::{Domain, Hole};
 use ppum::edge::Edge;
 use ppum::progress::Cancelled;
 use ppum::text::trimmed;
@@ -325,20 +325,20 @@ pub fn n_crossed_twice(problem: &Problem, partition: &BoxPartition) -> usize {
 }
 
 /// Rims of polygons, which can cross a patch twice.
-struct Rims {
+struct Rims<'p> {
     domain: Rect,
     overlap: f64,
-    /// Their sides, and sizes of cells that are not divided.
-    rims: BoxList<(Vec<Edge>, f64)>,
+    /// Them, and sizes of cells that are not divided.
+    rims: BoxList<(&'p Hole, f64)>,
 }
 
-impl Rims {
-    fn new(problem: &Problem) -> Self {
+impl<'p> Rims<'p> {
+    fn new(problem: &'p Problem) -> Self {
         let polygons = problem.domain().holes.iter().filter(|hole| hole.edges().next().is_some());
         let rims = polygons.map(|hole| {
             let size = hole.rim_bounds().size();
             let part = if hole.is_outside() { LEAST_SLOT } else { LEAST_GAP };
-            (hole.rim_bounds(), (hole.edges().collect(), part * size.x.max(size.y)))
+            (hole.rim_bounds(), (hole, part * size.x.max(size.y)))
         });
         let overlap = problem.discretization.overlap;
         Self { domain: problem.domain().bounds, overlap, rims: BoxList::new(rims) }
@@ -349,9 +349,8 @@ impl Rims {
     fn cross_twice(&self, patch: &Rect) -> bool {
         let size = patch.size().x.max(patch.size().y) / self.overlap;
         let inside = patch.intersection(&self.domain);
-        self.rims
-            .near(patch)
-            .any(|(sides, least)| exceeds(size, *least) && runs_of_rim(sides, &inside) > 1)
+        let crosses = |hole: &Hole| runs_of_rim(hole, &inside) > 1;
+        self.rims.near(patch).any(|(hole, least)| exceeds(size, *least) && crosses(hole))
     }
 }
 

@@ -137,7 +137,7 @@ mod tests {
             let at = |k: u32| Vec2::from(<[f64; 2]>::from((f64::from(k) * part).sin_cos()));
             let points = (0..n).map(|k| center + vec2(at(k).y, at(k).x) * radius).collect();
             let bulges = vec![(0.25 * part).tan(); n as usize];
-            Hole::Polygon { points, bulges, side: PolygonSide::Inside }
+            Hole::with_arcs(points, bulges, PolygonSide::Inside)
         };
         let cell = |k: u32| {
             let (i, j) = (f64::from(k % 16), f64::from(k / 16));

@@ -268,10 +268,9 @@ fn outlined() -> Vec<Hole> {
 /// A body with an outline of arcs and segments, a slot with round ends, and a hole of a large arc
 /// and a small one.
 fn rounded() -> Vec<Hole> {
-    let polygon = |points: &[[f64; 2]], bulges: &[f64], side| Hole::Polygon {
-        points: points.iter().copied().map(Vec2::from).collect(),
-        bulges: bulges.to_vec(),
-        side,
+    let polygon = |points: &[[f64; 2]], bulges: &[f64], side| {
+        let points = points.iter().copied().map(Vec2::from).collect();
+        Hole::with_arcs(points, bulges.to_vec(), side)
     };
     let outline = [[0.25, -0.25], [1.3, -0.2], [1.35, 0.5], [0.3, 0.6]];
     vec![

@@ -68,10 +68,9 @@ mod tests {
     /// A polygon of two points has arcs, whose bulges are one for each point.
     #[test]
     fn holes_with_arcs() {
-        let hole = |points: &[[f64; 2]], bulges: &[f64]| Hole::Polygon {
-            points: points.iter().copied().map(Into::into).collect(),
-            bulges: bulges.to_vec(),
-            side: crate::domain::PolygonSide::Inside,
+        let hole = |points: &[[f64; 2]], bulges: &[f64]| {
+            let points = points.iter().copied().map(Into::into).collect();
+            Hole::with_arcs(points, bulges.to_vec(), crate::domain::PolygonSide::Inside)
         };
         let (lens, triangle) = ([[0.2, 0.5], [0.4, 0.5]], [[0.2, 0.2], [0.4, 0.2], [0.3, 0.4]]);
         let mut good = super::super::tests::dataset();

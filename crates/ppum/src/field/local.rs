@@ -3,12 +3,12 @@
 use super::compiled::Field;
 use super::functions::FunctionJets;
 use crate::crack::{SegmentId, Side};
-use crate::domain::LocalDomain;
+use crate::domain::{ALL_HEIGHTS, LocalDomain};
 use crate::function::{LocalFunctions, Slot};
 use crate::jet::Jet;
 use crate::mesh::{ElementField, LocalMesh};
 use crate::polynomial::polynomial;
-use crate::vec2::{Vec2, vec2};
+use crate::vec2::{Rect, Vec2, vec2};
 use ppum_formula::real::Real;
 use std::sync::OnceLock;
 
@@ -22,6 +22,8 @@ pub struct LocalField<'f> {
     /// The domain, formed when the first point asks for it: of rims with many sides that takes
     /// longer than an evaluation.
     domain: OnceLock<LocalDomain>,
+    /// Heights above the anchor of the points that it is seen at.
+    heights: [f64; 2],
     /// The hole whose rim it is seen on, which then belongs to the domain.
     touched_hole: Option<usize>,
     /// The side of the segment that it is seen on that lies outside of the domain, if one does.
@@ -62,6 +64,14 @@ impl Field<'_> {
         LocalField::new(self, anchor, self.functions.at(&self.step.cracks, anchor))
     }
 
+    /// The field as seen from the centre of a box, for points in the box.
+    #[must_use]
+    pub fn inside(&self, rect: &Rect) -> LocalField<'_> {
+        let anchor = rect.center();
+        let heights = [rect.min.y - anchor.y, rect.max.y - anchor.y];
+        LocalField { heights, ..self.at(anchor) }
+    }
+
     /// The field as seen from an anchor, for points on a segment of a crack: there an evaluation
     /// takes the requested side of this crack, wherever rounding has put the points. If a segment
     /// lies on the boundary of the domain, one side is outside, where there are no values.
@@ -86,14 +96,25 @@ impl Field<'_> {
 impl<'f> LocalField<'f> {
     fn new(field: &'f Field<'f>, anchor: Vec2, functions: LocalFunctions<'f>) -> Self {
         let mesh = field.step.partition.mesh().map(|mesh| LocalMesh::new(field, mesh, anchor));
-        let (domain, patches) = (OnceLock::new(), Vec::new());
+        let (domain, heights, patches) = (OnceLock::new(), ALL_HEIGHTS, Vec::new());
         let (touched_hole, outer, above) = (None, None, Vec2::ZERO);
-        Self { field, anchor, domain, touched_hole, outer, above, functions, mesh, patches }
+        Self {
+            field,
+            anchor,
+            domain,
+            heights,
+            touched_hole,
+            outer,
+            above,
+            functions,
+            mesh,
+            patches,
+        }
     }
 
     fn domain(&self) -> &LocalDomain {
-        let formed = || self.field.domain.at(self.anchor).without_hole(self.touched_hole);
-        self.domain.get_or_init(formed)
+        let whole = || self.field.domain.between(self.anchor, self.heights);
+        self.domain.get_or_init(|| whole().without_hole(self.touched_hole))
     }
 
     /// The functions as seen from the anchor.

@@ -180,10 +180,10 @@ impl HoleFacts {
             domain::Hole::Circle { center, radius } => {
                 Self::Circle { center: (*center).into(), radius: *radius }
             }
-            domain::Hole::Polygon { points, bulges, side: PolygonSide::Inside } => {
+            domain::Hole::Polygon { points, bulges, side: PolygonSide::Inside, .. } => {
                 Self::Polygon(EdgeFacts::new(points, bulges))
             }
-            domain::Hole::Polygon { points, bulges, side: PolygonSide::Outside } => {
+            domain::Hole::Polygon { points, bulges, side: PolygonSide::Outside, .. } => {
                 Self::Outside(EdgeFacts::new(points, bulges))
             }
         }
@@ -319,8 +319,7 @@ mod tests {
         let crack = crack::Crack { points, bulges: vec![-quarter, 0.0], ..Default::default() };
         let told = CrackFacts::new(&crack).line(&places);
         assert_eq!(told, "tip (0, 0) – arc of -90° – (1, 0) – (1, 1) tip");
-        let side = PolygonSide::Inside;
-        let half = domain::Hole::Polygon { points: vec![a, b], bulges: vec![0.0, 1.0], side };
+        let half = domain::Hole::with_arcs(vec![a, b], vec![0.0, 1.0], PolygonSide::Inside);
         assert_eq!(HoleFacts::new(&half).line(&places), "polygon (0, 0) – (1, 0) – arc of 180°");
         let points = (0..40).map(|k| vec2(f64::from(k), 0.0)).collect();
         let long = crack::Crack { points, bulges: vec![0.1; 39], ..Default::default() };
