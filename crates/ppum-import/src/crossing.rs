@@ -2,7 +2,7 @@
 
 use ppum::box_tree::BoxTree;
 use ppum::edge::Edge;
-use ppum::vec2::{Rect, Vec2, vec2};
+use ppum::vec2::{Rect, vec2};
 
 use crate::error::{ImportError, shown};
 use crate::source::SourceLine;
@@ -45,7 +45,7 @@ pub(crate) fn check(closed: &[(&[Edge], SourceLine)]) -> Result<(), ImportError>
         };
         if let Some(b) = later.into_iter().find(meets) {
             let (at, [first, second]) =
-                (shown(meeting_point(&a.edge, &b.edge)), [a, b].map(|own| closed[own.curve].1));
+                (shown(a.edge.meeting_point(&b.edge)), [a, b].map(|own| closed[own.curve].1));
             return Err(ImportError(format!(
                 "curves cross or touch at {at} ({first} and {second}); move them apart, or join them to one"
             )));
@@ -61,13 +61,4 @@ pub(crate) fn check(closed: &[(&[Edge], SourceLine)]) -> Result<(), ImportError>
 fn are_neighbours(a: &CurveEdge, b: &CurveEdge, count: usize) -> bool {
     let apart = a.number.abs_diff(b.number);
     a.curve == b.curve && (apart <= 1 || apart + 1 == count)
-}
-
-/// The first point in which edges cross, or that end of one which is nearest to the other.
-fn meeting_point(a: &Edge, b: &Edge) -> Vec2 {
-    let ends = [(a.from, b), (a.to, b), (b.from, a), (b.to, a)];
-    let distance = |(p, edge): &(Vec2, &Edge)| edge.distance(*p);
-    let nearest = ends.into_iter().min_by(|a, b| distance(a).total_cmp(&distance(b)));
-    let crossing = a.meets(b).first().map(|[part, _]| a.at(*part));
-    crossing.or(nearest.map(|(p, _)| p)).unwrap_or(a.from)
 }

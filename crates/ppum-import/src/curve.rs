@@ -49,10 +49,9 @@ impl EllipseArc {
 
     /// An arc of a circle from `a` to `b`; `bulge` is the tangent of a quarter of its turn.
     pub(crate) fn bulged(a: Vec2, b: Vec2, bulge: f64) -> Self {
-        let chord = b - a;
-        let center = (a + b) * 0.5 + chord.left() * ((1.0 - bulge * bulge) / (4.0 * bulge));
-        let p = a - center;
-        Self { center, radii: [p, p.left()], range: [0.0, 4.0 * bulge.atan()] }
+        let arc = Edge { from: a, to: b, bulge };
+        let (center, p) = (arc.center(), a - arc.center());
+        Self { center, radii: [p, p.left()], range: [0.0, arc.sweep()] }
     }
 
     pub(crate) fn point(&self, t: f64) -> Vec2 {

@@ -55,41 +55,6 @@ impl BoxTree {
         self.collect(overlaps, out);
     }
 
-    /// The least of the numbers of all boxes, each of which is no less than the distance of `p` from
-    /// its box; ∞ if there are none.
-    pub(crate) fn least(&self, p: Vec2, number: &impl Fn(u32) -> f64) -> f64 {
-        let top = self.levels.len() - 1;
-        let mut least = f64::INFINITY;
-        self.descend_to(p, (top, 0..self.levels[top].len()), number, &mut least);
-        least
-    }
-
-    /// Takes the boxes below some nodes, at most a group of them, as far as they are closer than
-    /// the least number, the closest nodes first.
-    fn descend_to(
-        &self,
-        p: Vec2,
-        (level, nodes): (usize, Range<usize>),
-        number: &impl Fn(u32) -> f64,
-        least: &mut f64,
-    ) {
-        let mut near = [(f64::INFINITY, 0); GROUP];
-        let count = nodes.len();
-        for (near, node) in near.iter_mut().zip(nodes) {
-            *near = (self.levels[level][node].distance(p), node);
-        }
-        near[..count].sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        for &(_, node) in near[..count].iter().take_while(|near| near.0 < *least) {
-            if level == 0 {
-                let index = self.order.as_ref().map_or(node as u32, |order| order[node]);
-                *least = least.min(number(index));
-            } else {
-                let end = self.levels[level - 1].len().min((node + 1) * GROUP);
-                self.descend_to(p, (level - 1, node * GROUP..end), number, least);
-            }
-        }
-    }
-
     /// Appends the boxes that pass a test, which the bounds of a group pass if a box in it does.
     fn collect(&self, test: impl Fn(&Rect) -> bool, out: &mut Vec<u32>) {
         let start = out.len();
@@ -271,26 +236,6 @@ mod tests {
         let mut found = Vec::new();
         BoxTree::new(&[]).query_point(vec2(0.0, 0.0), &mut found);
         assert_eq!(found, []);
-    }
-
-    /// The least distance of a point from boxes, and from points in them.
-    #[test]
-    fn the_least_number_is_found() {
-        let mut random = Random(6);
-        for n in [0, 1, 7, 8, 9, 100, 1000] {
-            let boxes = random_boxes(n, &mut random);
-            let tree = BoxTree::new(&boxes);
-            for _ in 0..100 {
-                let p = vec2(random.between(-1.0, 2.0), random.between(-1.0, 2.0));
-                let of_box = |k: u32| boxes[k as usize].distance(p);
-                let of_center = |k: u32| (boxes[k as usize].center() - p).length();
-                let all = |number: &dyn Fn(u32) -> f64| {
-                    (0..n as u32).map(number).fold(f64::INFINITY, f64::min)
-                };
-                assert_eq!(tree.least(p, &of_box), all(&of_box));
-                assert_eq!(tree.least(p, &of_center), all(&of_center));
-            }
-        }
     }
 
     #[test]

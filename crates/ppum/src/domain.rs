@@ -9,6 +9,7 @@
 
 use crate::box_tree::BoxTree;
 use crate::compensated::{arc, circle, cross};
+use crate::crack::Crack;
 use crate::edge::Edge;
 use crate::segment;
 use crate::side_index::{MANY, SideIndex, SideTree};
@@ -125,8 +126,8 @@ impl Hole {
     /// The inside of a closed chain of edges.
     #[must_use]
     pub fn enclosed(edges: &[Edge]) -> Self {
-        let points = edges.iter().map(|edge| edge.from).collect();
-        let bulges = edges.iter().map(|edge| edge.bulge).collect();
+        let Crack { mut points, bulges, .. } = Crack::along(edges);
+        points.pop();
         Self::with_arcs(points, bulges, PolygonSide::Inside)
     }
 

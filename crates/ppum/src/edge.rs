@@ -313,6 +313,16 @@ impl Edge {
         parts.filter_map(on_both).collect()
     }
 
+    /// The point in which two edges meet: where they cross, else the end of one that is the nearest
+    /// to the other.
+    #[must_use]
+    pub fn meeting_point(&self, other: &Self) -> Vec2 {
+        let crossings = self.meets_curve(other).into_iter().map(|part| self.at(part));
+        let all = [self.from, self.to, other.from, other.to].into_iter().chain(crossings);
+        let off = |p: &Vec2| self.distance(*p).max(other.distance(*p));
+        all.min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(self.from)
+    }
+
     /// The parts, in order, at which the line or circle of this edge meets that of another one,
     /// less than 0 and more than 1 beyond the ends.
     #[must_use]

@@ -3,7 +3,7 @@
 use crate::box_tree::BoxTree;
 use crate::edge::Edge;
 use crate::vec2::{Rect, Vec2, vec2};
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 /// Sides of a rim from which on those that matter are looked up.
 pub(crate) const MANY: usize = 32;
@@ -11,9 +11,19 @@ pub(crate) const MANY: usize = 32;
 /// Margin of the boxes of sides for rounding, in parts of the largest coordinate of a rim.
 const MARGIN: f64 = 1e-12;
 
-/// The search tree of a rim, which follows from its sides: all are equal.
-#[derive(Clone, Debug, Default)]
-pub struct SideIndex(OnceLock<Option<Arc<SideTree>>>);
+/// Part of a distance that is more than its rounding.
+const SLACK: f64 = 1e-9;
+
+/// The search tree of a rim, which follows from its sides: all are equal. A clone, whose sides may
+/// be changed, makes its own.
+#[derive(Debug, Default)]
+pub struct SideIndex(OnceLock<SideTree>);
+
+impl Clone for SideIndex {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
 
 impl PartialEq for SideIndex {
     fn eq(&self, _: &Self) -> bool {
@@ -24,10 +34,7 @@ impl PartialEq for SideIndex {
 impl SideIndex {
     /// The tree of these sides; none if they are few.
     pub(crate) fn of(&self, sides: impl Iterator<Item = Edge>, count: usize) -> Option<&SideTree> {
-        if count <= MANY {
-            return None;
-        }
-        self.0.get_or_init(|| Some(Arc::new(SideTree::new(sides.collect())))).as_deref()
+        (count > MANY).then(|| self.0.get_or_init(|| SideTree::new(sides.collect())))
     }
 }
 
@@ -41,8 +48,7 @@ pub(crate) struct SideTree {
 impl SideTree {
     fn new(sides: Vec<Edge>) -> Self {
         let boxes: Vec<Rect> = sides.iter().map(Edge::reach).collect();
-        let extent = |b: &Rect| b.min.max_norm().max(b.max.max_norm());
-        let margin = MARGIN * boxes.iter().map(extent).fold(0.0, f64::max);
+        let margin = MARGIN * boxes.iter().map(Rect::max_norm).fold(0.0, f64::max);
         let margin = vec2(margin, margin);
         let wider = |b: Rect| Rect::new(b.min - margin, b.max + margin);
         let tree = BoxTree::from(boxes.into_iter().map(wider).collect::<Vec<_>>());
@@ -56,8 +62,11 @@ impl SideTree {
         found.into_iter().map(|k| (k as usize, self.sides[k as usize])).collect()
     }
 
-    /// Distance of a point from the closest side.
+    /// Distance of a point from the closest side, which is no farther than the closest corner.
     pub(crate) fn distance(&self, p: Vec2) -> f64 {
-        self.tree.least(p, &|k| self.sides[k as usize].distance(p))
+        let squares = self.sides.iter().map(|side| (side.from - p).dot(side.from - p));
+        let reach = squares.fold(f64::INFINITY, f64::min).sqrt() * (1.0 + SLACK);
+        let near = self.near(&Rect::around(p, vec2(reach, reach)));
+        near.iter().map(|(_, side)| side.distance(p)).fold(f64::INFINITY, f64::min)
     }
 }

@@ -229,7 +229,7 @@ impl Course<'_> {
             let message = format!(
                 "the crack crosses, touches or folds back on itself around {}: its edges {} and {} meet; \
                  separate them, or give the second one as a crack of its own: cracks may meet others",
-                shown(place(edges[first], edges[second])),
+                shown(edges[first].meeting_point(&edges[second])),
                 first + 1,
                 second + 1
             );
@@ -267,16 +267,6 @@ pub(crate) fn bad_bulges(bulges: &[f64], edges: usize) -> Option<(String, String
         bulges[index]
     );
     Some((format!("bulges[{index}]"), message))
-}
-
-/// Where two edges meet: where they cross, else the end of one that is the nearest to the other.
-pub(crate) fn place(s: Edge, t: Edge) -> Vec2 {
-    let crossings = s.meets_curve(&t).into_iter().map(|part| s.at(part));
-    let of = |edge: Edge, p: Vec2| (edge.distance(p), p);
-    let ends = [of(t, s.from), of(t, s.to), of(s, t.from), of(s, t.to)];
-    let crosses = crossings.map(|p| (s.distance(p).max(t.distance(p)), p));
-    let all = ends.into_iter().chain(crosses);
-    all.min_by(|a, b| a.0.total_cmp(&b.0)).map_or(s.from, |(_, p)| p)
 }
 
 /// The first two edges of a crack, or of a closed rim, that touch where they should not.

@@ -5,7 +5,7 @@ use ppum::domain::{Domain, Hole};
 use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2};
 
-use super::cracks::{bad_bulges, place, self_touch};
+use super::cracks::{bad_bulges, self_touch};
 use crate::data::DomainEdge;
 use crate::file::{Key, KeyError};
 use crate::geometry::{TooDense, meets, shown, solid_part};
@@ -100,7 +100,7 @@ fn bad_polygon(points: &[Vec2], hole: &Hole, bounds: &Rect, touch: f64) -> Optio
         return Some(format!(
             "the rim crosses or touches itself around {}: its sides {first} and {second} meet; give its \
              corners in order, once each",
-            shown(place(sides[first], sides[second]))
+            shown(sides[first].meeting_point(&sides[second]))
         ));
     }
     if hole.is_outside() {

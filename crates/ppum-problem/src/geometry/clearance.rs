@@ -180,17 +180,13 @@ impl TipClearance {
 
 /// Distance of a tip to what of its crack goes on beyond a kink.
 fn behind(own: &Crack, end: End) -> f64 {
-    let (tip, other) = (own.end_point(end), own.end_point(opposite(end)));
+    let (tip, other) = (own.end_point(end), own.end_point(end.opposite()));
     least_distance(&bent_part(own, end), tip).min((other - tip).length())
 }
 
 /// The least distance of edges from a point; ∞ of none.
 fn least_distance(edges: &[Edge], p: Vec2) -> f64 {
     edges.iter().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min)
-}
-
-fn opposite(end: End) -> End {
-    if end == End::Start { End::Last } else { End::Start }
 }
 
 /// The edges of a crack from an end on, from that one on before which it has turned by more than
@@ -222,7 +218,7 @@ pub fn from_tip(own: &Crack, end: End) -> impl Iterator<Item = Edge> {
 /// at least.
 fn comes_back(own: &Crack, end: End) -> f64 {
     let ([_, rest], tip) = (led_away(own, end), own.end_point(end));
-    least_distance(&rest, tip).min((own.end_point(opposite(end)) - tip).length())
+    least_distance(&rest, tip).min((own.end_point(end.opposite()) - tip).length())
 }
 
 /// The edges of the part of a crack that leads away from a tip, and of the rest, in the direction
@@ -251,7 +247,7 @@ fn led_astray(own: &Crack, end: End, bounds: &Rect) -> f64 {
         return f64::INFINITY;
     }
     let tip = own.end_point(end);
-    let beyond = extension(own, opposite(end), reach).distance(tip);
+    let beyond = extension(own, end.opposite(), reach).distance(tip);
     0.5 * beyond.min(comes_back(own, end))
 }
 

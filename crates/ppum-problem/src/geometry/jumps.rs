@@ -11,7 +11,7 @@
 //! there would be a small difference of large parts. So it gives the patch the indicator of
 //! the sliver.
 
-use ppum::crack::{Crack, End, SegmentId, TipId};
+use ppum::crack::{Crack, SegmentId, TipId};
 use ppum::domain::{Domain, Hole};
 use ppum::edge::Edge;
 use ppum::function::FunctionKind;
@@ -143,8 +143,8 @@ impl<'p> Jumps<'p> {
         }
         let crack = &self.cracks[tip.crack as usize];
         let [own, rest] = led_away(crack, tip.end);
-        let other_end = if tip.end == End::Start { End::Last } else { End::Start };
-        let mut others = rest.into_iter().chain([extension(crack, other_end, self.reach)]);
+        let beyond = extension(crack, tip.end.opposite(), self.reach);
+        let mut others = rest.into_iter().chain([beyond]);
         let distance = |p| own.iter().map(|edge| edge.distance(p)).fold(f64::INFINITY, f64::min);
         let farthest = within.corners().map(distance).into_iter().fold(0.0, f64::max);
         others.any(|edge| super::clip::distance(edge, within) <= farthest)
@@ -154,8 +154,7 @@ impl<'p> Jumps<'p> {
     /// end, on which the angle at the tip jumps and nothing else does.
     pub fn is_beyond(&self, tip: TipId, within: &Rect) -> bool {
         let crack = &self.cracks[tip.crack as usize];
-        let other_end = if tip.end == End::Start { End::Last } else { End::Start };
-        let beyond = extension(crack, other_end, self.reach);
+        let beyond = extension(crack, tip.end.opposite(), self.reach);
         !inside(within, crack.end_point(tip.end)) && edge_inside(beyond, within) > 0.0
     }
 

@@ -220,7 +220,7 @@ fn closed(section: &Section<'_>, keys: &[&'static str]) -> Option<Rim> {
         };
     };
     note_segments(section)?;
-    let closed = |edges: Vec<Edge>| Rim { hole: polygon(&edges), names: Vec::new() };
+    let closed = |edges: Vec<Edge>| Rim { hole: Hole::enclosed(&edges), names: Vec::new() };
     if *key != "points" {
         no_bulges(section)?;
     }
@@ -240,13 +240,6 @@ fn closed(section: &Section<'_>, keys: &[&'static str]) -> Option<Rim> {
             edges(&curve, value).map(closed)
         }
     }
-}
-
-/// The inside of edges that go round.
-fn polygon(edges: &[Edge]) -> Hole {
-    let Crack { mut points, bulges, .. } = Crack::along(edges);
-    points.pop();
-    Hole::with_arcs(points, bulges, PolygonSide::Inside)
 }
 
 /// Pieces one after the other, the last of which ends where the first begins.
@@ -273,13 +266,13 @@ fn path(value: &DocumentValue<'_>) -> Option<Rim> {
         }
     };
     let names = all(value.list()?.iter().zip(runs).map(name))?;
-    Some(Rim { hole: polygon(&edges), names: names.into_iter().flatten().collect() })
+    Some(Rim { hole: Hole::enclosed(&edges), names: names.into_iter().flatten().collect() })
 }
 
 /// The edges of a rim without vertices that it does not need, and the ranges of those of its
 /// pieces, which begin at some of the edges.
 fn needed_of(edges: &[Edge], starts: &[usize]) -> (Vec<Edge>, Vec<[usize; 2]>) {
-    let touch = touch(&polygon(edges).rim_bounds());
+    let touch = touch(&Hole::enclosed(edges).rim_bounds());
     let ends = starts.iter().skip(1).copied().chain([edges.len()]);
     let (mut all, mut runs): (Vec<Edge>, _) = (Vec::new(), Vec::new());
     for (from, to) in starts.iter().copied().zip(ends) {

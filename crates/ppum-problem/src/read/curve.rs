@@ -23,15 +23,8 @@ pub(super) fn course(section: &Section<'_>) -> Option<Crack> {
     }
     note_segments(section)?;
     match given.first() {
-        Some((key, value)) if *key != "points" => {
-            no_bulges(section)?;
-            if *key == "path" { Some(Crack::along(&joined(value)?.0)) } else { open(key, value) }
-        }
-        _ => {
-            let points: Vec<Vec2> = section.require("points")?;
-            let bulges = bulges(section, points.len().saturating_sub(1))?;
-            Some(Crack { points, bulges, ..Crack::default() })
-        }
+        Some((key, value)) => open(section, key, value),
+        None => section.require::<Vec<Vec2>>("points").and(None),
     }
 }
 
@@ -64,9 +57,16 @@ pub(super) fn no_bulges(section: &Section<'_>) -> Option<()> {
     }
 }
 
-/// An open curve.
-fn open(key: &str, value: &DocumentValue<'_>) -> Option<Crack> {
+/// An open curve, which a key of a table gives.
+fn open(section: &Section<'_>, key: &str, value: &DocumentValue<'_>) -> Option<Crack> {
+    if key == "points" {
+        let points: Vec<Vec2> = Vec::read(value)?;
+        let bulges = bulges(section, points.len().saturating_sub(1))?;
+        return Some(Crack { points, bulges, ..Crack::default() });
+    }
+    no_bulges(section)?;
     let curve = match key {
+        "path" => return Some(Crack::along(&joined(value)?.0)),
         "arc" => arc(value)?,
         "ellipse" => ellipse(value, true)?,
         _ => SmoothCurve::Spline(Spline::open(&knots(value, false)?)),
@@ -128,16 +128,11 @@ fn piece(value: &DocumentValue<'_>) -> Option<Crack> {
             "has a piece without, or with more than, one of points, arc, ellipse, spline; give one",
         );
     };
-    if *key != "points" {
-        no_bulges(&section)?;
-        return open(key, curve);
-    }
-    let points: Vec<Vec2> = Vec::read(curve)?;
-    if points.len() < 2 {
+    let course = open(&section, key, curve)?;
+    if course.points.len() < 2 {
         return curve.error("has too few points; give two at least");
     }
-    let bulges = bulges(&section, points.len() - 1)?;
-    Some(Crack { points, bulges, ..Crack::default() })
+    Some(course)
 }
 
 fn arc(value: &DocumentValue<'_>) -> Option<SmoothCurve> {

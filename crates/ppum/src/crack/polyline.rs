@@ -46,6 +46,12 @@ impl End {
             Self::Last => "end",
         }
     }
+
+    /// The other end.
+    #[must_use]
+    pub fn opposite(self) -> Self {
+        if self == Self::Start { Self::Last } else { Self::Start }
+    }
 }
 
 /// A tip: one end of one crack.
