@@ -319,21 +319,19 @@ fn crosses_beside(first: Edge, second: Edge, vertex: Option<Vec2>, touch: f64) -
 /// No two of the cracks run along each other, and not too many meet. They may cross and end on
 /// each other.
 pub(crate) fn check_contacts(cracks: &[Crack], in_order: &[usize], touch: f64) -> Vec<KeyError> {
-    let of_crack =
-        |&crack: &usize| cracks[crack].edges().enumerate().map(move |(k, edge)| (crack, k, edge));
-    let pieces: Vec<(usize, usize, Edge)> = in_order.iter().flat_map(of_crack).collect();
-    let edges: Vec<_> = pieces.iter().map(|&(.., edge)| edge).collect();
-    let nearby = Nearby::new(&edges, touch);
+    let numbered = in_order.iter().map(|&crack| (crack, &cracks[crack]));
+    let (pieces, nearby) = Nearby::of_cracks(numbered, touch);
     let (mut along, mut meetings) = (BTreeMap::new(), 0);
     for &(crack, k, edge) in &pieces {
         let Ok(near) = nearby.of(edge) else {
             return vec![Key::new("crack").error(TooDense::message("the cracks"))];
         };
         let earlier = near.into_iter().take_while(|&other| pieces[other].0 < crack);
-        for other in earlier.filter(|&other| edge.gap(&edges[other]) <= touch) {
+        let earlier = earlier.map(|other| pieces[other]);
+        for (other, _, met) in earlier.filter(|(.., other)| edge.gap(other) <= touch) {
             meetings += 1;
-            if run_along(edge, edges[other], touch) {
-                along.entry((crack, pieces[other].0)).or_insert(k);
+            if run_along(edge, met, touch) {
+                along.entry((crack, other)).or_insert(k);
             }
         }
         if along.len() >= MOST_TOLD || meetings > MOST_MEETINGS {

@@ -84,8 +84,8 @@ impl ProblemData {
         let is_on_face = |p: Vec2| faces.iter().any(|face| face.distance(p) <= touch(bounds));
         match part {
             BoundaryPart::Edge { edge, from, to } => {
-                let piece = Edge::segment([from, to].map(|s| edge.point(bounds, s)));
-                let points = along(piece, spacing).map(|(p, _)| (p, edge.normal()));
+                let piece = [Edge::segment([from, to].map(|s| edge.point(bounds, s)))];
+                let points = along(&piece, spacing).map(|(p, _)| (p, edge.normal()));
                 points.filter(|&(p, _)| self.domain().contains(p) && !is_on_face(p)).collect()
             }
             BoundaryPart::Hole(_) | BoundaryPart::Sides(_) | BoundaryPart::Piece(_) => {
@@ -105,8 +105,8 @@ impl ProblemData {
                     let edges: Vec<Edge> = crack.edges().filter(is_in_body).collect();
                     let sign = if side == Side::Above { -1.0 } else { 1.0 };
                     let points: Vec<_> = match crack.is_curved() {
-                        true => along_sides(&edges, spacing).collect(),
-                        false => edges.into_iter().flat_map(|edge| along(edge, spacing)).collect(),
+                        true => along(&edges, spacing).collect(),
+                        false => edges.chunks(1).flat_map(|edge| along(edge, spacing)).collect(),
                     };
                     points.into_iter().map(move |(p, way)| (p, way.left() * sign))
                 });
@@ -114,14 +114,6 @@ impl ProblemData {
             }
         }
     }
-}
-
-/// Points of an edge: the middles of equal parts about as long as the spacing, with the directions
-/// there.
-fn along(edge: Edge, spacing: f64) -> impl Iterator<Item = (Vec2, Vec2)> {
-    let count = parts(edge.length(), spacing);
-    let part = move |k: u32| (f64::from(k) + 0.5) / f64::from(count);
-    (0..count).map(move |k| (edge.at(part(k)), edge.tangent(part(k))))
 }
 
 /// Points of the sides of a rim that are wanted, with the normals out of the material, into the
@@ -139,16 +131,16 @@ fn around(hole: &Hole, is_wanted: impl Fn(usize) -> bool, spacing: f64) -> Vec<(
         }
         Hole::Polygon { .. } => {
             let wanted = hole.edges().enumerate().filter(|(k, _)| is_wanted(*k));
-            along_sides(&wanted.map(|(_, side)| side).collect::<Vec<_>>(), spacing)
+            along(&wanted.map(|(_, side)| side).collect::<Vec<_>>(), spacing)
                 .map(|(p, way)| (p, way.left() * hole.orientation()))
                 .collect()
         }
     }
 }
 
-/// Points of sides one after the other, also of short ones: the middles of equal parts of their
-/// whole length, with the directions there.
-fn along_sides(sides: &[Edge], spacing: f64) -> impl Iterator<Item = (Vec2, Vec2)> {
+/// Points of edges one after the other, also of short ones: the middles of equal parts of their
+/// whole length, each about as long as the spacing, with the directions there.
+fn along(sides: &[Edge], spacing: f64) -> impl Iterator<Item = (Vec2, Vec2)> {
     let lengths = sides.iter().scan(0.0, |sum, side| {
         *sum += side.length();
         Some(*sum)

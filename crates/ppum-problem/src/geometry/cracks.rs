@@ -3,7 +3,6 @@
 use ppum::border::{BorderLine, touch};
 use ppum::crack::{Crack, CrackEnd};
 use ppum::domain::{Domain, Hole};
-use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use super::box_list::{BoxList, wider};
@@ -134,15 +133,11 @@ fn with_body_on_left(crack: Crack, domain: &Domain) -> Crack {
 /// Ends that lie on other cracks, up to the distance `touch`, are no tips but junctions. Where
 /// cracks lie too close together to look at all of them, which is an error, they stay tips.
 fn find_junctions(cracks: &mut [Crack], touch: f64) {
-    let of_crack =
-        |(k, crack): (usize, &Crack)| crack.edges().map(|edge| (k, edge)).collect::<Vec<_>>();
-    let pieces: Vec<(usize, Edge)> = cracks.iter().enumerate().flat_map(of_crack).collect();
-    let edges: Vec<_> = pieces.iter().map(|&(_, edge)| edge).collect();
-    let nearby = Nearby::new(&edges, touch);
+    let (pieces, nearby) = Nearby::of_cracks(cracks.iter().enumerate(), touch);
     let lies_on = |own: usize, p: Vec2| {
         let near = nearby.at(p)?;
-        let mut others = near.into_iter().map(|at| pieces[at]).filter(|(k, _)| *k != own);
-        Ok::<_, TooDense>(others.any(|(_, edge)| edge.distance(p) <= touch))
+        let mut others = near.into_iter().map(|at| pieces[at]).filter(|(k, ..)| *k != own);
+        Ok::<_, TooDense>(others.any(|(.., edge)| edge.distance(p) <= touch))
     };
     for (k, crack) in cracks.iter_mut().enumerate().filter(|(_, crack)| crack.points.len() > 1) {
         let ends = [crack.points[0], crack.points[crack.points.len() - 1]];

@@ -3,6 +3,7 @@
 use std::cell::Cell;
 
 use ppum::box_tree::BoxTree;
+use ppum::crack::Crack;
 use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2, vec2};
 
@@ -33,7 +34,23 @@ impl TooDense {
     }
 }
 
+/// An edge of a crack, by the numbers of the crack and of the edge.
+pub(crate) type CrackEdge = (usize, usize, Edge);
+
 impl Nearby {
+    /// All edges of some cracks, which are near where they come as close as `touch`.
+    pub(crate) fn of_cracks<'c>(
+        cracks: impl Iterator<Item = (usize, &'c Crack)>,
+        touch: f64,
+    ) -> (Vec<CrackEdge>, Self) {
+        let of_crack = |(number, crack): (usize, &'c Crack)| {
+            crack.edges().enumerate().map(move |(k, edge)| (number, k, edge))
+        };
+        let all: Vec<CrackEdge> = cracks.flat_map(of_crack).collect();
+        let nearby = Self::new(&all.iter().map(|&(.., edge)| edge).collect::<Vec<_>>(), touch);
+        (all, nearby)
+    }
+
     /// Edges that are near where they come as close as `touch`.
     pub(crate) fn new(edges: &[Edge], touch: f64) -> Self {
         let boxes: Vec<_> = edges.iter().map(|edge| wider(&edge.bounds(), touch)).collect();

@@ -152,12 +152,7 @@ struct Joint {
 /// # Errors
 /// The lines lie too close together.
 fn joints(lines: &[Crack], touch: f64) -> Result<Vec<(Vec<LineEnd>, Vec2)>, TooDense> {
-    let of_line = |(line, crack): (usize, &Crack)| {
-        crack.edges().enumerate().map(move |(k, edge)| (line, k, edge)).collect::<Vec<_>>()
-    };
-    let pieces: Vec<(usize, usize, Edge)> = lines.iter().enumerate().flat_map(of_line).collect();
-    let edges: Vec<_> = pieces.iter().map(|&(.., edge)| edge).collect();
-    let nearby = Nearby::new(&edges, touch);
+    let (pieces, nearby) = Nearby::of_cracks(lines.iter().enumerate(), touch);
     let end = |(line, is_last): LineEnd| {
         let points = &lines[line].points;
         points[if is_last { points.len() - 1 } else { 0 }]
