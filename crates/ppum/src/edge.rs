@@ -411,8 +411,7 @@ impl Edge {
         if self.is_arc() && !self.reach().overlaps(open) {
             return Vec::new();
         }
-        let [a, b, c, d] = open.corners();
-        let edges = [[a, b], [b, c], [c, d], [d, a]].map(Self::segment);
+        let edges = open.sides().map(Self::segment);
         let mut breaks = vec![0.0, 1.0];
         breaks.extend(edges.iter().flat_map(|edge| self.meets(edge)).map(|[part, _]| part));
         breaks.sort_by(f64::total_cmp);

@@ -155,12 +155,8 @@ fn anisotropic(law: &TipLaw, only: Option<Symmetry>, terms: usize, axis: Vec2) -
     let wanted: Vec<_> = wanted.map(|(_, mode)| mode).collect();
     let scale = 2.0 / law.compliance()[0];
     let field = |n: usize, mode: &[[Complex<f64>; 2]; 2]| {
-        let mut factors = [vec![0.0; ANGULAR * terms], vec![0.0; ANGULAR * terms]];
-        for (own, [a, b]) in factors.iter_mut().zip(mode) {
-            let of_term = [a.0, -a.1, b.0, -b.1].map(|factor| scale * factor);
-            own[ANGULAR * n..ANGULAR * (n + 1)].copy_from_slice(&of_term);
-        }
-        world(factors, axis)
+        let factors = |[a, b]: [Complex<f64>; 2]| [a.0, -a.1, b.0, -b.1].map(|part| scale * part);
+        world(mode.map(|own| placed(&factors(own), ANGULAR * n, ANGULAR * terms)), axis)
     };
     (0..terms).flat_map(|n| wanted.iter().map(move |mode| field(n, mode))).collect()
 }
@@ -174,10 +170,7 @@ fn of_corner(at: Vec2, bisector: f64, term: &WedgeTerm, body: &Elasticity) -> Te
 /// A term of N at a tip on an arc of the curvature q, in the frame of the tip: to z̄^(λ+m), m > 0,
 /// comes λĀ (iq)^m − A (−λ over m) (−iq)^m, with A = 1 for opening and A = i for sliding.
 fn bent(kappa: f64, term: &WedgeTerm, [n, terms]: [usize; 2], q: f64) -> TermFactors {
-    let mut factors = [vec![0.0; ANGULAR * terms], vec![0.0; ANGULAR * terms]];
-    for (own, mode) in factors.iter_mut().zip(mode(kappa, term)) {
-        own[ANGULAR * n..ANGULAR * (n + 1)].copy_from_slice(&mode);
-    }
+    let mut factors = mode(kappa, term).map(|own| placed(&own, ANGULAR * n, ANGULAR * terms));
     let lambda = term.exponent;
     let both = binomial_series(-1.0, -q).zip(binomial_series(-lambda, -q));
     for ((first, second), later) in both.zip(n..terms).skip(1) {
@@ -238,14 +231,20 @@ fn angular(space: &TrialSpace<'_>, patch: usize, tip: TipId, series: &SeriesFunc
                 [*a, -b, -2.0 * a, 2.0 * b],
                 [*b, *a, -2.0 * b, -2.0 * a],
             ];
-            for (j, factors) in of_term.iter().enumerate() {
-                for (f, factor) in factors.iter().enumerate() {
-                    rows[(ANGULAR * n + j, f * size + k)] = *factor;
-                }
-            }
+            put(&mut rows, &of_term, [n, k]);
         }
     }
     rows
+}
+
+/// Puts the factors of the functions of term n at monomial k.
+fn put(rows: &mut Mat<f64>, of_term: &[[f64; ANGULAR]; ANGULAR], [n, k]: [usize; 2]) {
+    let size = rows.ncols() / ANGULAR;
+    for (j, factors) in of_term.iter().enumerate() {
+        for (f, factor) in factors.iter().enumerate() {
+            rows[(ANGULAR * n + j, f * size + k)] = *factor;
+        }
+    }
 }
 
 /// z₁ⁿ w₁ and the divided difference of z_kⁿ w_k as combinations of the tip's functions w₁ and D
@@ -277,11 +276,7 @@ fn divided(
                 [re, -im, d[0], -d[1]],
                 [im, re, d[1], d[0]],
             ];
-            for (j, factors) in of_term.iter().enumerate() {
-                for (f, factor) in factors.iter().enumerate() {
-                    rows[(ANGULAR * n + j, f * size + k)] = *factor;
-                }
-            }
+            put(&mut rows, &of_term, [n, k]);
         }
         let added = times(first, &y);
         joint = times(&joint, &z2);

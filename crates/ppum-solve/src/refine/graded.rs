@@ -12,7 +12,7 @@ use ppum::domain::Hole;
 use ppum::edge::Edge;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_problem::Problem;
-use ppum_problem::geometry::{around, exceeds, wider};
+use ppum_problem::geometry::{around, distance, exceeds, wider};
 use std::collections::BTreeSet;
 
 /// Part of the energy around a singular point that its cells may miss.
@@ -188,12 +188,7 @@ impl GradedShape {
     fn distance(&self, cell: &Rect) -> f64 {
         match *self {
             Self::Point(p) | Self::Bend(RimCorner { at: p, .. }) => cell.distance(p),
-            Self::Arc(arc) if cell.contains(arc.from) => 0.0,
-            Self::Arc(arc) => {
-                let [a, b, c, d] = cell.corners();
-                let sides = [[a, b], [b, c], [c, d], [d, a]].map(Edge::segment);
-                sides.iter().map(|side| side.gap(&arc)).fold(f64::INFINITY, f64::min)
-            }
+            Self::Arc(arc) => distance(arc, cell),
             Self::Circle(center, radius) => {
                 let away = cell.center() - center;
                 let farthest = vec2(away.x.abs(), away.y.abs()) + cell.size() * 0.5;
