@@ -159,6 +159,12 @@ ANISOTROPY = dict(list(ELASTICITY.items())[:7]) | {
     "hydrostatic": "(s11 + s22 + szz)/3",
     "energy": "(s11*e11 + s22*e22 + 2*s12*e12 - szz*eigenstrain_zz)/2",
 }
+# Those of bodies of revolution: the strain of the third direction is taken off, and its stress has another name.
+HOOP = "if(x == 0, dux_dx, ux/x)"
+REVOLUTION = {"ehoop": HOOP, "eigenstrain_zz": f"eigenstrain_zz - {HOOP}"} | {
+    name.replace("szz", "shoop"): (f"{text} + {HOOP}" if name == "divergence" else text).replace("szz", "shoop")
+    for name, text in EIGENSTRAIN.items()
+}
 POISSON = {
     "magnitude": "abs(u)",
     "gradient": "sqrt(du_dx^2 + du_dy^2)",
@@ -336,8 +342,10 @@ class Field:
         """Formulas of quantities, in the order in which they are defined."""
         strained = ["ux", "uy"] + ["temperature"] * ("expansion" in self.constants)
         library = {"elasticity": (["ux", "uy"], ELASTICITY), "eigenstrain": (strained, EIGENSTRAIN),
-                   "anisotropic": (["ux", "uy"], ANISOTROPY), "poisson": (["u"], POISSON)}
+                   "anisotropic": (["ux", "uy"], ANISOTROPY), "poisson": (["u"], POISSON), "axisymmetric-poisson": (["u"], POISSON)}
         components, library = library.get(self.kind, ([], {}))
+        if self.state == "axisymmetric":
+            components, library = strained, REVOLUTION
         library = library if components == self.components else {}
         named = file.get("quantities")
         own = dict(zip(texts(named["name"]), texts(named["formula"]))) if named else {}
@@ -507,7 +515,7 @@ class Field:
             values[component] = value
             slopes |= {f"d{component}_dx": dx, f"d{component}_dy": dy}
         if {"expansion", "temperature"} <= set(values):
-            for direction in ["xx", "yy", "zz"][: 3 if self.state == "plane-strain" else 2]:
+            for direction in ["xx", "yy", "zz"][: 2 if self.state == "plane-stress" else 3]:
                 values[f"eigenstrain_{direction}"] += values["expansion"] * values["temperature"]
         values |= slopes
         of_slopes = set(slopes)
@@ -532,13 +540,15 @@ class Field:
         known = {name: formula.evaluate(at).v for name, formula in self.constants.items()}
         if self.kind in ("elasticity", "eigenstrain"):
             young, poisson = known["young"], known["poisson"]
-            strain = self.state == "plane-strain"
+            strain = self.state != "plane-stress"
             mu = young / (2 * (1 + poisson))
             divisor = (1 + poisson) * (1 - 2 * poisson) if strain else 1 - poisson**2
             known |= {"mu": mu, "lambda": young * poisson / divisor}
             known["out_of_plane"] = poisson if strain else self.real(0)
             if self.kind == "eigenstrain" and not strain:
                 known["eigenstrain_zz"] = self.real(0)
+            if self.state == "axisymmetric":
+                known = dict.fromkeys([f"eigenstrain_{d}" for d in ("xx", "yy", "xy", "zz")], self.real(0)) | known
         if self.kind == "anisotropic":
             zeros = [*STIFFNESS, *(f"eigenstrain_{d}" for d in ("xx", "yy", "xy", "zz"))]
             known = dict.fromkeys(zeros, self.real(0)) | known

@@ -436,6 +436,94 @@ def test_given_strains_are_taken_off():
     assert float(ppum.solve(held).field.at(0.7, 0.3)["sxx"]) == pytest.approx(-2.0 * 0.7 / 0.5, rel=1e-12)
 
 
+def linear(cover, rows):
+    """The displacement whose components have the gradients `rows`, as coefficients of a cover."""
+    blocks = np.zeros((len(cover), 3, 2))
+    rows = np.array(rows)
+    blocks[:, 0] = cover.center @ rows.T
+    blocks[:, 1:] = (cover.half[:, None, :] * rows).transpose(0, 2, 1)
+    return ppum.build.Coefficients("displacement", {"one": blocks})
+
+
+def test_bodies_of_revolution(tmp_path):
+    cover = ppum.build.Cover.uniform([(0, 0), (2, 2)], (4, 4))
+    state = ppum.build.State(cover, linear(cover, [[0.3, 0.0], [0.1, 0.2]]))
+    material = ppum.Elastic(2.0, 0.25, "axisymmetric", eigenstrain=(0.0, 0.0, 0.0, "0.1*x"))
+    ppum.build.dataset(state, equation=material).save(tmp_path / "cone.h5")
+    mu, lame = 0.8, 0.8
+    for x in (1e-9, 0.7, 1.9):
+        at = ppum.open(tmp_path / "cone.h5").field.at(x, 0.3)
+        hoop = 0.3 - 0.1 * x
+        exact = {"ux": 0.3 * x, "ehoop": 0.3, "shoop": 2 * mu * hoop + lame * (0.5 + hoop), "sxy": mu * 0.1, "divergence": 0.8}
+        exact["syy"] = 2 * mu * 0.2 + lame * (0.5 + hoop)
+        assert {name: float(at[name]) for name in exact} == pytest.approx(exact, rel=1e-6 if x < 1e-6 else 1e-13)
+    # the names of its stresses are those of the equation's components alone
+    c = np.zeros((16, 1, 2))
+    other = ppum.build.State(cover, ppum.build.Coefficients("displacement", {"one": c}, components=("radial", "axial")))
+    assert "shoop" not in ppum.build.dataset(other, equation=ppum.Elastic(2.0, 0.25, "axisymmetric")).field.quantities
+
+
+def test_solved_bodies_of_revolution_have_the_stresses_of_lame():
+    body = ppum.Problem(((1, 0), (2, 1)), ppum.Elastic(1.0, 0.3, "axisymmetric")).boundary("left", pressure=1.0)
+    for edge in ("bottom", "top"):
+        body = body.boundary(edge, symmetry=True)
+    field = ppum.solve(body.discretization(level=3, order=8)).field
+    x = np.linspace(1, 2, 7)
+    a, b = 1 / 3, 4 / 3
+    exact = {"ux": 1.3 * (0.4 * a * x + b / x), "ehoop": 1.3 * (0.4 * a + b / x**2), "shoop": a + b / x**2}
+    for name, values in exact.items():
+        assert np.asarray(field.at(x, 0.4)[name]) == pytest.approx(values, abs=2e-9), name
+
+
+@pytest.mark.parametrize("state", ["plane-stress", "plane-strain"])
+def test_anisotropic_bodies_are_those_of_problems(state):
+    s = 3 if state == "plane-strain" else 2
+    young, poisson = (144.8, 11.7, 12.5)[:s], (0.21, 0.3, 0.25)[: 2 * s - 3]
+    ply = ppum.Anisotropic(young, poisson, 9.66, axis=30.0, state=state, eigenstrain=(0.01, 0.02, -0.03, 0.04))
+    cover = ppum.build.Cover.uniform([(0, 0), (2, 2)], (4, 4))
+    at = ppum.build.dataset(ppum.build.State(cover, linear(cover, [[0.3, 0.0], [0.1, 0.2]])), equation=ply).field.at(0.7, 0.3)
+    stresses = ("sxx", "syy", "sxy", "szz")
+    built = [float(at[name]) for name in stresses]
+    # the compliance in space, turned
+    ratios = dict(zip(((0, 1), (0, 2), (1, 2)), (*poisson, 0.0, 0.0)[:3]))
+    compliance = np.diag([1 / e for e in (*young, 1.0)[:3]])
+    for (i, j), ratio in ratios.items():
+        compliance[i, j] = compliance[j, i] = -ratio / young[i]
+    c, s = np.cos(np.pi / 6), np.sin(np.pi / 6)
+    turn = np.array([[c, s, 0], [-s, c, 0], [0, 0, 1]])
+    strain = np.array([[0.29, 0.08, 0], [0.08, 0.18, 0], [0, 0, -0.04]])
+    along = turn @ strain @ turn.T
+    if state == "plane-strain":
+        normal = np.linalg.solve(compliance, np.diag(along))
+    else:
+        normal = np.append(np.linalg.solve(compliance[:2, :2], np.diag(along)[:2]), 0.0)
+    stress = turn.T @ (np.diag(normal) + 2 * 9.66 * (along - np.diag(np.diag(along)))) @ turn
+    assert built == pytest.approx([stress[0, 0], stress[1, 1], stress[0, 1], stress[2, 2]], rel=1e-12)
+    held = ppum.Problem(((0, 0), (2, 2)), ply).discretization(cells=(2, 2), order=1)
+    for edge in ("left", "right", "bottom", "top"):
+        held = held.boundary(edge, displacement=["0.3*x", "0.1*x + 0.2*y"])
+    solved = ppum.solve(held).field.at(0.7, 0.3)
+    assert built == pytest.approx([float(solved[name]) for name in stresses], rel=1e-10)
+
+
+@pytest.mark.parametrize(
+    "material, said",
+    [
+        (ppum.Anisotropic((2.0, 1.0), (0.2,), 1.0), "equation.young: has 2 entries; give 3"),
+        (ppum.Anisotropic((2.0, 1.0), (0.2,), None, state="plane-stress"), "equation.shear: is None"),
+        (ppum.Anisotropic((2.0, 1.0), (0.2,), 1.0, state="plane-stress", expansion=1.0), "have no temperature"),
+        (ppum.Anisotropic(stiffness=((2, 1, 0), (0, 2, 0), (0, 0, 1)), state="plane-stress"), "is not symmetric"),
+        (ppum.Anisotropic(stiffness=((1, 2, 0), (2, 1, 0), (0, 0, 1)), state="plane-stress"), "makes the stiffness indefinite"),
+        (ppum.Anisotropic(stiffness=((2, 1, 0), (1, 2, 0), (0, 0, 1))), "equation.out_of_plane: is NoneType"),
+        (ppum.Anisotropic((2.0, 1.0, 1.0), (0.2, 0.1, 0.1), 1.0, state="axisymmetric"), "anisotropic bodies are plane"),
+    ],
+)
+def test_anisotropic_materials_that_are_none(material, said):
+    cover = ppum.build.Cover.uniform([(0, 0), (2, 2)], (2, 2))
+    with pytest.raises(ppum.BuildError, match=re.escape(said)):
+        ppum.build.dataset(ppum.build.State(cover, linear(cover, np.eye(2))), equation=material)
+
+
 def test_temperatures_are_components(tmp_path):
     cover = ppum.build.Cover.uniform([(0, 0), (2, 2)], (4, 4))
     rng = np.random.default_rng(5)

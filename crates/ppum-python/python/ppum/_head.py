@@ -15,10 +15,12 @@ from ._errors import BuildError
 from ._facts import Crack, Hole
 from ._mesh import Mesh
 from ._options import Option
-from ._problem import Elastic, Poisson
+from ._problem import Anisotropic, Elastic, Poisson
 from ._state import State
+from ._stiffness import constant, stiffness
 
 Arrays = dict[str, Any]
+Material = Anisotropic | Elastic | Poisson
 #: Points, and bulges of the edges between them, None without arcs.
 Chain = tuple[NDArray[np.float64], NDArray[np.float64] | None]
 
@@ -31,7 +33,7 @@ class DatasetOptions(TypedDict, total=False):
 
     title: Annotated[str, Option("", "one line that names the problem")]
     program: Annotated[str, Option("", "name and version of the code that the arrays come from")]
-    equation: Annotated[Elastic | Poisson | None, Option(None, EQUATION)]
+    equation: Annotated[Anisotropic | Elastic | Poisson | None, Option(None, EQUATION)]
     holes: Annotated[Sequence[Hole], Option((), "holes of the domain, with `center` and `radius`, or with `points` and perhaps `bulges`")]
     tables: Annotated[Mapping[str, Sequence[ArrayLike]] | None, Option(None, TABLES)]
     quantities: Annotated[
@@ -139,29 +141,28 @@ def _outline(place: str, hole: Hole) -> NDArray[np.float64]:
     return rows(f"{place}.center", [numbers(f"{place}.center", hole.center)], 2)
 
 
-def _equation(equation: Elastic | Poisson | None) -> Arrays:
+def _equation(equation: Material | None) -> Arrays:
     if equation is None:
         return {"equation@kind": "none"}
     if isinstance(equation, Poisson):
         kind = "axisymmetric-poisson" if equation.axisymmetric else "poisson"
-        return {"equation@kind": kind, "equation@conductivity": _constant("conductivity", equation.conductivity)}
-    check_type("equation", equation, isinstance(equation, Elastic), "ppum.Elastic, ppum.Poisson or None")
+        return {"equation@kind": kind, "equation@conductivity": constant("conductivity", equation.conductivity)}
+    is_elastic = isinstance(equation, (Anisotropic, Elastic))
+    check_type("equation", equation, is_elastic, "ppum.Elastic, ppum.Anisotropic, ppum.Poisson or None")
     given = equation.eigenstrain if equation.eigenstrain is not None or equation.expansion is None else (0.0,) * 4
     if given is not None and (isinstance(given, str) or not hasattr(given, "__len__") or len(given) != 4):
         raise BuildError(f"equation.eigenstrain: is {short(given)}; give four numbers or formulas, of xx, yy, xy and zz")
     strains = dict(zip(("xx", "yy", "xy", "zz"), given or ()))
-    return {
-        "equation@kind": "eigenstrain" if strains else "elasticity",
-        "equation@young": _constant("young", equation.young),
-        "equation@poisson": _constant("poisson", equation.poisson),
-        "equation@state": text("equation.state", equation.state),
-        **{f"equation@eigenstrain_{name}": _constant("eigenstrain", value) for name, value in strains.items()},
-        **({} if equation.expansion is None else {"equation@expansion": _constant("expansion", equation.expansion)}),
-    }
+    constants = {f"eigenstrain_{name}": constant("eigenstrain", value) for name, value in strains.items()}
+    constants |= stiffness(equation) if isinstance(equation, Anisotropic) else _isotropic(equation)
+    kind = "anisotropic" if isinstance(equation, Anisotropic) else "eigenstrain" if strains else "elasticity"
+    named = {f"equation@{name}": value for name, value in constants.items()}
+    return {"equation@kind": kind, "equation@state": text("equation.state", equation.state), **named}
 
 
-def _constant(name: str, value: Any) -> float | str:
-    return value if isinstance(value, str) else scalar(f"equation.{name}", value)
+def _isotropic(equation: Elastic) -> dict[str, float | str]:
+    names = [name for name in ("young", "poisson", "expansion") if getattr(equation, name) is not None]
+    return {name: constant(name, getattr(equation, name)) for name in names}
 
 
 def _tables(tables: Mapping[str, Sequence[ArrayLike]]) -> Arrays:
@@ -192,8 +193,8 @@ def _quantity(name: str, given: Any) -> tuple[str, str]:
     return pair
 
 
-def components_of(equation: Elastic | Poisson | None) -> list[str]:
-    if isinstance(equation, Elastic):
+def components_of(equation: Material | None) -> list[str]:
+    if isinstance(equation, (Anisotropic, Elastic)):
         return ["ux", "uy", "temperature"] if equation.expansion is not None else ["ux", "uy"]
     return [] if equation is None else ["u"]
 

@@ -19,10 +19,10 @@ from ._dataset import Dataset
 from ._errors import BuildError, QuantityError
 from ._facts import Crack, Hole
 from ._functions import Component, Formula, Jump, Level, columns, tip_functions
-from ._head import Arrays, BuildOptions, DatasetOptions, components_of, crack_arrays, listed, of_state, shared
+from ._head import Arrays, BuildOptions, DatasetOptions, Material, components_of, crack_arrays, listed, of_state, shared
 from ._mesh import Mesh
 from ._options import defaults, takes
-from ._problem import Elastic, Poisson
+from ._problem import Anisotropic, Elastic, Poisson
 from ._state import Coefficients, State
 from ._verify import verified
 from ._warnings import warn
@@ -128,7 +128,7 @@ def _field_of(made: Dataset, arrays: Arrays, step: int, number: int) -> Any:
     return from_arrays(moved | {"equation@kind": "none", "steps/0000/fields/0000@name": name}).field
 
 
-def _step(path: str, state: State, equation: Elastic | Poisson | None, holes: Sequence[Hole]) -> Arrays:
+def _step(path: str, state: State, equation: Material | None, holes: Sequence[Hole]) -> Arrays:
     cover, fields = state.cover, [state.fields] if isinstance(state.fields, Coefficients) else state.fields
     fields = listed("fields", fields, Coefficients, "ppum.build.Coefficients(name, blocks)")
     if not fields:
@@ -160,7 +160,7 @@ def _partition(cover: Cover | Mesh, fields: Sequence[str]) -> Arrays:
 
 
 def _field(
-    given: Coefficients, cover: Cover | Mesh, functions: list[str], equation: Elastic | Poisson | None
+    given: Coefficients, cover: Cover | Mesh, functions: list[str], equation: Material | None
 ) -> Arrays:
     place = f"fields[{text('fields.name', given.name)!r}]"
     given_blocks = mapping(f"{place}.blocks", given.blocks, "arrays, such as {'one': array}")
@@ -176,7 +176,7 @@ def _field(
     return arrays | ({"exact": exact} if exact else {})
 
 
-def _components(place: str, given: Coefficients, count: int, equation: Elastic | Poisson | None) -> list[str]:
+def _components(place: str, given: Coefficients, count: int, equation: Material | None) -> list[str]:
     """Return the names of the components, as many as the blocks have, and as the equation wants them."""
     wanted = components_of(equation)
     if equation is not None:
@@ -208,11 +208,11 @@ def _names(name: str, count: int) -> list[str]:
     return [base] if count == 1 else [f"{base}{k}" for k in range(count)]
 
 
-def _check_names(group: str, arrays: Arrays, equation: Elastic | Poisson | None) -> None:
+def _check_names(group: str, arrays: Arrays, equation: Material | None) -> None:
     """Refuse components' names that formulas cannot have for them."""
     fields = [key.removesuffix("/components") for key in arrays if key.startswith(group) and key.endswith("/components")]
     for path, k, name in ((f, k, name) for f in fields for k, name in enumerate(arrays[f"{f}/components"])):
-        if wrong := _unfit(name, _nameless(type(equation).__name__)):
+        if wrong := _unfit(name, _nameless(type(equation).__name__, getattr(equation, "state", ""))):
             raise BuildError(
                 f"fields[{arrays[f'{path}@name']!r}].components[{k}]: {name!r} {wrong}; give another one, of letters, digits "
                 "and `_`, by components=[…]"
@@ -229,11 +229,15 @@ def _unfit(name: str, field: Any) -> str | None:
 
 
 @lru_cache
-def _nameless(equation: str) -> Any:
+def _nameless(equation: str, stresses: str) -> Any:
     """Return a field of an equation whose components have names that nobody gives: in its formulas all others are free."""
-    materials: dict[str, Elastic | Poisson] = {"Elastic": Elastic(1.0, 0.0), "Poisson": Poisson(1.0)}
+    materials: dict[str, Material] = {
+        "Anisotropic": Anisotropic((1.0,) * 3, (0.0,) * 3, 1.0),
+        "Elastic": Elastic(1.0, 0.0, stresses),
+        "Poisson": Poisson(1.0),
+    }
     material = materials.get(equation)
-    count, name = (2, "displacement") if equation == "Elastic" else (1, "potential")
+    count, name = (1, "potential") if equation == "Poisson" else (2, "displacement")
     field = Coefficients(name, {"one": np.zeros((1, 1, count))}, [f"__{k}" for k in range(count)])
     state = State(Cover.uniform([(0, 0), (1, 1)], (1, 1)), field)
     common = shared([state], defaults(DatasetOptions) | {"equation": material})

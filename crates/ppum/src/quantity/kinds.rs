@@ -178,11 +178,13 @@ pub fn available(field: &Field<'_>) -> Vec<String> {
     let usable = all.into_iter().filter(|(_, quantity)| quantity.check(field).is_ok());
     let usable = usable.map(|(name, _)| name);
     let sizes = ["magnitude", "gradient"].into_iter().filter(|_| field.has_temperature());
-    let has_formulas = field.is_displacement() && field.equation.anisotropy().is_some();
-    let stresses = ANISOTROPY.iter().map(|(name, _)| *name).filter(|_| has_formulas);
-    let around = ["ehoop", "shoop"]
-        .into_iter()
-        .filter(|_| field.equation.is_axisymmetric() && Quantity::parse("shoop", field).is_ok());
+    // formulas of the library are of components with the names of the equation
+    let is_named = field.data.components == field.equation.component_names();
+    let has_formulas = is_named && field.is_displacement();
+    let is_anisotropic = has_formulas && field.equation.anisotropy().is_some();
+    let stresses = ANISOTROPY.iter().map(|(name, _)| *name).filter(|_| is_anisotropic);
+    let is_round = has_formulas && field.equation.is_axisymmetric();
+    let around = ["ehoop", "shoop"].into_iter().filter(|_| is_round);
     let sizes = sizes.chain(stresses).chain(around);
     let named = field
         .quantities
