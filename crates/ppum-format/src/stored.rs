@@ -296,6 +296,7 @@ impl StoredWord for TipStatus {
         (Self::Unknown, "unknown"),
         (Self::Grows, "grows"),
         (Self::LeavesBody, "leaves-plate"),
+        (Self::MeetsAxis, "meets-axis"),
         (Self::MeetsHole(0), "meets-hole"),
         (Self::MeetsCrack(0), "meets-crack"),
         (Self::Waits, "waits"),

@@ -75,6 +75,8 @@ pub enum TipStatus {
     Grows,
     /// It goes on to the boundary of the body, where it ends.
     LeavesBody,
+    /// It goes on to the axis of a body of revolution, where it ends.
+    MeetsAxis,
     /// It goes on to the rim of a hole, where it ends.
     MeetsHole(u32),
     /// It goes on to another crack, where it ends.
@@ -98,7 +100,8 @@ impl TipStatus {
     /// True if the tip goes on.
     #[must_use]
     pub fn goes_on(self) -> bool {
-        matches!(self, Self::Grows | Self::LeavesBody | Self::MeetsHole(_) | Self::MeetsCrack(_))
+        let ends = matches!(self, Self::LeavesBody | Self::MeetsAxis);
+        ends || matches!(self, Self::Grows | Self::MeetsHole(_) | Self::MeetsCrack(_))
     }
 
     /// In words, e.g. `meets crack 3`.
@@ -107,6 +110,7 @@ impl TipStatus {
         match self {
             Self::Grows => "grows".into(),
             Self::LeavesBody => "leaves the plate".into(),
+            Self::MeetsAxis => "meets the axis".into(),
             Self::MeetsHole(k) => format!("meets hole {k}"),
             Self::MeetsCrack(k) => format!("meets crack {k}"),
             Self::Waits => "waits".into(),

@@ -1,10 +1,12 @@
 //! Warnings about singular points of the boundary that the cells do not resolve.
 
 use super::{above, percent, short, smaller_cells};
+use ppum::border::touch;
+use ppum::crack::{Crack, End};
 use ppum::dataset::{Warning, WarningKind};
 use ppum::field::Field;
 use ppum::text::LocationText;
-use ppum::vec2::Rect;
+use ppum::vec2::{Rect, Vec2};
 use ppum_problem::Problem;
 use ppum_solve::corner::{SingularCause, SingularCorner, corners};
 use ppum_solve::norms::energy_of;
@@ -18,6 +20,10 @@ const LARGE_MISS: f64 = 5e-4;
 /// with clamped corners, restraints that end, corners of holes and kinks (order 2, held against
 /// energies of another method).
 const MISSED: f64 = 0.9;
+
+/// Angle from the radius, in degrees, above which a crack that meets the axis of a body of
+/// revolution makes a cone whose point matters.
+const FLAT: f64 = 1.0;
 
 /// The warnings about the singular points of a problem; `energy` is that of the field.
 pub(super) fn of_corners(
@@ -44,7 +50,33 @@ pub(super) fn of_corners(
         let message = unresolved(corner, [size, missed], problem, places);
         above(WarningKind::SingularPoint, Some(corner.at), [missed, LARGE_MISS], message)
     };
-    corners(problem).iter().filter_map(of_corner).collect()
+    let cones = cones(problem);
+    let of_cone = |&(at, angle): &(Vec2, f64)| of_cone(at, angle, problem, places);
+    corners(problem).iter().filter_map(of_corner).chain(cones.iter().filter_map(of_cone)).collect()
+}
+
+/// The places at which cracks meet the axis of a body of revolution, and their angles from the
+/// radius in degrees.
+fn cones(problem: &Problem) -> Vec<(Vec2, f64)> {
+    let touch = touch(&problem.domain().bounds);
+    let ends = |crack: &Crack| {
+        [End::Start, End::Last].map(|end| (crack.end_point(end), crack.growth_direction(end)))
+    };
+    let cracks = problem.cracks().iter().filter(|_| problem.equation.is_axisymmetric());
+    let on_axis = cracks.flat_map(ends).filter(|(at, _)| at.x.abs() <= touch);
+    on_axis.map(|(at, d)| (at, d.y.abs().atan2(d.x.abs()).to_degrees())).collect()
+}
+
+/// The warning about the point of a cone: functions of its spherical wedge are not known here.
+fn of_cone(at: Vec2, angle: f64, problem: &Problem, places: &LocationText) -> Option<Warning> {
+    let message = format!(
+        "{}: a crack meets the axis at {}° from the radius; at the point of such a cone stresses are infinite, and no \
+         function is taken for them; {}",
+        places.show(at),
+        short((10.0 * angle).round() / 10.0),
+        smaller_cells(Some(problem), "`center` and `radius`")
+    );
+    above(WarningKind::SingularPoint, Some(at), [angle, FLAT], message)
 }
 
 /// True if all patches that hold a corner have the functions of its wedge.

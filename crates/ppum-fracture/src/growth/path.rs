@@ -95,11 +95,12 @@ impl Ahead<'_> {
     fn meets<'m>(&'m self, way: &'m Edge) -> impl Iterator<Item = Hit> + 'm {
         let domain = self.problem.domain();
         let near = touch(&domain.bounds);
-        let border = leaves(way, &domain.bounds).map(|at| Hit::on_way(at, TipStatus::LeavesBody));
+        let border = leaves(way, &domain.bounds).map(|at| Hit::on_way(at, self.beyond(at.1)));
         let holes = (0u32..).zip(&domain.holes).filter_map(move |(k, hole)| {
-            let fate =
-                if hole.is_outside() { TipStatus::LeavesBody } else { TipStatus::MeetsHole(k) };
-            enters(way, hole).map(|at| Hit::on_way(at, fate))
+            let at = enters(way, hole)?;
+            let is_outside = hole.is_outside();
+            let fate = if is_outside { self.beyond(at.1) } else { TipStatus::MeetsHole(k) };
+            Some(Hit::on_way(at, fate))
         });
         let others = (0u32..).zip(self.cracks).flat_map(move |(k, crack)| {
             let own = k == self.tip.crack;
@@ -111,6 +112,15 @@ impl Ahead<'_> {
                 .map(move |at| Hit::on_way(at, fate))
         });
         border.into_iter().chain(holes).chain(others).chain(self.tips(way))
+    }
+
+    /// What becomes of a tip at a place of the boundary.
+    fn beyond(&self, at: Vec2) -> TipStatus {
+        let is_axis = at.x.abs() <= touch(&self.problem.domain().bounds);
+        match self.problem.equation.is_axisymmetric() && is_axis {
+            true => TipStatus::MeetsAxis,
+            false => TipStatus::LeavesBody,
+        }
     }
 
     /// The tips of other cracks beside a way.

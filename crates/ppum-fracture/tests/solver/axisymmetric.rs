@@ -1,8 +1,10 @@
 //! Bodies of revolution: closed forms, independent references, and properties on random bodies.
 
-use crate::studies::support::{parsed, quantity, record, solved};
-use ppum::dataset::{Dataset, TipIntensity};
+use crate::studies::support::{checked, parsed, quantity, record, solved};
+use ppum::dataset::{Dataset, GrowthStop, TipIntensity, TipStatus, Warning, WarningKind};
+use ppum::progress::unwatched;
 use ppum::vec2::vec2;
+use ppum_fracture::growth::series;
 use ppum_problem::Problem;
 use ppum_testkit::random::Random;
 use std::f64::consts::PI;
@@ -299,6 +301,67 @@ fn energy_release_of_cones_arcs_and_kinks() {
             let release = (tip.k1 * tip.k1 + tip.k2 * tip.k2) / modulus;
             let ratio = tip.j.expect("J") / release - 1.0;
             assert!(ratio.abs() < 3e-5, "{material}{crack:?}{loads}: {ratio}");
+        }
+    }
+}
+
+/// K_II of an insulated penny-shaped crack of radius 1 across a flux of heat with the gradient 1, in
+/// a cylinder of radius b and height 2b.
+fn insulated_penny(b: f64) -> f64 {
+    let problem = format!(
+        "[temperature]\nproblem = '''\n[equation]\nkind = \"poisson\"\naxisymmetric = true\n\
+         [[boundary]]\non = \"top\"\nvalue = {b}\n[[boundary]]\non = \"bottom\"\nvalue = -{b}\n'''\n"
+    );
+    let crack = "[[crack]]\npoints = [[0, 0], [1, 0]]\n\
+         [[refine]]\ncenter = [1, 0]\nradius = 1\nsize = 0.125\n";
+    let cover = "[discretization]\ncells = [16, 32]\norder = 3\n";
+    let dataset = of(&[&domain([0.0, -b, b, b]), MATERIAL, &problem, crack, cover]);
+    let tip = tip(&dataset, 0);
+    assert!(tip.k1.abs() < 1e-9, "{}", tip.k1);
+    tip.k2
+}
+
+/// In a large body |K_II| = E α h a^(3/2)/(3 √π (1 − ν)) (Florence & Goodier 1963). Derived again:
+/// the temperature on the faces is ±(2h/π) √(a² − r²), and the displacement ∇(y F) with harmonic F,
+/// F_,y = (1 + ν) α T/(2(1 − ν)), leaves the shear E α h r/(4(1 − ν)) on them, whose K_II is
+/// 2/(a √(πa)) ∫ r² σ_ry/√(a² − r²) dr. The cylinder is felt as (a/b)³.
+#[test]
+fn insulated_penny_in_a_flux_of_heat() {
+    let exact = 1.0 / (3.0 * PI.sqrt() * 0.7);
+    let [near, far] = [8.0, 16.0].map(insulated_penny);
+    let [of_near, of_far] = [near, far].map(|k| 1.0 - k.abs() / exact);
+    assert!((7.0..8.5).contains(&(of_near / of_far)), "{of_near} {of_far}");
+    let limit = (8.0 * far - near).abs() / 7.0;
+    assert!((limit / exact - 1.0).abs() < 5e-5, "{limit} {exact}");
+}
+
+/// A crack that grows inwards to the axis ends there, and what it cuts through comes apart.
+#[test]
+fn paths_end_on_the_axis() {
+    let body = domain([0.0, -1.0, 1.0, 1.0]);
+    let crack = "[[crack]]\npoints = [[1.0, 0.0], [0.3, 0.0]]\n";
+    let growth = "[growth]\nincrement = 0.2\nsteps = 3\n";
+    let text = [&body, MATERIAL, crack, PULLED, growth, &cover(3, 2)].concat();
+    let dataset = series(&checked(&parsed(&text)), None, unwatched()).expect("a series");
+    let last = dataset.steps.last().and_then(|step| step.growth.as_ref()).expect("growth");
+    let tip = &last.tips[0];
+    assert_eq!((tip.fate, last.stop), (TipStatus::MeetsAxis, Some(GrowthStop::PieceComesOff)));
+    assert_eq!(tip.path.last().expect("a path").x, 0.0);
+}
+
+/// Cones with their points on the axis are warned of, discs are not.
+#[test]
+fn points_of_cones_are_told() {
+    let body = domain([0.0, -1.0, 1.0, 1.0]);
+    for (end, angle) in [([0.4, 0.0], 0.0), ([0.4, 0.4], 45.0), ([0.3, -0.1], 18.4)] {
+        let crack = format!("[[crack]]\npoints = [[0.0, 0.0], {end:?}]\n");
+        let dataset = of(&[&body, MATERIAL, &crack, PULLED, &cover(3, 2)]);
+        let of_kind = |w: &&Warning| w.kind == WarningKind::SingularPoint;
+        let told = dataset.steps[0].warnings.iter().find(of_kind);
+        assert_eq!(told.is_some(), angle > 0.0, "{told:?}");
+        if let Some(told) = told {
+            assert_eq!(told.at, Some(vec2(0.0, 0.0)));
+            assert!(told.message.contains(&format!("axis at {angle}°")), "{}", told.message);
         }
     }
 }

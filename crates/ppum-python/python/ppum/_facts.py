@@ -140,7 +140,7 @@ class Advance:
 
     Attributes:
         crack, end: The tip.
-        fate: In words, e.g. ``grows``, ``held``, ``meets crack 3``.
+        fate: In words, e.g. ``grows``, ``held``, ``meets crack 3``, ``meets the axis``.
         strength: The value compared with the toughness, stress · length^½.
         direction: Angle of the path at the tip to the x axis, radians.
         curvature: Curvature of the path, 1 / length.
