@@ -14,6 +14,7 @@ use ppum::vec2::{Vec2, vec2 as v};
 use ppum_fracture::solve::solve;
 use ppum_problem::Problem;
 use ppum_scene::location::Location;
+use ppum_scene::magnification::Magnification;
 use ppum_scene::owner::Owner;
 use ppum_viewer::Viewer;
 use ppum_viewer::measure::probe::ProbeReading;
@@ -379,4 +380,59 @@ fn click(window: &mut Window, place: Pos2) {
 fn button(pos: Pos2, pressed: bool) -> Event {
     let modifiers = Modifiers::NONE;
     Event::PointerButton { pos, button: egui::PointerButton::Primary, pressed, modifiers }
+}
+
+/// A crack from the left edge to a hole, with a plain vertex in between.
+const ENDED: &str = r#"
+title = "A crack that has met a hole"
+[domain]
+min = [-1, -1]
+max = [1, 1]
+[material]
+young = 1.0
+poisson = 0.3
+state = "plane-strain"
+[[hole]]
+center = [0, 0]
+radius = 0.3
+[[crack]]
+points = [[-1, 0], [-0.62, 0.01], [-0.3, 0]]
+[[boundary]]
+on = "bottom"
+traction = [0, -1]
+[[boundary]]
+on = "top"
+traction = [0, 1]
+[discretization]
+level = 3
+order = 2
+"#;
+
+/// A stress is infinite at a tip, also between rims of many pieces, and finite where a crack has
+/// vertices but no tip: the same in a window of any size, deformed or not.
+#[test]
+fn stresses_are_infinite_at_tips_and_nowhere_else() {
+    let compact = include_str!("../../../../examples/compact-tension.toml");
+    let compact = compact.replace("cells = [17, 17]\norder = 3", "cells = [9, 9]\norder = 2");
+    for (text, tip) in [(compact.as_str(), Some(v(0.5, 0.0))), (ENDED, None)] {
+        let problem = Problem::parse(text, "problem", Path::new(".")).expect("a problem");
+        let dataset = solve(&problem, unwatched()).expect("it can be solved");
+        let mut largest = Vec::new();
+        for (size, deformed) in
+            [([1000.0, 700.0], false), ([640.0, 400.0], false), ([640.0, 400.0], true)]
+        {
+            let mut window = window(dataset.clone(), size);
+            let auto = deformed.then_some(Magnification::Auto);
+            window.state_mut().session.panes[0].scene.deformed = auto;
+            show(&mut window, "von-mises", None);
+            let frame = window.state().viewports[0].frames.newest().expect("an image").clone();
+            let found = frame.colored.span.values.clone().expect("the extrema");
+            assert_eq!(found.max.value.is_infinite(), tip.is_some(), "{size:?}: {found}");
+            if let Some(tip) = tip {
+                assert_eq!(found.center + found.max.offset, tip);
+            }
+            largest.push((found.max, found.min));
+        }
+        assert!(largest.iter().all(|all| *all == largest[0]), "{largest:?}");
+    }
 }
