@@ -61,6 +61,8 @@ pub struct Controls {
     pub color_note: Option<(Weak<RenderedFrame>, String)>,
     /// Values over the steps of a dataset, with the names of their plots.
     pub histories: Memo<SameArc<Dataset>, StepPlots>,
+    /// True if the page *Series* shows a table, not curves.
+    pub has_step_table: bool,
     /// The automatic factor of the deformation, once it is known.
     pub factor: Option<f64>,
 }

@@ -1,13 +1,13 @@
 //! The player of a series in the bar at the top of the window.
 
-use egui::{DragValue, Label, RichText, Slider, Ui};
+use egui::{Button, DragValue, Label, RichText, Role, Slider, Ui, WidgetInfo, vec2};
 use ppum::dataset::Step;
 use ppum::text::trimmed;
 use ppum_scene::facts::GrowthFacts;
 
 use crate::actions::Action;
 use crate::panel_context::PanelContext;
-use crate::player::SPEEDS;
+use crate::player::{Player, SPEEDS};
 use crate::widgets::button;
 
 /// Shows the player if the dataset is a series, in a row of its own, which is never broken.
@@ -18,6 +18,7 @@ pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     }
 }
 
+/// Playing, speed and steps come first: none of them moves when the text behind the slider changes.
 fn row(ui: &mut Ui, context: &mut PanelContext<'_>) {
     let active = context.session.active;
     let Some(opened) = &context.viewports[active].opened else { return };
@@ -26,8 +27,11 @@ fn row(ui: &mut Ui, context: &mut PanelContext<'_>) {
     let last = steps.len() - 1;
     let stop = steps[last].growth.as_ref().and_then(|growth| growth.stop);
     let mut step = subject.step_of(&opened.dataset).min(last);
-    if button(ui, "◀", "Step before").clicked() {
-        context.actions.push(Action::Step(-1));
+    playing(ui, context.player, context.actions);
+    for (sign, name, by) in [("◀", "Step before", -1), ("▶", "Step after", 1)] {
+        if button(ui, sign, name).clicked() {
+            context.actions.push(Action::Step(by));
+        }
     }
     let rest = if stop.is_some() { REST + REASON } else { REST };
     ui.spacing_mut().slider_width = (ui.available_width() - rest).clamp(60.0, 600.0);
@@ -39,29 +43,31 @@ fn row(ui: &mut Ui, context: &mut PanelContext<'_>) {
     if slider.changed() {
         subject.step = Some(step);
     }
-    if button(ui, "▶", "Step after").clicked() {
-        context.actions.push(Action::Step(1));
-    }
     let load = trimmed(steps[step].load);
     ui.label(format!("step {step} of {last}, load {load}"));
-    let (sign, name) =
-        if context.player.is_playing { ("■", "Stop") } else { ("▷", "Play the steps") };
-    if button(ui, sign, name).clicked() {
-        context.actions.push(Action::Play);
-    }
-    let speed = DragValue::new(&mut context.player.speed).range(SPEEDS).speed(0.1).suffix(" /s");
-    ui.add(speed.max_decimals(1)).on_hover_text("Speed: steps in a second");
-    let looping =
-        ui.selectable_label(context.player.is_looping, "↻").on_hover_text("Again and again");
-    looping.widget_info(|| {
-        egui::WidgetInfo::selected(egui::Role::Button, true, context.player.is_looping, "Loop")
-    });
-    if looping.clicked() {
-        context.player.is_looping = !context.player.is_looping;
-    }
     if let Some(stop) = stop.filter(|_| step == last) {
         let text = RichText::new(format!("Growth ends: {}", stop.words()));
         ui.add(Label::new(text.strong()).truncate()).on_hover_text(ends(steps));
+    }
+}
+
+/// Play or stop, the speed, and whether it begins again.
+fn playing(ui: &mut Ui, player: &mut Player, actions: &mut Vec<Action>) {
+    let (text, name) =
+        if player.is_playing { ("Stop", "Stop") } else { ("Play", "Play the steps") };
+    let play = Button::new(text).min_size(vec2(PLAY, 0.0)).selected(player.is_playing);
+    let play = ui.add(play).on_hover_text(name);
+    play.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+    if play.clicked() {
+        actions.push(Action::Play);
+    }
+    let speed = DragValue::new(&mut player.speed).range(SPEEDS).speed(0.1).suffix(" /s");
+    let speed = ui.add_sized([SPEED, ui.spacing().interact_size.y], speed.max_decimals(1));
+    speed.on_hover_text("Speed: steps in a second");
+    let looping = ui.selectable_label(player.is_looping, "↻").on_hover_text("Again and again");
+    looping.widget_info(|| WidgetInfo::selected(Role::Button, true, player.is_looping, "Loop"));
+    if looping.clicked() {
+        player.is_looping = !player.is_looping;
     }
 }
 
@@ -76,6 +82,9 @@ fn ends(steps: &[Step]) -> String {
     told.join("\n")
 }
 
-/// Width of the controls other than the slider, and of the reason why growth ends \[points\].
-const REST: f32 = 330.0;
+/// Widths of the text behind the slider, and of the reason why growth ends \[points\].
+const REST: f32 = 170.0;
 const REASON: f32 = 200.0;
+/// Widths of buttons whose texts change \[points\].
+const PLAY: f32 = 52.0;
+const SPEED: f32 = 52.0;

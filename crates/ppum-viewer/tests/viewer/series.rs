@@ -6,14 +6,14 @@ use std::sync::Arc;
 use egui::Key;
 use egui_kittest::kittest::Queryable as _;
 use ppum::crack::{End, TipId};
-use ppum::dataset::{Dataset, Record, TipIntensity, Warning};
+use ppum::dataset::{Dataset, GrowthStop, Record, TipIncrement, TipIntensity, TipStatus, Warning};
 use ppum::progress::unwatched;
 use ppum::vec2::vec2;
 use ppum_fracture::solve::solve;
 use ppum_problem::Problem;
 use ppum_testkit::synthetic::growing;
 use ppum_viewer::panels::drawer::series::plots;
-use ppum_viewer::panels::drawer::solver;
+use ppum_viewer::panels::drawer::{series_table, solver};
 use ppum_viewer::session::DrawerPage;
 
 use crate::kit::plate;
@@ -152,6 +152,61 @@ fn a_click_on_a_plot_goes_to_the_step() {
         lab.settle();
         assert_eq!(step(&mut lab), Some(expected), "at {part} of the plot's width");
     }
+}
+
+/// The table has each tip of each step, with what it does next, and says why growth ends; a click
+/// on a step goes there.
+#[test]
+fn a_table_of_the_steps_says_why_growth_ends() {
+    let mut dataset = with_factors();
+    for (k, step) in dataset.steps.iter_mut().enumerate() {
+        let tip = TipId { crack: 0, end: End::Last };
+        let fate = if k == 2 { TipStatus::MeetsHole(1) } else { TipStatus::Grows };
+        let (length, extension) = (0.25, 0.5 * k as f64);
+        let tip = TipIncrement { tip, fate, length, extension, ..TipIncrement::default() };
+        let growth = step.growth.get_or_insert_default();
+        growth.tips.push(tip);
+        growth.stop = (k == 2).then_some(GrowthStop::NoTips);
+    }
+    let mut lab = Lab::new();
+    lab.state().open(None, Arc::new(dataset.clone()));
+    lab.state().session.drawer = Some(DrawerPage::Series);
+    lab.settle();
+    lab.window.get_by_label("Table").click();
+    lab.settle();
+    shot(&mut lab, "solving-series-table");
+    lab.window.get_by_label("Growth ends with step 2: no tip is left.");
+    lab.window.get_by_label("0.250000 at 0.00°, meets hole 1");
+    lab.window.get_by_label("Go to step 1").click();
+    lab.settle();
+    assert_eq!(step(&mut lab), Some(1));
+    let table = series_table::table(&dataset);
+    let column = |name: &str| table.column(name).expect("it is there");
+    assert_eq!(column("step"), [0.0, 1.0, 2.0]);
+    assert_eq!(column("extension"), [0.0, 0.5, 1.0]);
+    let k1 = column("k1");
+    assert_eq!((k1[0], k1[1].is_nan(), k1[2]), (1.0, true, 3.0));
+}
+
+/// No button of the player moves when the numbers of the step get longer or it plays.
+#[test]
+fn the_player_stands_still() {
+    let mut lab = series(12);
+    let names = ["Loop", "Step before", "Step after"];
+    let places = |lab: &Lab, first: &str| {
+        let names = [first].into_iter().chain(names);
+        names.map(|name| lab.window.get_by_label(name).rect()).collect::<Vec<_>>()
+    };
+    lab.state().session.panes[0].scene.subject.step = Some(9);
+    lab.settle();
+    let before = places(&lab, "Play the steps");
+    assert!(before.windows(2).all(|pair| pair[0].right() <= pair[1].left()), "{before:?}");
+    lab.window.get_by_label("Step after").click();
+    lab.settle();
+    assert_eq!(places(&lab, "Play the steps"), before);
+    lab.window.get_by_label("Play the steps").click();
+    lab.window.run_steps(2);
+    assert_eq!(places(&lab, "Stop"), before);
 }
 
 /// The solver's page: its numbers, a warning that leads to its place, values of patches as colours.

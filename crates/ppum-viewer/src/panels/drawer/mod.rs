@@ -3,6 +3,7 @@
 pub mod plot;
 pub mod problem;
 pub mod series;
+pub mod series_table;
 pub mod solver;
 pub mod tips;
 

@@ -1,4 +1,5 @@
-//! Stress intensity factors and lengths of cracks against the steps of a series.
+//! Stress intensity factors and lengths of cracks against the steps of a series, as curves or in a
+//! table.
 
 use egui::{ScrollArea, Ui, vec2};
 use ppum::crack::tips;
@@ -6,12 +7,14 @@ use ppum::dataset::{Dataset, Step, TipIntensity};
 use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve};
 
 use crate::panel_context::PanelContext;
+use crate::session::Pane;
+use crate::viewport::ViewState;
 use crate::widgets::chart::chart;
 
 /// Values of each step, as a curve.
 pub(super) type StepValues = Vec<(String, Vec<[f64; 2]>)>;
 
-/// Shows it; a click goes to the step.
+/// Shows them; a click goes to the step.
 pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     let (pane, viewport) = context.active();
     let Some(opened) = &viewport.opened else { return };
@@ -20,6 +23,21 @@ pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
         ui.label("This dataset has one step. Of a series its history is plotted here.");
         return;
     }
+    let has_table = &mut viewport.controls.has_step_table;
+    ui.horizontal(|ui| {
+        ui.selectable_value(has_table, false, "Curves");
+        ui.selectable_value(has_table, true, "Table");
+    });
+    match *has_table {
+        true => super::series_table::show(ui, context),
+        false => charts(ui, pane, viewport),
+    }
+}
+
+/// Curves over the steps.
+fn charts(ui: &mut Ui, pane: &mut Pane, viewport: &mut ViewState) {
+    let Some(opened) = &viewport.opened else { return };
+    let dataset = &opened.dataset;
     let plots = || plots(dataset);
     let plots = viewport.controls.histories.get_or_make(dataset.into(), plots).clone();
     let step = pane.scene.subject.step_of(dataset);

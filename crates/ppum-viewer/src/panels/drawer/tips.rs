@@ -7,6 +7,7 @@ use ppum_scene::range::places;
 use ppum_scene::table::{Column, NumberTable};
 
 use super::plot::outputs;
+use super::series_table::end;
 use crate::actions::Action;
 use crate::measure::words::number;
 use crate::panel_context::PanelContext;
@@ -19,16 +20,17 @@ pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     viewport.controls.facts.look_up(&opened.dataset, pane.scene.subject.step_of(&opened.dataset));
     let tips = std::mem::take(&mut viewport.controls.facts.tips);
     let places = viewport.controls.facts.places.unwrap_or_else(|| places(&opened.dataset));
-    rows(ui, context, &places, &tips);
+    if tips.is_empty() {
+        ui.label("This step has no crack tips.");
+        end(&opened.dataset).into_iter().for_each(|end| drop(ui.label(end)));
+    } else {
+        rows(ui, context, &places, &tips);
+    }
     context.active().1.controls.facts.tips = tips;
 }
 
 /// The rows that are seen: there may be thousands.
 fn rows(ui: &mut Ui, context: &mut PanelContext<'_>, places: &LocationText, tips: &[Tip]) {
-    if tips.is_empty() {
-        ui.label("This step has no crack tips.");
-        return;
-    }
     let csv = || table(tips).csv();
     let bytes = || csv().into_bytes();
     let (_, viewport) = context.active();
