@@ -87,16 +87,19 @@ def test_readme_snippets_run():
 
 
 def test_examples_for_users_of_other_programs_give_the_stated_values():
-    stated = [("1583.65", 0), ("62.119", -1), ("0.1157", 0), ("121.9", -1)]
+    stated = [("1583.65", "2e-5", 0), ("62.119", "7e-3", -1), ("0.1157", "5e-4", 0), ("121.9", None, -1)]
     with tempfile.TemporaryDirectory(prefix="ppum-") as name:
         folder = pathlib.Path(name)
-        for problem, (number, tip) in zip(blocks(OTHERS, "toml"), stated, strict=True):
+        for problem, (number, estimate, tip) in zip(blocks(OTHERS, "toml"), stated, strict=True):
             (folder / "plate.toml").write_text(problem)
             run(folder, "solve", "plate.toml")
             tips = json.loads(run(folder, "sif", "plate.h5", "--json"))["tips"]
             key = "k2" if "contact" in problem else "k1"
             assert math.isclose(abs(tips[tip][key]), float(number), rel_tol=5e-4), (number, tips[tip])
             assert number in OTHERS
+            relative = tips[tip]["error"] / math.hypot(tips[tip]["k1"], tips[tip]["k2"])
+            error = f"{relative:.0e}".replace("e-0", "e-")
+            assert estimate is None or (error == estimate and f"error of {error}" in OTHERS), error
 
 
 def test_citation_has_the_version_of_the_workspace():
