@@ -74,6 +74,9 @@ def test_commands_of_guides_run():
                 assert "-o" not in words or (folder / words[words.index("-o") + 1]).stat().st_size > 100, command
                 count += 1
         assert count >= 18
+        sizes = [(folder / f"plate.{end}").stat().st_size for end in ["html", "h5"]]
+        stated = float(re.search(r"A page takes ([\d.]+) MB and four thirds", page("commands/export.md"))[1])
+        assert abs(sizes[0] - 4 / 3 * sizes[1] - 1e6 * stated) < 5e4, sizes
         assert "slope −0.500" in printed and "1.5112" in printed and "K_I = 1.5112" in page("weights.md")
 
 
