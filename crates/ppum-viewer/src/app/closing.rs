@@ -140,6 +140,11 @@ impl Viewer {
     fn losses(&self, guard: &CloseGuard) -> Vec<Loss> {
         let (panes, is_work_lost) = self.scope(guard);
         let mut losses = self.lost_solutions(panes);
+        let forgets = matches!(guard, CloseGuard::Window | CloseGuard::Solve(_));
+        let undone = self.undone_solution().filter(|opened| forgets && opened.is_unsaved());
+        losses.extend(undone.map(|opened| {
+            Loss::Solution((&opened.dataset).into(), format!("{}, undone,", opened.name()))
+        }));
         let running = self.solving.running().filter(|_| is_work_lost);
         losses.extend(running.map(|running| Loss::Work(running.problem.name())));
         losses.extend(self.lost_texts(guard));
@@ -272,7 +277,7 @@ impl Viewer {
     }
 
     /// True if the other view has the same dataset.
-    fn is_twice(&self, pane: usize) -> bool {
+    pub(super) fn is_twice(&self, pane: usize) -> bool {
         let dataset = |pane: usize| Some(Arc::as_ptr(&self.opened(pane)?.dataset));
         (0..self.viewports.len()).any(|other| other != pane && dataset(other) == dataset(pane))
     }

@@ -3,6 +3,7 @@
 mod acting;
 pub mod closing;
 mod problems;
+mod replaced;
 mod work;
 
 use std::path::PathBuf;
@@ -43,6 +44,8 @@ pub struct Viewer {
     closing: closing::ClosingQuestion,
     /// The dataset that is to make place for the solution that is computed.
     replaced: Option<Arc<Dataset>>,
+    /// The solution that another one has replaced, for undo.
+    replaced_solution: Option<replaced::ReplacedSolution>,
     /// Files that were read and are not shown yet.
     waiting: std::collections::VecDeque<crate::files::read::ReadFile>,
     pub(crate) palette: Option<CommandPalette>,
@@ -84,6 +87,7 @@ impl Viewer {
             solving: crate::solving::SolverState::new(ctx),
             closing: closing::ClosingQuestion::default(),
             replaced: None,
+            replaced_solution: None,
             waiting: std::collections::VecDeque::new(),
             palette: None,
             exporter: None,
@@ -231,11 +235,14 @@ impl Viewer {
         }
     }
 
-    /// Goes a step back or forward in the settings, or asks first if a view with a solution is
-    /// to go.
+    /// Goes a step back or forward in the settings and in the last two solutions, or asks first if
+    /// a view with a solution is to go.
     pub(crate) fn restore(&mut self, ctx: &egui::Context, back: bool) {
         // a change that is not yet at rest is a step too
         self.settings.note(&self.session.settings());
+        if self.exchange_solutions(back) {
+            return;
+        }
         if self.takes_view(back) {
             return self.request_close(ctx, closing::CloseGuard::View(back));
         }

@@ -61,6 +61,7 @@ impl Viewer {
     /// A text is written from now on; if the one before was changed, it is put aside.
     fn begin_text(&mut self, draft: ProblemDraft, origin: Option<Arc<Dataset>>) {
         self.shelve();
+        self.files.release(&draft);
         self.solving.begin(origin);
         self.session.draft = Some(draft);
         self.session.drawer = Some(DrawerPage::Problem);
@@ -94,25 +95,34 @@ impl Viewer {
         }
     }
 
-    /// Shows the text of what the active view shows, unless there is one that was opened, changed
-    /// or is being solved.
+    /// Shows the text of what the active view shows, unless the text was changed, is being solved,
+    /// or was opened since and not solved yet.
     pub(super) fn follow_dataset(&mut self) {
+        let Some(opened) = self.opened(self.session.active) else { return };
+        let (shown, dataset) = (opened.problem(), Arc::clone(&opened.dataset));
         let is_free = |draft: &ProblemDraft| {
-            let is_of_dataset = self.solving.origin.is_some() && draft.path.is_none();
-            is_of_dataset && !draft.is_changed() && self.solving.running().is_none()
+            self.solving.gives_way && !draft.is_changed() && self.solving.running().is_none()
         };
-        let active = self.session.active;
-        let Some(dataset) = self.opened(active).map(|opened| Arc::clone(&opened.dataset)) else {
+        let draft = self.session.draft.as_ref();
+        if draft.is_some_and(|draft| !is_free(draft)) {
             return;
-        };
-        match &self.session.draft {
-            Some(draft) if !is_free(draft) => {}
-            Some(draft) if dataset.problem.as_ref() == Some(&draft.text) => {
-                self.solving.origin = Some(dataset);
-            }
-            _ if dataset.problem.is_some() => self.show_text_of(active),
-            _ => self.session.draft = None,
         }
+        let is_same =
+            |shown: &ProblemDraft| draft.is_some_and(|draft| draft.is_same_problem(shown));
+        match shown {
+            Some(shown) if is_same(&shown) => self.solving.origin = Some(dataset),
+            Some(shown) => self.begin_text_of(shown, dataset),
+            None => self.session.draft = None,
+        }
+    }
+
+    /// Shows the text that a dataset was solved from, with its file.
+    fn begin_text_of(&mut self, draft: ProblemDraft, dataset: Arc<Dataset>) {
+        // the file may have changed since
+        if let Some(path) = &draft.path {
+            self.files.open(path, 0, Why::Restored);
+        }
+        self.begin_text(draft, Some(dataset));
     }
 
     /// The text of a problem is in a file now: that which is written, or one that was put aside.

@@ -137,7 +137,8 @@ impl Viewer {
     /// or the problem that it belongs to.
     pub(super) fn ask(&mut self, what: SavedFile) {
         let folder = self.files.folder_near(None);
-        let mut all = self.viewports.iter().filter_map(|viewport| viewport.opened.as_ref());
+        let shown = self.viewports.iter().filter_map(|viewport| viewport.opened.as_ref());
+        let mut all = shown.chain(self.undone_solution());
         let near = match &what {
             SavedFile::Dataset(dataset) => {
                 let opened = all.find(|opened| Arc::ptr_eq(&opened.dataset, dataset));
@@ -183,6 +184,10 @@ impl Viewer {
     fn note_dataset_file(&mut self, dataset: &Arc<Dataset>, path: &Path) {
         let panes = self.session.panes.iter_mut().zip(&mut self.viewports);
         for (number, (pane, viewport)) in panes.enumerate() {
+        let is_it = |opened: &&mut OpenDataset| Arc::ptr_eq(&opened.dataset, dataset);
+        if let Some(hidden) = self.hidden_solution().filter(is_it) {
+            hidden.path = Some(path.to_owned());
+        }
             let Some(opened) = &mut viewport.opened else { continue };
             if Arc::ptr_eq(&opened.dataset, dataset) {
                 (pane.file, opened.path) = (Some(path.to_owned()), Some(path.to_owned()));
@@ -278,6 +283,7 @@ impl Viewer {
         pane.file = Some(path.clone());
         // linked views show a place that may be one of the other body alone
         let is_elsewhere = |place| !is_linked && !camera::is_of(place, &dataset.domain.bounds);
+            self.solving.gives_way = true;
         if viewport.opened.is_none() && pane.place.is_some_and(is_elsewhere) {
             viewport.show_whole(pane);
         }
@@ -306,12 +312,9 @@ impl Viewer {
     fn show_solved(&mut self, ctx: &egui::Context, solved: ComputedDataset) {
         let ComputedDataset { pane, dataset, solution } = solved;
         let number = self.free_pane(ctx, pane, solution.is_complete());
-        let (pane, viewport) = (&mut self.session.panes[number], &mut self.viewports[number]);
-        pane.file = None;
-        // what was a series may be one step now
-        let _ = player::mend(pane, &dataset);
-        viewport
-            .take(pane, OpenDataset { path: None, dataset, solution: Some(Arc::new(solution)) });
+        self.solving.gives_way = true;
+        let solution = Some(Arc::new(solution));
+        self.replace_solution(number, OpenDataset { path: None, dataset, solution });
     }
 
     /// Files that were dropped: the first in the active pane, another one beside it.

@@ -82,6 +82,9 @@ pub struct ComputedDataset {
 pub struct SolverState {
     /// The dataset that the text came from: it holds the tables and points that the text names.
     pub origin: Option<Arc<Dataset>>,
+    /// True if the text gives way to that of what is shown: it came from there, was solved, or a
+    /// dataset was opened since.
+    pub gives_way: bool,
     /// The way the last solution has ended.
     pub outcome: Option<SolutionOutcome>,
     /// The place in the text to go to.
@@ -166,6 +169,7 @@ impl SolverState {
     pub fn new(ctx: &egui::Context) -> Self {
         Self {
             origin: None,
+            gives_way: false,
             outcome: None,
             jump: None,
             memory: || None,
@@ -178,7 +182,7 @@ impl SolverState {
 
     /// Another text is written from now on; one that came from a dataset finds there what it names.
     pub fn begin(&mut self, origin: Option<Arc<Dataset>>) {
-        self.origin = origin;
+        (self.gives_way, self.origin) = (origin.is_some(), origin);
         (self.outcome, self.checked, self.checking) = (None, None, None);
         // what is taken back in one text is no state of another
         if let Some(mut state) = egui::text_edit::TextEditState::load(&self.ctx, editor_id()) {

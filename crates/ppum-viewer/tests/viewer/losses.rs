@@ -184,14 +184,9 @@ fn perform(lab: &mut Lab, deed: Deed) {
         }
         Deed::Solve => {
             // of another problem than any that was solved
-            if lab.viewer().session.draft.is_none() {
-                let path = write(lab, "other.toml", &text("Other"));
+            if lab.viewer().session.draft.as_ref().is_none_or(|draft| !draft.is_changed()) {
+                let path = write(lab, "new.toml", &text("New"));
                 open(lab, &path);
-            }
-            let draft = draft(lab);
-            if !draft.is_changed() {
-                draft.path = None;
-                (draft.text, draft.original) = (text("New"), Some(text("New")));
             }
             act(lab, Action::Solve);
         }
@@ -306,6 +301,89 @@ fn solving_another_problem_asks_for_the_solution() {
     let saved = ppum_format::read(&lab.path("first.h5")).expect("it is saved");
     assert_eq!(saved, *again);
     assert!(!lab.path("second.h5").exists());
+}
+
+/// A solution that a newer one of the same problem has replaced is brought back by undo, and the
+/// newer one is then asked for.
+#[test]
+fn undo_brings_a_replaced_solution_back() {
+    let mut lab = Lab::new();
+    let path = write(&lab, "first.toml", &text("First"));
+    open(&mut lab, &path);
+    let before = solve(&mut lab);
+    draft(&mut lab).text = text("First").replace("young = 1.0", MINE);
+    let after = solve(&mut lab);
+    let is_shown = |lab: &Lab, one: &Arc<Dataset>| Arc::ptr_eq(one, &lab.dataset(0).expect("it"));
+    assert!(is_shown(&lab, &after));
+    // what was changed since goes first
+    let theme = lab.viewer().session.theme;
+    act(&mut lab, Action::Theme);
+    act(&mut lab, Action::Undo);
+    assert!(is_shown(&lab, &after) && lab.viewer().session.theme == theme);
+    act(&mut lab, Action::Undo);
+    assert!(is_shown(&lab, &before));
+    assert!(!closes(&mut lab));
+    assert!(has(&lab, "The solution “First” is not saved."));
+    assert!(has(&lab, "The solution “First”, undone, is not saved."));
+    click(&mut lab, "Back");
+    act(&mut lab, Action::Redo);
+    assert!(is_shown(&lab, &after));
+    act(&mut lab, Action::Undo);
+    // both are saved, one after the other, and the window closes then
+    assert!(!closes(&mut lab));
+    click(&mut lab, "Save…");
+    lab.window.key_press(Key::Enter);
+    rest(&mut lab);
+    click(&mut lab, "Save…");
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    lab.window.step();
+    lab.window.event(egui::Event::Text(lab.path("newer.h5").display().to_string()));
+    lab.window.step();
+    lab.window.key_press(Key::Enter);
+    rest(&mut lab);
+    for (name, solution) in [("first.h5", &before), ("newer.h5", &after)] {
+        assert_eq!(ppum_format::read(&lab.path(name)).expect("it is saved"), **solution);
+    }
+    assert!(closes(&mut lab));
+}
+
+/// The page has the text of what the active view shows, with its file, unless the text was changed
+/// or is to be solved.
+#[test]
+fn the_text_is_that_of_the_active_view() {
+    let mut lab = Lab::new();
+    let left = write(&lab, "left.toml", &text("Left"));
+    open(&mut lab, &left);
+    let _ = solve(&mut lab);
+    act(&mut lab, Action::Split);
+    lab.state().session.active = 1;
+    let other = lab.write("other.h5", &plate());
+    open(&mut lab, &other);
+    lab.window.run_steps(3);
+    let shown = |lab: &mut Lab| {
+        lab.window.run_steps(3);
+        rest(lab);
+        draft(lab).clone()
+    };
+    let is_of_plate = |draft: &ProblemDraft| Some(&draft.text) == plate().problem.as_ref();
+    assert!(is_of_plate(&shown(&mut lab)));
+    lab.state().session.active = 0;
+    let text_of_left = shown(&mut lab);
+    assert_eq!((&text_of_left.path, &text_of_left.text), (&Some(left), &text("Left")));
+    lab.state().session.active = 1;
+    assert!(is_of_plate(&shown(&mut lab)));
+    // one that is opened is solved next, whichever view is looked at
+    let next = write(&lab, "next.toml", &text("Next"));
+    open(&mut lab, &next);
+    lab.state().session.active = 0;
+    assert_eq!(shown(&mut lab).path.as_ref(), Some(&next));
+    // and a changed one stays
+    let mine = text("Next").replace("young = 1.0", MINE);
+    draft(&mut lab).text.clone_from(&mine);
+    open(&mut lab, &other);
+    click(&mut lab, "Open without saving");
+    rest(&mut lab);
+    assert_eq!(shown(&mut lab).text, mine);
 }
 
 /// A text that gets a file is the same problem still, and gives its solution the name.
