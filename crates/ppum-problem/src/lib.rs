@@ -51,3 +51,6 @@ pub use data::*;
 pub use file::{MAX_LENGTH, keys, read_table};
 pub use geometry::{crack, cracks};
 pub use ppum::expression::Expression;
+
+/// A problem file with comments, to begin with: a plate with a slanted crack.
+pub const TEMPLATE: &str = include_str!("template.toml");

@@ -74,6 +74,10 @@ pub enum Action {
     Open,
     /// Choose a file and open it in a second view on the right.
     OpenBeside,
+    /// Choose a drawing and make a problem of it.
+    Import,
+    /// Begin the text of a problem.
+    NewProblem,
     /// Close the dataset.
     Close,
     /// Write the dataset to a file that is chosen.
@@ -268,6 +272,8 @@ pub const GROUPS: &[(&str, &[ActionEntry])] = &[
     ("Files and problems", &[
         row(Open, "Ctrl+O", "Open a file", Nothing, "load import file"),
         row(OpenBeside, "Ctrl+Shift+O", "Open a file beside", Dataset, "load import file"),
+        row(NewProblem, "", "New problem", Nothing, "create begin template toml"),
+        row(Import, "", "Import a drawing", Nothing, "dxf svg gmsh msh geo cad outline mesh"),
         row(Close, "Ctrl+W", "Close the dataset", Dataset, ""),
         row(SaveSession, "Ctrl+S", "Save the session", Nothing, ""),
         row(SaveSessionAs, "Ctrl+Shift+S", "Save the session as another file", Nothing, ""),

@@ -81,6 +81,16 @@ impl ProblemDraft {
         file.map_or_else(title, |name| name.to_string_lossy().into_owned())
     }
 
+    /// The file that it may be saved as: its own; of a drawing, one of its title beside it.
+    pub(crate) fn proposed_name(&self) -> Option<PathBuf> {
+        let beside = || {
+            let folder = self.folder.as_ref().filter(|_| self.original.is_none())?;
+            let name = Path::new(title(&self.text)?).file_name()?;
+            Some(folder.join(name).with_added_extension("toml"))
+        };
+        self.path.clone().or_else(beside)
+    }
+
     /// True if both are states of one problem: of one file, or, without a file, of one text that
     /// was changed.
     #[must_use]

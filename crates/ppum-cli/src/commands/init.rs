@@ -3,6 +3,8 @@
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
+use ppum_problem::TEMPLATE;
+
 use crate::output::StandardStream;
 use crate::standard::is_standard;
 use crate::target;
@@ -28,19 +30,17 @@ Examples:
   ppum init plate.toml
   ppum init - | ppum solve - -o plate.h5";
 
-const PROBLEM: &str = include_str!("init.toml");
-
 impl InitArgs {
     pub(crate) fn run(&self, out: &mut StandardStream) -> anyhow::Result<()> {
         let Self { output, force } = self;
         target::check(output, target::FileKind::Problem, [])?;
         if is_standard(output) {
-            return Ok(out.exact().write_all(PROBLEM.as_bytes())?);
+            return Ok(out.exact().write_all(TEMPLATE.as_bytes())?);
         }
         if !force {
             target::check_new(output)?;
         }
-        let text = PROBLEM.replace("FILE.", &format!("{}.", name(output)));
+        let text = TEMPLATE.replace("FILE.", &format!("{}.", name(output)));
         target::save(output, |file| file.write_all(text.as_bytes()))?;
         writeln!(out, "wrote {0}; edit it, then: ppum solve {0}", output.display())?;
         Ok(())
@@ -61,9 +61,9 @@ mod tests {
     /// Without comment signs every line but those of prose is valid, too.
     #[test]
     fn the_file_and_what_its_comments_offer_are_problems() {
-        let problem = Problem::parse(PROBLEM, "init.toml", Path::new("")).expect("a problem");
+        let problem = Problem::parse(TEMPLATE, "init.toml", Path::new("")).expect("a problem");
         assert_eq!((problem.cracks().len(), problem.boundary.len()), (1, 2));
-        let offered: String = PROBLEM
+        let offered: String = TEMPLATE
             .lines()
             .skip_while(|line| line.starts_with('#'))
             .map(|line| line.strip_prefix("# ").unwrap_or(line).to_owned() + "\n")

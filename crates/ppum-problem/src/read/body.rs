@@ -67,6 +67,11 @@ impl BodyShape {
         Self { bounds: Some(bounds), holes: Some(holes), pieces: body.pieces().to_vec() }
     }
 
+    /// The body of this shape; none if a part of it could not be read.
+    pub(super) fn body(self) -> Option<Body> {
+        Some(Body::new(Domain { bounds: self.bounds?, holes: self.holes? }, self.pieces))
+    }
+
     /// The part of a piece between two lengths along it from its beginning, as a piece of its own.
     /// Sides are divided at its ends.
     ///

@@ -30,7 +30,6 @@ use ppum::crack::Crack;
 use ppum::dataset::{
     Dataset, Elasticity, Equation, MAX_QUANTITIES, MAX_QUANTITY_TEXT, NamedQuantity, StressState,
 };
-use ppum::domain::Domain;
 use ppum::expression::Expression;
 use ppum::quantity::QuantityFormulaError;
 use toml::de::DeTable;
@@ -74,6 +73,20 @@ impl Problem {
     /// Everything that is wrong, with file, line, column and remedy.
     pub fn parse(text: &str, file_name: &str, base_dir: &Path) -> Result<Self, ProblemError> {
         read(text, file_name, FileSource::Folder(base_dir))
+    }
+
+    /// The body that a text gives, whatever is missing or wrong in the rest: to be drawn while the
+    /// text is written. No rule is applied to it. `None` if a part of it cannot be read.
+    #[must_use]
+    pub fn body_of(text: &str, base_dir: &Path) -> Option<Body> {
+        let document = ProblemDocument::new("problem", text, FileSource::Folder(base_dir));
+        let table = DeTable::parse(text).ok()?;
+        let root = &Section::unchecked(&document, &ROOT, table.get_ref(), 0).checked();
+        let example = EquationKind::Elasticity.example();
+        document.equation.set(Some(EquationKind::Elasticity));
+        document.tables.get_or_init(|| table::tables(root, &example));
+        let (cracks, _) = cracks(root, None);
+        Some(body::body(root, None).body()?.with_lines(cracks))
     }
 
     /// The problem of a dataset, from the text it holds; none if it holds none. Tables and points
@@ -222,8 +235,7 @@ fn problem<'a>(document: &'a ProblemDocument<'a>, table: &'a DeTable<'a>) -> Opt
         boundary.retain(|condition| !matches!(condition.on, BoundaryPart::Crack { .. }));
         refinements.retain(|new| !matches!(new.place, RefinementRegion::Crack(_)));
     }
-    let domain = Domain { bounds: shape.bounds?, holes: shape.holes? };
-    let body = Body::new(domain, shape.pieces).with_lines(cracks);
+    let body = shape.body()?.with_lines(cracks);
     let body = match kind {
         EquationKind::Elasticity => body.with_contacts(frictions),
         EquationKind::Poisson => body,

@@ -119,6 +119,8 @@ impl Viewer {
                 let number = if action == Action::Open { active } else { 1 };
                 self.files.ask(Purpose::Open(number), pane.file.as_deref());
             }
+            Action::Import => self.files.ask(Purpose::Import(active), None),
+            Action::NewProblem => self.begin_problem(),
             Action::Close => self.request_close(ctx, CloseGuard::Pane(active)),
             Action::SaveDataset => self.ask_dataset_of(active),
             Action::SaveDatasetOf(pane) => self.ask_dataset_of(pane),

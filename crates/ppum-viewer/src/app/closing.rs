@@ -170,7 +170,7 @@ impl Viewer {
                     let panes = match content {
                         FileContent::Dataset(_) => pane..pane + 1,
                         FileContent::Session(_) => 0..self.viewports.len(),
-                        FileContent::Problem(_) => 0..0,
+                        FileContent::Problem(_) | FileContent::Drawing(_) => 0..0,
                     };
                     (panes, false)
                 }

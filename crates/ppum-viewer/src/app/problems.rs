@@ -141,6 +141,20 @@ impl Viewer {
         }
     }
 
+    /// Begins the text of a new problem.
+    pub(super) fn begin_problem(&mut self) {
+        self.begin_text(ProblemDraft::unchanged(ppum_problem::TEMPLATE.to_owned()), None);
+    }
+
+    /// Begins the text of the problem of a drawing, which no file has yet. Saved, it goes
+    /// beside the drawing.
+    pub(super) fn take_drawing(&mut self, path: &Path, text: String) {
+        let folder = path.parent().map(Path::to_owned);
+        self.begin_text(ProblemDraft { folder, text, ..ProblemDraft::default() }, None);
+        let text = "The drawing is a problem now: add material and loads, then solve it";
+        self.files.tell(path, text, false);
+    }
+
     /// The text of a problem that was opened, or has changed on disk.
     pub(super) fn take_problem(&mut self, path: PathBuf, text: String, why: Why) {
         if why == Why::Opened {

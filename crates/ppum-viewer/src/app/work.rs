@@ -45,7 +45,9 @@ impl Viewer {
             self.wrote(&path, &what);
         }
         match self.files.show(ui) {
-            Some((Purpose::Open(pane), path)) => self.open_file(&ctx, &path, pane),
+            Some((Purpose::Open(pane) | Purpose::Import(pane), path)) => {
+                self.open_file(&ctx, &path, pane)
+            }
             Some((Purpose::Save(what), path)) => self.files.save(path, what, &self.session),
             None => {}
         }
@@ -152,7 +154,7 @@ impl Viewer {
             SavedFile::Session => self.files.session.clone().or_else(|| {
                 Some(self.session.pane().file.as_ref()?.with_extension(session_file::EXTENSION))
             }),
-            SavedFile::Problem(draft) => draft.path.clone(),
+            SavedFile::Problem(draft) => draft.proposed_name(),
         };
         self.files.ask(Purpose::Save(what), near.as_deref());
     }
@@ -182,12 +184,12 @@ impl Viewer {
     /// A dataset is in a file now: the views that show it are of that file; one that showed what
     /// was there before reads it again.
     fn note_dataset_file(&mut self, dataset: &Arc<Dataset>, path: &Path) {
-        let panes = self.session.panes.iter_mut().zip(&mut self.viewports);
-        for (number, (pane, viewport)) in panes.enumerate() {
         let is_it = |opened: &&mut OpenDataset| Arc::ptr_eq(&opened.dataset, dataset);
         if let Some(hidden) = self.hidden_solution().filter(is_it) {
             hidden.path = Some(path.to_owned());
         }
+        let panes = self.session.panes.iter_mut().zip(&mut self.viewports);
+        for (number, (pane, viewport)) in panes.enumerate() {
             let Some(opened) = &mut viewport.opened else { continue };
             if Arc::ptr_eq(&opened.dataset, dataset) {
                 (pane.file, opened.path) = (Some(path.to_owned()), Some(path.to_owned()));
@@ -216,6 +218,7 @@ impl Viewer {
                 match content {
                     FileContent::Dataset(dataset) => self.show_dataset(pane, path, dataset, why),
                     FileContent::Problem(text) => self.take_problem(path, text, why),
+                    FileContent::Drawing(text) => self.take_drawing(&path, text),
                     FileContent::Session(session) => {
                         self.take_session(ctx, *session);
                         self.files.session = Some(path);
@@ -249,6 +252,9 @@ impl Viewer {
             FileContent::Problem(_) if !is_dataset => return Ok(content),
             FileContent::Dataset(_) => ("a dataset", "a problem"),
             FileContent::Problem(_) => ("the text of a problem", "a dataset"),
+            FileContent::Drawing(_) => {
+                ("a drawing", if is_dataset { "a dataset" } else { "a problem" })
+            }
             FileContent::Session(_) if is_dataset => ("a session", "a dataset"),
             FileContent::Session(_) => ("a session", "a problem"),
         };
@@ -277,13 +283,13 @@ impl Viewer {
         let is_same = self.session.panes[pane].file.as_ref() == Some(&path);
         if why == Why::Opened && !is_same {
             self.session.panes[pane] = Pane::default();
+            self.solving.gives_way = true;
         }
         let is_linked = self.session.linked && self.session.panes.len() > 1;
         let (pane, viewport) = (&mut self.session.panes[pane], &mut self.viewports[pane]);
         pane.file = Some(path.clone());
         // linked views show a place that may be one of the other body alone
         let is_elsewhere = |place| !is_linked && !camera::is_of(place, &dataset.domain.bounds);
-            self.solving.gives_way = true;
         if viewport.opened.is_none() && pane.place.is_some_and(is_elsewhere) {
             viewport.show_whole(pane);
         }

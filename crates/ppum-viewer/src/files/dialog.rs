@@ -9,6 +9,7 @@ use std::sync::Arc;
 use egui::{Align2, Key, Modifiers, TextEdit, Ui, Window};
 use ppum::dataset::Dataset;
 
+use super::read::DRAWINGS;
 use super::session_file;
 use crate::job::BackgroundJob;
 use crate::page::PageOrder;
@@ -37,6 +38,8 @@ pub enum SavedFile {
 pub enum Purpose {
     /// To open it in a pane.
     Open(usize),
+    /// To make a problem of a drawing; what is shown in a pane stays.
+    Import(usize),
     /// To write something.
     Save(SavedFile),
 }
@@ -47,6 +50,7 @@ impl Purpose {
         match self {
             Self::Open(0) => ("Open a file", OPENED),
             Self::Open(_) => ("Open a file on the right", OPENED),
+            Self::Import(_) => ("Import a drawing", DRAWINGS),
             Self::Save(SavedFile::Session) => ("Save the session", &[session_file::EXTENSION]),
             Self::Save(SavedFile::Dataset(_)) => ("Save the dataset", &["h5"]),
             Self::Save(SavedFile::Problem(_)) => ("Save the problem", &["toml"]),
@@ -55,11 +59,12 @@ impl Purpose {
     }
 
     fn is_open(&self) -> bool {
-        matches!(self, Self::Open(_))
+        matches!(self, Self::Open(_) | Self::Import(_))
     }
 }
 
-const OPENED: &[&str] = &["h5", "toml", session_file::EXTENSION, "hdf5"];
+const OPENED: &[&str] =
+    &["h5", "toml", session_file::EXTENSION, "hdf5", "dxf", "svg", "msh", "geo"];
 
 /// The field while it is open.
 #[derive(Debug)]

@@ -287,7 +287,7 @@ impl WindowFiles {
     /// Asks for the name of a file, beginning near another one.
     pub fn ask(&mut self, purpose: Purpose, near: Option<&Path>) {
         let start = match (&purpose, near) {
-            (Purpose::Open(_), _) | (_, None) => self.folder_near(near),
+            (Purpose::Open(_) | Purpose::Import(_), _) | (_, None) => self.folder_near(near),
             (_, Some(near)) => near.to_owned(),
         };
         self.dialog = Some(Dialog::new(purpose, &start));

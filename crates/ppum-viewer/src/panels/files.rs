@@ -19,6 +19,8 @@ pub fn menu(ui: &mut Ui, context: &mut PanelContext<'_>) {
         let all = [
             ("Open…", Action::Open),
             ("Open beside…", Action::OpenBeside),
+            ("New problem", Action::NewProblem),
+            ("Import a drawing…", Action::Import),
             ("Save the dataset…", Action::SaveDataset),
             ("Save the session", Action::SaveSession),
             ("Save the session as…", Action::SaveSessionAs),

@@ -36,8 +36,15 @@ fn page(ui: &mut Ui, context: &mut PanelContext<'_>) {
         if ui.button(RichText::new("Open a file…").strong()).clicked() {
             context.actions.push(Action::Open);
         }
-        ui.weak("Ctrl+O, or drop it here: a dataset (.h5), a problem (.toml), a session");
+        if ui.button("New problem").clicked() {
+            context.actions.push(Action::NewProblem);
+        }
+        if ui.button("Import a drawing…").clicked() {
+            context.actions.push(Action::Import);
+        }
     });
+    let kinds = "dataset (.h5), problem (.toml), drawing (.dxf, .svg, .msh, .geo), session";
+    ui.weak(format!("Ctrl+O, or drop a file here: {kinds}"));
     ui.add_space(12.0);
     ui.strong("Recent files");
     recent(ui, context);

@@ -42,7 +42,7 @@ pub struct CheckedText {
     pub text: String,
     /// Its errors, in the order of the text.
     pub marks: Vec<Mark>,
-    /// The geometry of the text; if it has errors, of the last text without any.
+    /// The geometry of the text; if it has errors, of the last text without any, or the body alone.
     pub preview: Option<Arc<Preview>>,
 }
 
@@ -202,7 +202,9 @@ impl SolverState {
             };
             let mut checked = outcome.unwrap_or_else(broken);
             let before = self.checked.as_ref().and_then(|before| before.preview.clone());
-            checked.preview = checked.preview.or(before);
+            let is_complete = |preview: &Arc<Preview>| preview.is_complete;
+            let full = |preview: Option<Arc<Preview>>| preview.filter(is_complete);
+            checked.preview = full(checked.preview.clone()).or(full(before)).or(checked.preview);
             self.checked = Some(Arc::new(checked));
         }
         let is_known = self.checked.as_ref().is_some_and(|checked| checked.text == draft.text);
@@ -211,7 +213,7 @@ impl SolverState {
             self.checking = Some(BackgroundJob::start(&self.ctx, move |_| {
                 let (marks, preview) = match text.parse() {
                     Ok(problem) => (Vec::new(), Some(Arc::new(Preview::new(&problem)))),
-                    Err(error) => (marks(&error), None),
+                    Err(error) => (marks(&error), text.body().map(Arc::new)),
                 };
                 CheckedText { text: text.text, marks, preview }
             }));
@@ -433,6 +435,11 @@ impl ProblemText {
             None => Problem::parse(&self.text, "problem", &self.folder),
             Some(dataset) => Problem::parse_with(&self.text, dataset),
         }
+    }
+
+    /// The body alone, of a text that is not yet a problem.
+    fn body(&self) -> Option<Preview> {
+        Problem::body_of(&self.text, &self.folder).as_ref().map(Preview::of_body)
     }
 }
 

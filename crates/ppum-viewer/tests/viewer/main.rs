@@ -6,6 +6,7 @@ static ALLOCATOR: mimalloc::MiMalloc = mimalloc::MiMalloc;
 
 mod busy;
 mod controls;
+mod drawings;
 mod files;
 mod finding;
 mod frames;

@@ -34,8 +34,14 @@ pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
             if has_dataset { "This dataset holds no problem." } else { "No problem is open." };
         ui.label(empty);
         ui.horizontal(|ui| {
-            if ui.button("Open a problem file…").clicked() {
-                context.actions.push(Action::Open);
+            for (name, action) in [
+                ("Open a problem file…", Action::Open),
+                ("New problem", Action::NewProblem),
+                ("Import a drawing…", Action::Import),
+            ] {
+                if ui.button(name).clicked() {
+                    context.actions.push(action);
+                }
             }
         });
         return texts_aside(ui, context);
