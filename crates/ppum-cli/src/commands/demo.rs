@@ -63,7 +63,7 @@ impl DemoArgs {
             out.flush()?;
             run(self.words(line), out)?;
         }
-        writeln!(out, "\nOpen the pictures in {}. Then try:", self.output.display())?;
+        writeln!(out, "\nOpen the images in {}. Then try:", self.output.display())?;
         NEXT.iter().try_for_each(|line| writeln!(out, "  {}", self.shown(line)))?;
         Ok(())
     }

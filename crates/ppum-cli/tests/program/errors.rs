@@ -59,8 +59,10 @@ fn quantities_of_other_programs_are_answered_by_ours() {
         ("stress_xy", "sxy"),
         ("U1", "ux"),
     ] {
-        let complaint = lab.fail(&format!("probe plate.h5 --at 0,0 -q {foreign}"));
-        assert!(complaint.contains(&format!("did you mean `{own}`?")), "{complaint}");
+        for command in ["probe plate.h5 --at 0,0", "render plate.h5 -o a.png"] {
+            let complaint = lab.fail(&format!("{command} -q {foreign}"));
+            assert!(complaint.contains(&format!("did you mean `{own}`?")), "{complaint}");
+        }
     }
     // a field without temperature has no such quantity
     let complaint = lab.fail("probe plate.h5 --at 0,0 -q NT11");

@@ -175,8 +175,8 @@ impl JudgedTip<'_> {
         let (clearance, length) = (self.result.clearance, self.crack.length());
         let (radius, limit) = (clearance.radius, NEAR_BORDER * length);
         let message = format!(
-            "it is {} from {}, {} % of the crack's length: the factors grow like one over \
-             the root of that distance; see that the position is meant, or let the crack end there",
+            "it is {} from {}, {} % of the crack's length: the factors grow at least like \
+             one over the root of that distance; see that the position is meant, or let the crack end there",
             short(radius),
             clearance.end.name(),
             trimmed_to(100.0 * radius / length, 2)

@@ -127,7 +127,7 @@ fn check_part(
 }
 
 const NOTHING_THERE: &str = "nothing of the body is there: it lies in holes, or outside of the outline or the box; leave this [[boundary]] \
-     out, or name another part";
+     out, or name another part; sides of an outline are pieces, `on = { piece = \"name\" }`";
 
 /// True if some of a part of the boundary bounds the body.
 fn reaches_body(part: BoundaryPart, problem: &ProblemData) -> bool {

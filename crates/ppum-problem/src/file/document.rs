@@ -15,7 +15,7 @@ use toml::Spanned;
 use toml::de::{DeInteger, DeTable, DeValue};
 
 use super::diagnostics::{DiagnosticList, quotes};
-use super::keys::{KeyTable, Kind};
+use super::keys::{BOUNDARY, CRACK, KeyTable, Kind};
 use crate::data::{Diagnostic, EquationKind, HeatedBody, Keyword, expression, scopes, words};
 
 /// Longest problem file, in bytes: a hundred thousand cracks take some.
@@ -131,8 +131,12 @@ impl<'a> Section<'a> {
         let equation = self.document.equation.get();
         let rows = self.keys.keys.iter().filter(|row| row.fits(equation));
         let known: Vec<_> = rows.map(|row| row.name).collect();
+        let loads_faces = self.keys.name == CRACK.name && BOUNDARY.row(name).is_some();
         match nearest(name, known.iter().copied()) {
             Some(near) => (format!("; did you mean `{near}`?"), Some(near)),
+            None if loads_faces => {
+                ("; faces are loaded by a [[boundary]] with `on = { crack = 0 }`".into(), None)
+            }
             None => (format!("; known are {}", known.join(", ")), None),
         }
     }

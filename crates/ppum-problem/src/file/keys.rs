@@ -226,7 +226,7 @@ tables! {
         segments: Whole => "Has no effect any more: curves are exact.";
     }
 
-    static CRACK = "[[crack]]", "" {
+    pub(super) static CRACK = "[[crack]]", "" {
         points: POINTS, example("[[-0.5, 0.0], [0.5, 0.0]]") => "A polyline of at least two points.";
         bulges: NUMBERS =>
             "With `points`: a number for each edge, as in DXF: tan(φ/4) of an arc that turns left by φ (1 is half a "
@@ -273,7 +273,7 @@ tables! {
         to: Constant, required("90") => "The angle at which it ends.";
     }
 
-    static BOUNDARY = "[[boundary]]", "" {
+    pub(super) static BOUNDARY = "[[boundary]]", "" {
         on: Either(&[Word(places), Table(&ON)]), required("\"top\"") =>
             "Where: an edge, a piece of one, the outline, the rim of a hole, a piece with a name, the faces of a "
             "crack; see below.";

@@ -85,7 +85,7 @@ fn mistakes_of_outlines() {
     let twice = "on = \"outline\"\ntraction = [0, 1]\n[[boundary]]\non = { piece = \"head\" }";
     wrong("on = { piece = \"head\" }", twice, "on the piece `head` is given twice");
     wrong("on = { piece = \"slot\" }", "on = { hole = 1 }", "the only [[hole]] has the number 0");
-    wrong("on = { piece = \"slot\" }", "on = \"left\"", "nothing of the body is there");
+    wrong("on = { piece = \"slot\" }", "on = \"left\"", "sides of an outline are pieces");
     wrong("[[0, 2.5], [0.5, 2.5]]", "[[0, 2.5], [0, 3]]", "the crack runs along the straight side");
     wrong("name = \"head\"", "name = \"\"", "is empty");
     let flat = "[domain.outline]\npoints = [[0, 0], [1, 0]]\n[material]";

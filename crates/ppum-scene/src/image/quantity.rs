@@ -146,12 +146,16 @@ fn of_cells(name: &str, field: &Field<'_>) -> Option<Result<DisplayedQuantity, D
 
 /// The error for an unknown quantity, with the names of values of cells.
 fn with_cells(error: QuantityError, field: &Field<'_>) -> DisplayError {
-    let QuantityError::Unknown { name, known, .. } = &error else { return error.into() };
+    let QuantityError::Unknown { name, hint: of_points, known } = &error else {
+        return error.into();
+    };
     let cells = cells::names(field);
     if cells.is_empty() {
         return error.into();
     }
-    let hint = hint(name, known.split(", ").chain(cells.iter().map(String::as_str)));
+    // names of other programs are known where points have quantities
+    let of_cells = || hint(name, cells.iter().map(String::as_str));
+    let hint = if of_points.is_empty() { of_cells() } else { of_points.clone() };
     let error = QuantityError::Unknown { name: name.clone(), hint, known: known.clone() };
     let error = Box::new(error);
     DisplayError::Unknown { error, cells: cells.join(", ") }
