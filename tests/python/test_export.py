@@ -156,12 +156,12 @@ def test_meshio_reads_the_mesh(folder):
 
 
 def probed(grid, points):
-    """The arrays of a grid at points, as VTK interpolates in its cells."""
+    """The arrays of a grid at points of the plane or in space, as VTK interpolates in its cells."""
     import vtk
     from vtk.util.numpy_support import numpy_to_vtk
 
     cloud, positions = vtk.vtkPolyData(), vtk.vtkPoints()
-    positions.SetData(numpy_to_vtk(np.column_stack([points, np.zeros(len(points))]), deep=True))
+    positions.SetData(numpy_to_vtk(np.pad(points, ((0, 0), (0, 3 - points.shape[1]))), deep=True))
     cloud.SetPoints(positions)
     probe = vtk.vtkProbeFilter()
     probe.SetInputData(cloud)
@@ -195,6 +195,69 @@ def test_vtk_probes_meshes_of_all_orders(folder):
         if order == 1:
             check_contours(dataset, grid, data)
     assert counts[0] > max(counts[1:]) > 1000
+
+
+REVOLUTION = """
+[domain]
+min = [0.0, -1.0]
+max = [1.0, 1.0]
+[material]
+young = 1.0
+poisson = 0.3
+state = "axisymmetric"
+[[crack]]
+points = [[0.3, -0.2], [0.6, 0.1]]
+[[boundary]]
+on = "bottom"
+traction = [0.0, -1.0]
+[[boundary]]
+on = "top"
+traction = [0.0, 1.0]
+[discretization]
+level = 3
+"""
+
+
+@needs("vtkmodules", "swept meshes in VTK")
+def test_vtk_reads_swept_bodies(folder):
+    """Wedges, pyramids and tetrahedra fill the body, and what turns with the points is that of the half-plane."""
+    import vtk
+
+    segments, dataset = 120, solved(folder, REVOLUTION)
+    accuracy = ("--tolerance", 0.05, "--tip-radius", RADIUS)
+    flat, body = (
+        read(vtk.vtkXMLUnstructuredGridReader(), exported(dataset, name, *accuracy, *options))
+        for name, options in (("flat.vtu", ()), ("body.vtu", ("--revolve", segments)))
+    )
+    assert body.GetNumberOfCells() == segments * flat.GetNumberOfCells()
+    sizes = vtk.vtkCellSizeFilter()
+    sizes.SetInputData(body)
+    sizes.Update()
+    data = sizes.GetOutput().GetCellData()
+    volumes = np.array([data.GetArray("Volume").GetValue(k) for k in range(body.GetNumberOfCells())])
+    assert (volumes > 0).all() and abs(volumes.sum() / (segments * np.sin(2 * np.pi / segments)) - 1) < 1e-9
+    random = np.random.default_rng(5)
+    x, y, angle = random.uniform(0.01, 0.99, 2000), random.uniform(-1, 1, 2000), random.uniform(0, 2 * np.pi, 2000)
+    far = (np.hypot(x - 0.3, y + 0.2) > 0.1) & (np.hypot(x - 0.6, y - 0.1) > 0.1) & (abs(y + 0.5 - x) > 0.02)
+    x, y, angle = x[far], y[far], angle[far]
+    c, s = np.cos(angle), np.sin(angle)
+    found = probed(body, np.column_stack([x * c, y, -x * s]))
+    own = probed(flat, np.column_stack([x, y]))
+    u, (xx, yy, zz, xy, yz, xz) = found["displacement"], found["stress"].T
+    pairs = [
+        (c * u[:, 0] - s * u[:, 2], own["displacement"][:, 0]),
+        (s * u[:, 0] + c * u[:, 2], 0 * x),
+        (u[:, 1], own["displacement"][:, 1]),
+        (c * c * xx + s * s * zz - 2 * c * s * xz, own["stress"][:, 0]),
+        (yy, own["stress"][:, 1]),
+        (s * s * xx + c * c * zz + 2 * c * s * xz, own["stress"][:, 2]),
+        (c * xy - s * yz, own["stress"][:, 3]),
+        (s * xy + c * yz, 0 * x),
+        (found["von-mises"], own["von-mises"]),
+    ]
+    for k, (turned, expected) in enumerate(pairs):
+        # chords are (π/segments)²/2 of the radius nearer to the axis
+        assert abs(turned - expected).max() < 0.05 * max(abs(expected).max(), 0.1), (k, abs(turned - expected).max())
 
 
 #: Distance from the crack at which its faces are sampled.

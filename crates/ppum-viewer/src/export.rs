@@ -17,6 +17,7 @@ use ppum_scene::command;
 use ppum_scene::compose::{page_of_view, reshaped, view_in};
 use ppum_scene::engine::Engine;
 use ppum_scene::magnification::Magnification;
+use ppum_scene::mirror::Mirror;
 use ppum_scene::notice::Notice;
 use ppum_scene::overlays::Overlay;
 use ppum_scene::page_style::PageStyle;
@@ -336,6 +337,10 @@ impl ImageExport {
         if let Some(design) = &design {
             view = view_in(&self.subject()?, &request, &view, design)?;
             (request.figure, request.look) = (true, PageStyle::of(design));
+            // the command would show the whole of a body of revolution
+            let mirror = &mut request.scene.mirror;
+            *mirror =
+                mirror.take().or(Mirror::of_figures(self.field.dataset()).and(Some(Mirror::NONE)));
         }
         request.place = ViewRegion::of(&view);
         let mut words = command::render(&request, file, output);

@@ -146,3 +146,29 @@ fn averages_take_fewer_points() {
     let complaint = lab.fail("export plate.h5 -o page.html --average");
     assert!(complaint.contains("--average is for meshes"), "{complaint}");
 }
+
+/// Bodies of revolution are swept around their axis; plane ones and other files are refused.
+#[test]
+fn bodies_of_revolution_are_swept() {
+    let lab = Lab::solved(super::mirror::CYLINDER);
+    let told = lab.run("export plate.h5 -o body.vtu --tolerance 0.1 --revolve 12");
+    let flat = lab.run("export plate.h5 -o flat.vtu --tolerance 0.1");
+    assert_eq!(told.lines().last(), flat.lines().last());
+    let cells = |file: &str| -> usize {
+        let text = std::fs::read_to_string(lab.path(file)).unwrap();
+        let count = text.split_once("NumberOfCells=\"").expect("cells").1;
+        count.split_once('"').unwrap().0.parse().unwrap()
+    };
+    assert_eq!(cells("body.vtu"), 12 * cells("flat.vtu"));
+    for (options, reason) in [
+        ("-o body.vtu --revolve 12 --order 2", "swept cells are linear"),
+        ("-o body.vtkhdf --revolve 12", "end -o in .vtu"),
+        ("-o body.html --revolve 12", "--revolve is for meshes"),
+        ("-o body.vtu --revolve 2", "2 is not in 3.."),
+    ] {
+        let complaint = lab.fail(&format!("export plate.h5 {options}"));
+        assert!(complaint.contains(reason), "{complaint}");
+    }
+    let complaint = Lab::solved(CRACKED).fail("export plate.h5 -o body.vtu --revolve 12");
+    assert!(complaint.contains("the body is plane"), "{complaint}");
+}

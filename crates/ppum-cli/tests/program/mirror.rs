@@ -647,3 +647,61 @@ fn lines_are_named_where_nobody_knows_them() {
     }
     lab.fail("export plate.h5 -o a.html --mirror");
 }
+
+/// The half-plane of a cylinder with a crack that is a cone.
+pub(crate) const CYLINDER: &str = r#"
+[domain]
+min = [0, -1]
+max = [1, 1]
+[material]
+young = 1.0
+poisson = 0.3
+state = "axisymmetric"
+[[crack]]
+points = [[0.2, 0], [0.5, 0.1]]
+[[boundary]]
+on = "top"
+traction = [0, 1]
+[[boundary]]
+on = "bottom"
+traction = [0, -1]
+[discretization]
+level = 3
+order = 2
+"#;
+
+/// Figures of a body of revolution show the whole, in panels and films too; images without axes
+/// and those that say so do not. The radial displacement and shear change their sign at the axis.
+#[test]
+fn figures_show_bodies_of_revolution() {
+    let lab = Lab::solved(CYLINDER);
+    let mirror = |name: &str| {
+        let texts = Png::read(&lab.path(name)).texts;
+        texts.into_iter().find(|(key, _)| key == "ppum:mirror").map(|(_, edges)| edges)
+    };
+    for (options, edges) in [
+        ("--figure", Some("left")),
+        ("-q ux,shoop", Some("left")),
+        ("--figure --mirror=none", None),
+        ("--figure --mirror=top", Some("top")),
+        ("", None),
+        ("--mirror", Some("left")),
+    ] {
+        lab.run(&format!("render plate.h5 -o a.png --size 600x300 {options}"));
+        assert_eq!(mirror("a.png").as_deref(), edges, "{options}");
+    }
+    lab.run("render plate.h5 -o a.gif --figure --steps all --size 400x300");
+    let dataset = ppum_format::read(&lab.path("plate.h5")).unwrap();
+    for (name, sign) in
+        [("ux", -1.0), ("uy", 1.0), ("sxy", -1.0), ("syy", 1.0), ("shoop", 1.0), ("ehoop", 1.0)]
+    {
+        let place = ViewRegion::default();
+        let drawn = drawn(&dataset, request(name, Some("auto"), &place, [64, 64]), Samples::CENTER);
+        for row in values(&drawn).chunks(64) {
+            let pairs = row.iter().zip(row.iter().rev());
+            let differs = |(a, b): (&f64, &f64)| a.is_finite() && *a != sign * b;
+            assert_eq!(pairs.filter(|pair| differs(*pair)).count(), 0, "{name}");
+        }
+        assert!(values(&drawn).iter().filter(|value| value.is_finite()).count() > 1000, "{name}");
+    }
+}

@@ -45,6 +45,10 @@ def _word(yes: str | None, no: str | None) -> Callable[[bool | str], str | None]
     return lambda asked: asked if isinstance(asked, str) else yes if asked else no
 
 
+def _mirror(asked: bool | str | None) -> str | None:
+    return None if asked is None else _word("auto", "none")(asked)
+
+
 def _inches(inches: Any) -> str:
     try:
         sides = [float(side) for side in np.atleast_1d(inches)]
@@ -144,7 +148,9 @@ class HtmlOptions(PlaceOptions, SceneOptions, total=False):
 class ComputedOptions(SceneOptions, total=False):
     """The content of an image, and how it is computed."""
 
-    mirror: Annotated[bool | str, Option(False, more="``True`` is auto", at="mirror", written=_word("auto", None))]
+    mirror: Annotated[
+        bool | str | None, Option(None, more="``True`` is auto, ``False`` none", at="mirror", written=_mirror)
+    ]
     samples: Annotated[int, Option(1, at="samples")]
     precision: Annotated[Literal["f64", "f32"] | None, Option(None, at="precision")]
     blank: Annotated[bool, Option(False, at="blank")]

@@ -17,6 +17,7 @@ mod elements;
 mod lagrange;
 mod measure;
 mod refine;
+mod revolve;
 mod singular;
 mod torn;
 pub mod vtkhdf;

@@ -14,7 +14,7 @@ use ppum_figure::canvas::xml::escaped;
 use ppum_figure::canvas::zlib::zlib;
 use rayon::prelude::*;
 
-use super::lagrange::node_count;
+use super::revolve::MOST_POINTS;
 use super::{ExportMesh, MeasuredAccuracy, RANDOM_POINTS};
 
 /// Bytes that are compressed at a time.
@@ -76,27 +76,93 @@ impl NumberRows {
     }
 }
 
+/// Points, cells and values of a file.
+#[derive(Default)]
+pub(super) struct Grid {
+    /// Three coordinates of each point.
+    points: Vec<f64>,
+    /// The values of each array.
+    arrays: Vec<Vec<f64>>,
+    /// The points of all cells.
+    nodes: Vec<u32>,
+    /// Where the points of each cell end.
+    ends: Vec<u32>,
+    /// The kinds of the cells.
+    types: Vec<u8>,
+}
+
+impl Grid {
+    /// Points with their values.
+    pub(super) fn without_cells(points: Vec<f64>, arrays: Vec<Vec<f64>>) -> Self {
+        Self { points, arrays, ..Self::default() }
+    }
+
+    /// The triangles of the plane.
+    fn flat(mesh: &ExportMesh) -> Self {
+        let points = mesh.points.iter().copied().flat_map(flat).collect();
+        let arrays = (0..mesh.arrays.len()).map(|number| mesh.values_of(number)).collect();
+        let mut grid = Self::without_cells(points, arrays);
+        mesh.triangles().for_each(|triangle| grid.add(cell_type(mesh), triangle));
+        grid
+    }
+
+    /// Adds a cell of a kind.
+    pub(super) fn add(&mut self, kind: u8, nodes: &[u32]) {
+        self.nodes.extend(nodes);
+        self.ends.push(self.nodes.len() as u32);
+        self.types.push(kind);
+    }
+}
+
 /// Writes a mesh.
 ///
 /// # Errors
 /// Those of the writer.
 pub fn write(out: &mut dyn Write, mesh: &ExportMesh, about: &FileNotes) -> io::Result<()> {
-    let (points, cells) = (mesh.points.len(), mesh.triangles().len());
+    write_grid(out, &Grid::flat(mesh), mesh, about)
+}
+
+/// Writes the mesh of a body of revolution in space, swept around the axis in so many segments; its
+/// triangles have the order 1.
+///
+/// # Errors
+/// Those of the writer; more points of cells than files count.
+pub fn write_revolved(
+    out: &mut dyn Write,
+    mesh: &ExportMesh,
+    segments: usize,
+    about: &FileNotes,
+) -> io::Result<()> {
+    let most = MOST_POINTS * segments * mesh.triangles().len();
+    if i32::try_from(most).is_err() {
+        let message = "too many cells for a file; take fewer segments, or a larger tolerance";
+        return Err(io::Error::other(message));
+    }
+    write_grid(out, &Grid::revolved(mesh, segments), mesh, about)
+}
+
+fn write_grid(
+    out: &mut dyn Write,
+    grid: &Grid,
+    mesh: &ExportMesh,
+    about: &FileNotes,
+) -> io::Result<()> {
+    let (points, cells) = (grid.points.len() / 3, grid.types.len());
     write_head(out, "UnstructuredGrid")?;
     write_about(out, mesh, about)?;
     writeln!(out, "<Piece NumberOfPoints=\"{points}\" NumberOfCells=\"{cells}\">")?;
     writeln!(out, "<Points>")?;
-    let positions: Vec<f64> = mesh.points.iter().copied().flat_map(flat).collect();
-    numbers(out, "Points", "NumberOfComponents=\"3\"", &positions)?;
+    numbers(out, "Points", "NumberOfComponents=\"3\"", &grid.points)?;
     writeln!(out, "</Points>\n<Cells>")?;
-    let numbers_of_points: Vec<u8> = mesh.cells.iter().flat_map(|k| k.to_le_bytes()).collect();
-    array(out, "Int32", "connectivity", "", &numbers_of_points)?;
-    let size = node_count(mesh.accuracy.order) as u32;
-    let ends: Vec<u8> = (1..=cells as u32).flat_map(|k| (size * k).to_le_bytes()).collect();
-    array(out, "Int32", "offsets", "", &ends)?;
-    array(out, "UInt8", "types", "", &vec![cell_type(mesh); cells])?;
+    let bytes = |all: &[u32]| all.iter().flat_map(|k| k.to_le_bytes()).collect::<Vec<u8>>();
+    array(out, "Int32", "connectivity", "", &bytes(&grid.nodes))?;
+    array(out, "Int32", "offsets", "", &bytes(&grid.ends))?;
+    array(out, "UInt8", "types", "", &grid.types)?;
     writeln!(out, "</Cells>\n<PointData>")?;
-    write_arrays(out, mesh)?;
+    for (measured, values) in mesh.arrays.iter().zip(&grid.arrays) {
+        let size = attributes(&measured.array.components);
+        numbers(out, &measured.array.name, &size, values)?;
+    }
     writeln!(out, "</PointData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>")
 }
 
@@ -127,14 +193,6 @@ pub fn write_collection(out: &mut dyn Write, files: &[(f64, String)]) -> io::Res
         writeln!(out, "<DataSet timestep=\"{time}\" file=\"{}\"/>", escaped(file))?;
     }
     writeln!(out, "</Collection>\n</VTKFile>")
-}
-
-fn write_arrays(out: &mut dyn Write, mesh: &ExportMesh) -> io::Result<()> {
-    for (number, measured) in mesh.arrays.iter().enumerate() {
-        let size = attributes(&measured.array.components);
-        numbers(out, &measured.array.name, &size, &mesh.values_of(number))?;
-    }
-    Ok(())
 }
 
 /// The number of components, and their names.

@@ -81,10 +81,9 @@ pub trait FrameSource {
     /// Fields that are no displacements; datasets that do not know their lines of symmetry.
     fn resolved(&self, request: &Request) -> Result<Request, Self::Error> {
         let mut request = request.clone();
-        if request.scene.mirror.is_some() && self.count() > 0 {
+        if (request.is_figure() || request.scene.mirror.is_some()) && self.count() > 0 {
             self.with(0, &mut |subject, _| {
-                let scene = request.scene.clone().with_edges(subject.dataset);
-                request.scene = scene.map_err(ImageError::from)?;
+                request.scene = request.scene_of(subject.dataset).map_err(ImageError::from)?;
                 Ok(())
             })?;
         }

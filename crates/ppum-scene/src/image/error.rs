@@ -66,7 +66,9 @@ pub enum ImageErrorKind {
     #[error("samples: {0} drawn at the centres of pixels; leave samples out")]
     Samples(&'static str),
     /// Means of more samples of the whole of a half than memory is meant for.
-    #[error("samples: mirrored images hold all samples at once; take fewer, or a smaller size")]
+    #[error(
+        "samples: mirrored images hold all samples at once; take fewer, a smaller size, or `mirror = none`"
+    )]
     MirroredSamples,
     /// A frame of an animation with more pixels than memory is meant for.
     #[error("frames of {}x{} pixels do not fit into memory; choose a smaller size", .0[0], .0[1])]

@@ -109,7 +109,10 @@ impl<'a> ImageSubject<'a> {
     /// # Errors
     /// Fields that are no displacements, a dataset that does not know its lines.
     pub fn resolved(&self, request: &Request) -> Result<Request, ImageError> {
-        let mut scene = request.scene.clone().with_edges(self.dataset)?;
+        let mut scene = match self.left {
+            Some(_) => request.scene.clone().with_edges(self.dataset)?,
+            None => request.scene_of(self.dataset)?,
+        };
         if let Some(factor) = scene.deformed {
             scene.deformed = Some(Magnification::Given(factor.number(&[self.field])?));
         }

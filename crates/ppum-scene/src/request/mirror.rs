@@ -12,12 +12,13 @@ use ppum::dataset::Dataset;
 use ppum::domain::Domain;
 use ppum::vec2::{Rect, Vec2, vec2};
 
-/// The edges at which the body is mirrored: written `auto`, or as a list with commas between.
+/// The edges at which the body is mirrored: written `auto`, `none`, or as a list with commas
+/// between.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mirror {
     /// Beyond the edges whose symmetry the dataset knows.
     Auto,
-    /// Beyond these, at most one of left and right and one of bottom and top.
+    /// Beyond these, at most one of left and right and one of bottom and top; `none` without any.
     Edges(Vec<MirrorEdge>),
 }
 
@@ -120,8 +121,10 @@ impl FromStr for Mirror {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        if text.trim() == "auto" {
-            return Ok(Self::Auto);
+        match text.trim() {
+            "auto" => return Ok(Self::Auto),
+            "none" => return Ok(Self::NONE),
+            _ => {}
         }
         let edges: Vec<MirrorEdge> = text.split(',').map(str::parse).collect::<Result<_, _>>()?;
         for (k, one) in edges.iter().enumerate() {
@@ -156,6 +159,7 @@ impl fmt::Display for Mirror {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Auto => f.write_str("auto"),
+            Self::Edges(edges) if edges.is_empty() => f.write_str("none"),
             Self::Edges(edges) => {
                 let all: Vec<_> = edges.iter().map(MirrorEdge::to_string).collect();
                 f.write_str(&all.join(","))
@@ -174,6 +178,17 @@ impl fmt::Display for MirrorEdge {
 crate::request::written::as_text!(Mirror);
 
 impl Mirror {
+    /// The part that was solved alone.
+    pub const NONE: Self = Self::Edges(Vec::new());
+
+    /// The axis of a body of revolution that begins there: figures show the whole of it.
+    #[must_use]
+    pub fn of_figures(dataset: &Dataset) -> Option<Self> {
+        let mut edges = with_axis(Vec::new(), dataset);
+        edges.retain(|line| line.edge.is_reached_by(&dataset.domain));
+        (!edges.is_empty()).then_some(Self::Edges(edges))
+    }
+
     /// The edges: as they are named, else those that the problem of the dataset knows.
     ///
     /// # Errors
@@ -186,7 +201,7 @@ impl Mirror {
         let away = edges.iter().find(|line| !line.edge.is_reached_by(&dataset.domain));
         match away {
             Some(line) => Err(MirrorError::Away(line.edge.name())),
-            None if edges.is_empty() => Err(MirrorError::Unknown),
+            None if edges.is_empty() && *self == Self::Auto => Err(MirrorError::Unknown),
             None => Ok(edges),
         }
     }
@@ -234,9 +249,14 @@ mod tests {
 
     #[test]
     fn mirrors_are_written_as_they_are_read() {
-        for text in
-            ["auto", "bottom", "left:antisymmetric", "top,right", "left,bottom:antisymmetric"]
-        {
+        for text in [
+            "auto",
+            "none",
+            "bottom",
+            "left:antisymmetric",
+            "top,right",
+            "left,bottom:antisymmetric",
+        ] {
             assert_eq!(text.parse::<Mirror>().expect("a mirror").to_string(), text);
         }
         assert_eq!(" left : symmetric ".parse::<Mirror>().expect("a mirror").to_string(), "left");

@@ -18,6 +18,7 @@ pub mod region;
 pub mod scene;
 pub(crate) mod written;
 
+use ppum::dataset::Dataset;
 use ppum::vec2::Rect;
 use ppum_figure::figure::{BarPlace, FigureStyle, Labels};
 use ppum_render::samples::Samples;
@@ -26,6 +27,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 #[cfg(feature = "clap")]
 use crate::request::arguments::layout;
 use crate::request::backend::{Backend, Precision};
+use crate::request::mirror::{Mirror, MirrorError};
 use crate::request::page_style::PageStyle;
 use crate::request::region::ViewRegion;
 use crate::request::scene::SceneRequest;
@@ -170,6 +172,19 @@ impl Request {
     #[must_use]
     pub fn is_figure(&self) -> bool {
         self.figure || self.panels.are_given()
+    }
+
+    /// Returns the scene of its image of a dataset, with the edges named at which the body is
+    /// mirrored: figures show the whole of a body of revolution unless the request says otherwise.
+    ///
+    /// # Errors
+    /// As [`Mirror::edges`].
+    pub fn scene_of(&self, dataset: &Dataset) -> Result<SceneRequest, MirrorError> {
+        let mut scene = self.scene.clone();
+        if self.is_figure() && scene.mirror.is_none() {
+            scene.mirror = Mirror::of_figures(dataset);
+        }
+        scene.with_edges(dataset)
     }
 
     /// Returns the request for a step.

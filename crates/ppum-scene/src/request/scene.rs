@@ -45,9 +45,10 @@ pub struct SceneRequest {
     pub outline: bool,
     /// Draw the full body of a half or quarter model: mirrored at the symmetry edges of its problem
     /// (auto), or at these edges, with `:antisymmetric` after those of an antisymmetric field
+    /// [default: in figures of a body of revolution its axis, else none]
     #[cfg_attr(
         feature = "clap",
-        arg(long, value_name = "auto|EDGE,…", num_args = 0..=1, require_equals = true),
+        arg(long, value_name = "auto|none|EDGE,…", num_args = 0..=1, require_equals = true),
         arg(default_missing_value = "auto")
     )]
     pub mirror: Option<Mirror>,
@@ -71,6 +72,7 @@ impl SceneRequest {
     pub fn with_edges(self, dataset: &Dataset) -> Result<Self, MirrorError> {
         let edges = |mirror: &Mirror| mirror.edges(dataset).map(Mirror::Edges);
         let mirror = self.mirror.as_ref().map(edges).transpose()?;
+        let mirror = mirror.filter(|mirror| *mirror != Mirror::NONE);
         Ok(Self { mirror, ..self })
     }
 

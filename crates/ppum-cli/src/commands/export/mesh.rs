@@ -52,6 +52,10 @@ pub(crate) struct Options {
     /// and interfaces only
     #[arg(long)]
     average: bool,
+    /// Sweep the mesh of a body of revolution around its axis in so many segments, 3 or more: a
+    /// body in space of wedges, vectors and tensors turned, y its axis
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(3..))]
+    revolve: Option<u16>,
 }
 
 impl Options {
@@ -63,6 +67,7 @@ impl Options {
             ("--max-cells", self.max_cells.is_some()),
             ("--order", self.order.is_some()),
             ("--average", self.average),
+            ("--revolve", self.revolve.is_some()),
         ];
         match given.into_iter().find(|(_, is_given)| *is_given) {
             Some((option, _)) => {
@@ -107,6 +112,7 @@ impl Options {
         let count = job.dataset.steps.len();
         let format = FileFormat::of(job.output);
         if format == Some(FileFormat::VtkHdf) {
+            ensure!(self.revolve.is_none(), "--revolve: end -o in .vtu, or in .pvd for a series");
             return self.write_vtkhdf(job, step.map_or(0..count, |step| step..step + 1), out);
         }
         let step = step.unwrap_or(count.saturating_sub(1));
@@ -176,8 +182,19 @@ impl Options {
         file: &Path,
         out: &mut StandardStream,
     ) -> anyhow::Result<bool> {
+        if self.revolve.is_some() {
+            ensure!(
+                job.dataset.equation.is_axisymmetric(),
+                "--revolve: the body is plane; one of revolution has `state = \"axisymmetric\"`"
+            );
+            let order = self.order.unwrap_or(1);
+            ensure!(order == 1, "--revolve: swept cells are linear; leave --order out");
+        }
         let (mesh, about) = self.mesh(job, step)?;
-        target::save(file, |out| vtu::write(out, &mesh, &about))?;
+        target::save(file, |out| match self.revolve {
+            Some(segments) => vtu::write_revolved(out, &mesh, segments.into(), &about),
+            None => vtu::write(out, &mesh, &about),
+        })?;
         let size = file.metadata().map_or(0, |found| found.len()) as f64 / 1e6;
         writeln!(out, "wrote {}: {size:.1} MB", file.display())?;
         tell_mesh(&mesh, out)
