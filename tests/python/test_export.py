@@ -223,7 +223,7 @@ def test_vtk_reads_swept_bodies(folder):
     """Wedges, pyramids and tetrahedra fill the body, and what turns with the points is that of the half-plane."""
     import vtk
 
-    segments, dataset = 120, solved(folder, REVOLUTION)
+    segments, dataset = 60, solved(folder, REVOLUTION)
     accuracy = ("--tolerance", 0.05, "--tip-radius", RADIUS)
     flat, body = (
         read(vtk.vtkXMLUnstructuredGridReader(), exported(dataset, name, *accuracy, *options))
@@ -255,9 +255,11 @@ def test_vtk_reads_swept_bodies(folder):
         (s * xy + c * yz, 0 * x),
         (found["von-mises"], own["von-mises"]),
     ]
-    for k, (turned, expected) in enumerate(pairs):
-        # chords are (π/segments)²/2 of the radius nearer to the axis
-        assert abs(turned - expected).max() < 0.05 * max(abs(expected).max(), 0.1), (k, abs(turned - expected).max())
+    of_displacement, of_stress, of_mises = arrays_of(flat, flat.GetFieldData())["allowed_difference"]
+    bounds = [of_displacement] * 3 + [of_stress] * 5 + [of_mises]
+    for k, ((turned, expected), bound) in enumerate(zip(pairs, bounds, strict=True)):
+        # chords are nearer to the axis than the half-plane's points, perhaps in another triangle
+        assert abs(turned - expected).max() < bound, (k, abs(turned - expected).max(), bound)
 
 
 #: Distance from the crack at which its faces are sampled.
