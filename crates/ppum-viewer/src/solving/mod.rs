@@ -92,7 +92,8 @@ pub struct SolverState {
     /// Memory that is free \[bytes\], as far as the system tells.
     pub memory: fn() -> Option<u64>,
     checked: Option<Arc<CheckedText>>,
-    checking: Option<BackgroundJob<CheckedText>>,
+    /// The text that is being checked, and the check.
+    checking: Option<(String, BackgroundJob<CheckedText>)>,
     running: Option<RunningSolution>,
     ctx: egui::Context,
 }
@@ -191,32 +192,37 @@ impl SolverState {
         }
     }
 
+    /// Takes the result of the check that runs, once it has ended, whichever page is open then.
+    fn take_checked(&mut self) {
+        let Some((text, job)) = &self.checking else { return };
+        let Some(outcome) = job.poll() else { return };
+        let broken = |message| CheckedText {
+            text: text.clone(),
+            marks: vec![Mark { at: None, message }],
+            preview: None,
+        };
+        let mut checked = outcome.unwrap_or_else(broken);
+        let before = self.checked.as_ref().and_then(|before| before.preview.clone());
+        let is_complete = |preview: &Arc<Preview>| preview.is_complete;
+        let full = |preview: Option<Arc<Preview>>| preview.filter(is_complete);
+        checked.preview = full(checked.preview.clone()).or(full(before)).or(checked.preview);
+        (self.checked, self.checking) = (Some(Arc::new(checked)), None);
+    }
+
     /// Looks for errors in the background whenever the text is another one.
     pub fn check(&mut self, draft: &ProblemDraft) {
-        if let Some(outcome) = self.checking.as_ref().and_then(BackgroundJob::poll) {
-            self.checking = None;
-            let broken = |message| CheckedText {
-                text: draft.text.clone(),
-                marks: vec![Mark { at: None, message }],
-                preview: None,
-            };
-            let mut checked = outcome.unwrap_or_else(broken);
-            let before = self.checked.as_ref().and_then(|before| before.preview.clone());
-            let is_complete = |preview: &Arc<Preview>| preview.is_complete;
-            let full = |preview: Option<Arc<Preview>>| preview.filter(is_complete);
-            checked.preview = full(checked.preview.clone()).or(full(before)).or(checked.preview);
-            self.checked = Some(Arc::new(checked));
-        }
+        self.take_checked();
         let is_known = self.checked.as_ref().is_some_and(|checked| checked.text == draft.text);
         if self.checking.is_none() && !is_known {
             let text = self.text(draft);
-            self.checking = Some(BackgroundJob::start(&self.ctx, move |_| {
+            let job = BackgroundJob::start(&self.ctx, move |_| {
                 let (marks, preview) = match text.parse() {
                     Ok(problem) => (Vec::new(), Some(Arc::new(Preview::new(&problem)))),
                     Err(error) => (marks(&error), text.body().map(Arc::new)),
                 };
                 CheckedText { text: text.text, marks, preview }
-            }));
+            });
+            self.checking = Some((draft.text.clone(), job));
         }
     }
 
@@ -283,6 +289,7 @@ impl SolverState {
 
     /// The dataset that was computed since.
     pub fn poll(&mut self) -> Option<ComputedDataset> {
+        self.take_checked();
         let ended = self.running.as_ref()?.job.poll()?;
         let running = self.running.take()?;
         let (dataset, stopped) =
