@@ -114,7 +114,7 @@ impl Ahead<'_> {
         border.into_iter().chain(holes).chain(others).chain(self.tips(way))
     }
 
-    /// What becomes of a tip at a place of the boundary.
+    /// The status of a tip at a point of the boundary.
     fn beyond(&self, at: Vec2) -> TipStatus {
         let is_axis = at.x.abs() <= touch(&self.problem.domain().bounds);
         match self.problem.equation.is_axisymmetric() && is_axis {

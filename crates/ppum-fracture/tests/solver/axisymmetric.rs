@@ -305,8 +305,8 @@ fn energy_release_of_cones_arcs_and_kinks() {
     }
 }
 
-/// K_II of an insulated penny-shaped crack of radius 1 across a flux of heat with the gradient 1, in
-/// a cylinder of radius b and height 2b.
+/// K_II of an insulated penny-shaped crack of radius 1 across a flux of heat with the gradient 1,
+/// in a cylinder of radius b and height 2b.
 fn insulated_penny(b: f64) -> f64 {
     let problem = format!(
         "[temperature]\nproblem = '''\n[equation]\nkind = \"poisson\"\naxisymmetric = true\n\

@@ -14,6 +14,7 @@ mod arrays;
 mod average;
 mod borders;
 mod elements;
+mod grid;
 mod lagrange;
 mod measure;
 mod refine;

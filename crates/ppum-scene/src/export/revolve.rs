@@ -1,15 +1,15 @@
 //! The mesh of a body of revolution in space: its triangles swept around the axis.
 //!
-//! Between two segments a triangle sweeps a wedge, beside the axis a pyramid or a tetrahedron, since
-//! points on the axis stay where they are. The axis is y, and the half-plane that was solved is
-//! z = 0, x ≥ 0.
+//! Between two segments a triangle sweeps a wedge, beside the axis a pyramid or a tetrahedron,
+//! since points on the axis stay where they are. The axis is y, and the half-plane that was solved
+//! is z = 0, x ≥ 0.
 
 use std::f64::consts::TAU;
 
 use ppum::vec2::Vec2;
 
 use super::ExportMesh;
-use super::vtu::Grid;
+use super::grid::Grid;
 
 /// The kinds of cells of VTK.
 const TETRAHEDRON: u8 = 10;

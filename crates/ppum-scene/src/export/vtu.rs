@@ -14,6 +14,7 @@ use ppum_figure::canvas::xml::escaped;
 use ppum_figure::canvas::zlib::zlib;
 use rayon::prelude::*;
 
+use super::grid::Grid;
 use super::revolve::MOST_POINTS;
 use super::{ExportMesh, MeasuredAccuracy, RANDOM_POINTS};
 
@@ -76,27 +77,7 @@ impl NumberRows {
     }
 }
 
-/// Points, cells and values of a file.
-#[derive(Default)]
-pub(super) struct Grid {
-    /// Three coordinates of each point.
-    points: Vec<f64>,
-    /// The values of each array.
-    arrays: Vec<Vec<f64>>,
-    /// The points of all cells.
-    nodes: Vec<u32>,
-    /// Where the points of each cell end.
-    ends: Vec<u32>,
-    /// The kinds of the cells.
-    types: Vec<u8>,
-}
-
 impl Grid {
-    /// Points with their values.
-    pub(super) fn without_cells(points: Vec<f64>, arrays: Vec<Vec<f64>>) -> Self {
-        Self { points, arrays, ..Self::default() }
-    }
-
     /// The triangles of the plane.
     fn flat(mesh: &ExportMesh) -> Self {
         let points = mesh.points.iter().copied().flat_map(flat).collect();
@@ -104,13 +85,6 @@ impl Grid {
         let mut grid = Self::without_cells(points, arrays);
         mesh.triangles().for_each(|triangle| grid.add(cell_type(mesh), triangle));
         grid
-    }
-
-    /// Adds a cell of a kind.
-    pub(super) fn add(&mut self, kind: u8, nodes: &[u32]) {
-        self.nodes.extend(nodes);
-        self.ends.push(self.nodes.len() as u32);
-        self.types.push(kind);
     }
 }
 
