@@ -107,14 +107,16 @@ pub fn without(range: [f64; 2], others: &[[f64; 2]]) -> Vec<[f64; 2]> {
     others.iter().fold(vec![range], beside)
 }
 
+/// An edge with a range of its length.
+type EdgePart = (Edge, [f64; 2]);
+
 /// Number of connected parts of the rim of a polygon inside an open box.
 pub fn runs_of_rim(hole: &Hole, open: &Rect) -> usize {
     let parts = |side: Edge| clipped(side, open).into_iter().map(move |range| (side, range));
     let parts: Vec<_> = hole.edges_near(open).flat_map(|(_, side)| parts(side)).collect();
-    let goes_on =
-        |((side, [_, to]), (next, [from, _])): &(&(Edge, [f64; 2]), &(Edge, [f64; 2]))| {
-            *to == 1.0 && *from == 0.0 && side.to == next.from && inside(open, side.to)
-        };
+    let goes_on = |((side, [_, to]), (next, [from, _])): &(&EdgePart, &EdgePart)| {
+        *to == 1.0 && *from == 0.0 && side.to == next.from && inside(open, side.to)
+    };
     let joins = parts.iter().zip(parts.iter().cycle().skip(1)).filter(goes_on).count();
     // a rim that lies all inside goes on at each vertex
     (parts.len() - joins).max(parts.len().min(1))
