@@ -16,8 +16,8 @@ LAYERS = {
     "datasets": ["_dataset", "results"],
     "problem": ["_sections", "_problem", "_sweep", "_weights"],
     "arrays": [
-        "_checks", "_arrays", "_shapes", "_blocks", "_functions", "_cover", "_mesh", "_state", "_head", "_verify",
-        "build", "basis",
+        "_checks", "_arrays", "_shapes", "_blocks", "_functions", "_cover", "_mesh", "_state", "_stiffness", "_head",
+        "_verify", "build", "basis",
     ],
     "libraries": [
         "meshes._elements", "meshes.dolfinx", "meshes.getfem", "meshes.mfem", "meshes.ngsolve", "meshes.ngsxfem",

@@ -161,7 +161,7 @@ def _equation(equation: Material | None) -> Arrays:
 
 
 def _isotropic(equation: Elastic) -> dict[str, float | str]:
-    names = [name for name in ("young", "poisson", "expansion") if getattr(equation, name) is not None]
+    names = ("young", "poisson") if equation.expansion is None else ("young", "poisson", "expansion")
     return {name: constant(name, getattr(equation, name)) for name in names}
 
 

@@ -211,8 +211,10 @@ def _names(name: str, count: int) -> list[str]:
 def _check_names(group: str, arrays: Arrays, equation: Material | None) -> None:
     """Refuse components' names that formulas cannot have for them."""
     fields = [key.removesuffix("/components") for key in arrays if key.startswith(group) and key.endswith("/components")]
+    state = getattr(equation, "state", None)
+    is_round = isinstance(state, str) and state == "axisymmetric"
     for path, k, name in ((f, k, name) for f in fields for k, name in enumerate(arrays[f"{f}/components"])):
-        if wrong := _unfit(name, _nameless(type(equation).__name__, getattr(equation, "state", ""))):
+        if wrong := _unfit(name, _nameless(type(equation).__name__, is_round)):
             raise BuildError(
                 f"fields[{arrays[f'{path}@name']!r}].components[{k}]: {name!r} {wrong}; give another one, of letters, digits "
                 "and `_`, by components=[…]"
@@ -229,11 +231,11 @@ def _unfit(name: str, field: Any) -> str | None:
 
 
 @lru_cache
-def _nameless(equation: str, stresses: str) -> Any:
+def _nameless(equation: str, is_round: bool) -> Any:
     """Return a field of an equation whose components have names that nobody gives: in its formulas all others are free."""
     materials: dict[str, Material] = {
         "Anisotropic": Anisotropic((1.0,) * 3, (0.0,) * 3, 1.0),
-        "Elastic": Elastic(1.0, 0.0, stresses),
+        "Elastic": Elastic(1.0, 0.0, "axisymmetric" if is_round else "plane-strain"),
         "Poisson": Poisson(1.0),
     }
     material = materials.get(equation)
