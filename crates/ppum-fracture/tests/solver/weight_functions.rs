@@ -308,12 +308,12 @@ fn few_random_loads() {
 /// The difference of two factors, each with an error like the estimated one: most are less than
 /// that, nine of ten less than its double.
 #[test]
-#[ignore = "slow: solves 50 problems"]
-fn fifty_random_loads() {
-    let mut ratios: Vec<f64> = (10..15).flat_map(|seed| random_loads(seed, 10, 5)).collect();
+#[ignore = "slow: solves 20 problems"]
+fn twenty_random_loads() {
+    let mut ratios: Vec<f64> = (10..12).flat_map(|seed| random_loads(seed, 10, 5)).collect();
     ratios.sort_by(f64::total_cmp);
-    println!("median {}, 45 of 50 {}, all {}", ratios[25], ratios[44], ratios[49]);
-    assert!(ratios[25] < 1.0 && ratios[44] < 2.0 && ratios[49] < 10.0, "{ratios:?}");
+    println!("median {}, 18 of 20 {}, all {}", ratios[10], ratios[17], ratios[19]);
+    assert!(ratios[10] < 1.0 && ratios[17] < 2.0 && ratios[19] < 10.0, "{ratios:?}");
 }
 
 /// The factor of a sum of loads is the sum of their factors, by points and by formulas.
