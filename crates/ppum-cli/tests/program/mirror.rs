@@ -705,3 +705,23 @@ fn figures_show_bodies_of_revolution() {
         assert!(values(&drawn).iter().filter(|value| value.is_finite()).count() > 1000, "{name}");
     }
 }
+
+/// Stresses of a body of revolution depend on u_x itself: in images they are what formulas of them
+/// are, which are evaluated in another way.
+#[test]
+fn hoop_stresses_see_displacements() {
+    let lab = Lab::solved(CYLINDER);
+    let dataset = ppum_format::read(&lab.path("plate.h5")).unwrap();
+    let image = |quantity: &str| {
+        let place = ViewRegion::default();
+        let drawn = drawn(&dataset, request(quantity, None, &place, [64, 64]), Samples::CENTER);
+        values(&drawn).to_vec()
+    };
+    for name in ["shoop", "sxx", "syy", "von-mises", "energy"] {
+        let (direct, formula) = (image(name), image(&format!("1*({})", name.replace('-', "_"))));
+        let differs =
+            |(a, b): (&f64, &f64)| a.is_finite() && (a - b).abs() > 1e-9 * (1.0 + b.abs());
+        assert_eq!(direct.iter().zip(&formula).filter(|pair| differs(*pair)).count(), 0, "{name}");
+        assert!(direct.iter().filter(|value| value.is_finite()).count() > 1000, "{name}");
+    }
+}

@@ -83,8 +83,9 @@ impl<T: LaneNumber, const D: usize> Tile<'_, '_, T, D> {
                 self.scene.load_exact(pixel, shift, &mut exact, zero);
             }
             load::<R, D>(cell, jets, zero);
-            // a temperature is a value among derivatives
-            let has_values = C != 2 && source == Source::Gradient && components > 2;
+            // a temperature, and u_x of the hoop strain, are values among derivatives
+            let has_values = C != 2 && components > 2 || moduli.axisymmetric;
+            let has_values = has_values && source == Source::Gradient;
             if has_values || matches!(source, Source::Values | Source::Partition) {
                 for (jet, &shift) in jets.iter_mut().zip(&*shift) {
                     jet.v = jet.v + zero.broadcast(shift);
