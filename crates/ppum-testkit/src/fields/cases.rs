@@ -191,6 +191,10 @@ const HEATED: [&str; 9] = [
     "s1 - elastic_xx",
 ];
 
+/// Those in which a body of revolution has its hoop strain u_x/x.
+const ROUND: [&str; 9] =
+    ["von-mises", "shoop", "ehoop", "sxx", "s1", "energy", "divergence", "tresca", "hydrostatic"];
+
 /// Equations, materials, holes, and quantities of all kinds.
 #[must_use]
 pub fn equations() -> Vec<DrawingCase> {
@@ -204,6 +208,7 @@ pub fn equations() -> Vec<DrawingCase> {
         anisotropy: None,
     });
     let stress = Material { young: 1.0, poisson: 0.35, state: StressState::PlaneStress };
+    let round = Material { state: StressState::Axisymmetric, ..stress };
     let one = Recipe { components: 1, ..coarse.clone() };
     let three = Recipe { components: 3, ..coarse.clone() };
     let heated = |state| {
@@ -237,6 +242,10 @@ pub fn equations() -> Vec<DrawingCase> {
             .with(heated(StressState::PlaneStrain)),
         DrawingCase::new("temperature in plane stress", &three, &HEATED)
             .with(heated(StressState::PlaneStress)),
+        DrawingCase::new("temperature in a body of revolution", &three, &ROUND)
+            .with(heated(StressState::Axisymmetric)),
+        DrawingCase::new("body of revolution", &coarse, &ROUND)
+            .with(|d| d.equation = Equation::elasticity(round)),
         DrawingCase::new("holes", &coarse, &["von-mises", "ux"]).with(|d| d.domain.holes = holes()),
         DrawingCase::new("outline", &coarse, &["von-mises", "ux"])
             .with(|d| d.domain.holes = outlined()),
