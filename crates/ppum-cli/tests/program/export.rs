@@ -165,6 +165,7 @@ fn bodies_of_revolution_are_swept() {
         ("-o body.vtkhdf --revolve 12", "end -o in .vtu"),
         ("-o body.html --revolve 12", "--revolve is for meshes"),
         ("-o body.vtu --revolve 2", "2 is not in 3.."),
+        ("-o body.vtu --tolerance 0.01 --revolve 65535", "cells, more than 20000000; take fewer"),
     ] {
         let complaint = lab.fail(&format!("export plate.h5 {options}"));
         assert!(complaint.contains(reason), "{complaint}");

@@ -16,9 +16,6 @@ const TETRAHEDRON: u8 = 10;
 const WEDGE: u8 = 13;
 const PYRAMID: u8 = 14;
 
-/// Most points of a cell.
-pub(super) const MOST_POINTS: usize = 6;
-
 /// Distance from the axis, in parts of the largest one, that counts as zero.
 const ON_AXIS: f64 = 1e-12;
 

@@ -15,7 +15,6 @@ use ppum_figure::canvas::zlib::zlib;
 use rayon::prelude::*;
 
 use super::grid::Grid;
-use super::revolve::MOST_POINTS;
 use super::{ExportMesh, MeasuredAccuracy, RANDOM_POINTS};
 
 /// Bytes that are compressed at a time.
@@ -100,18 +99,13 @@ pub fn write(out: &mut dyn Write, mesh: &ExportMesh, about: &FileNotes) -> io::R
 /// triangles have the order 1.
 ///
 /// # Errors
-/// Those of the writer; more points of cells than files count.
+/// Those of the writer.
 pub fn write_revolved(
     out: &mut dyn Write,
     mesh: &ExportMesh,
     segments: usize,
     about: &FileNotes,
 ) -> io::Result<()> {
-    let most = MOST_POINTS * segments * mesh.triangles().len();
-    if i32::try_from(most).is_err() {
-        let message = "too many cells for a file; take fewer segments, or a larger tolerance";
-        return Err(io::Error::other(message));
-    }
     write_grid(out, &Grid::revolved(mesh, segments), mesh, about)
 }
 

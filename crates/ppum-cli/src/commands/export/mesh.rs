@@ -29,6 +29,9 @@ use crate::subject::image_subject;
 use crate::target::{self, FileFormat};
 use ppum_scene::arguments::positive;
 
+/// Most cells of a mesh that is swept around an axis: some 3 GB of memory.
+const MOST_SWEPT: usize = 20_000_000;
+
 /// The features that a mesh has to resolve.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Options {
@@ -191,6 +194,13 @@ impl Options {
             ensure!(order == 1, "--revolve: swept cells are linear; leave --order out");
         }
         let (mesh, about) = self.mesh(job, step)?;
+        let cells = usize::from(self.revolve.unwrap_or(0)) * mesh.triangles().len();
+        ensure!(
+            cells <= MOST_SWEPT,
+            "--revolve: {} triangles in so many segments are {cells} cells, more than {MOST_SWEPT}; \
+             take fewer segments, or a larger --tolerance",
+            mesh.triangles().len()
+        );
         target::save(file, |out| match self.revolve {
             Some(segments) => vtu::write_revolved(out, &mesh, segments.into(), &about),
             None => vtu::write(out, &mesh, &about),
