@@ -10,10 +10,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 /// The features of plates here; of oblique sides see `sides`.
-const ALL: [Feature; 27] = [
+const ALL: [Feature; 28] = [
     F::Potential,
     F::VaryingMaterial,
     F::Anisotropic,
+    F::Axisymmetric,
     F::GivenStrains,
     F::GivenShear,
     F::SolvedTemperature,
@@ -53,14 +54,25 @@ fn implied(feature: Feature) -> &'static [Feature] {
     }
 }
 
+/// The radius at which a body of revolution begins: large, and the body nearly plane, if the
+/// feature is small.
+fn inner_radius(features: &BTreeMap<Feature, f64>) -> f64 {
+    features.get(&F::Axisymmetric).map_or(0.0, |size| (0.1 / size).min(1e4))
+}
+
 /// A cracked plate under tension with some features; the size of those that have one is given.
 fn plate(features: &BTreeMap<Feature, f64>) -> String {
     let has = |feature| features.contains_key(&feature);
     let size = |feature| features.get(&feature).copied().unwrap_or(0.0);
     let (part, slides) = (has(F::PartialModel) || has(F::SlidingPart), has(F::SlidingPart));
     let low = if part { 0.0 } else { -1.0 };
-    let body = format!("domain = {{ min = [0, {low}], max = [1, 1] }}\n");
-    let crack = "points = [[0, 0], [0.5, 0]]";
+    let left = inner_radius(features);
+    let body = format!("domain = {{ min = [{left}, {low}], max = [{}, 1] }}\n", left + 1.0);
+    let crack = format!("points = [[{left}, 0], [{}, 0]]", left + 0.5);
+    let (state, round) = match has(F::Axisymmetric) {
+        true => ("axisymmetric", ", axisymmetric = true"),
+        false => ("plane-strain", ""),
+    };
     let touches = if has(F::Contact) { ", contact = true" } else { "" };
     let mut all = body.clone() + &format!("crack = [{{ {crack}{touches} }}]\n");
     let on = |edge: &str, what: &str| format!("[[boundary]]\non = \"{edge}\"\n{what}\n");
@@ -79,30 +91,31 @@ fn plate(features: &BTreeMap<Feature, f64>) -> String {
         false => String::new(),
     };
     let modulus = |factor: f64| match has(F::VaryingMaterial) {
-        true => format!("\"{factor:?}*(1 + {}*x)\"", size(F::VaryingMaterial)),
+        true => format!("\"{factor:?}*(1 + {}*(x - {left}))\"", size(F::VaryingMaterial)),
         false => format!("{factor:?}"),
     };
     let young = modulus(1.0);
     all += &match has(F::Potential) {
         false if has(F::Anisotropic) => format!(
             "material = {{ young = [{young}, {}, {young}], poisson = [0.3, 0.3, 0.3], shear = {}, \
-             state = \"plane-strain\"{expansion} }}\n",
+             state = \"{state}\"{expansion} }}\n",
             modulus(1.0 + size(F::Anisotropic)),
             modulus(1.0 / 2.6)
         ),
-        true => "equation = { kind = \"poisson\" }\n".to_owned(),
+        true => format!("equation = {{ kind = \"poisson\"{round} }}\n"),
         false => format!(
-            "material = {{ young = {young}, poisson = 0.3, state = \"plane-strain\"{expansion} }}\n"
+            "material = {{ young = {young}, poisson = 0.3, state = \"{state}\"{expansion} }}\n"
         ),
     };
     if has(F::GivenStrains) || has(F::GivenShear) {
         let [a, b] = [size(F::GivenStrains), size(F::GivenShear)];
-        let shear = if has(F::GivenShear) { format!("xy = \"{b}*x\"\n") } else { String::new() };
-        rest += &format!("[strain]\nxx = \"{a}*x^2 + {a}\"\n{shear}");
+        let shear =
+            if has(F::GivenShear) { format!("xy = \"{b}*(x - {left})\"\n") } else { String::new() };
+        rest += &format!("[strain]\nxx = \"{a}*(x - {left})^2 + {a}\"\n{shear}");
     }
     if has(F::SolvedTemperature) {
         rest += &format!(
-            "[temperature]\nproblem = '''\n{body}equation = {{ kind = \"poisson\" }}\n\
+            "[temperature]\nproblem = '''\n{body}equation = {{ kind = \"poisson\"{round} }}\n\
              crack = [{{ {crack} }}]\n{}{}'''\n",
             on("top", "value = 1"),
             on("bottom", "value = 0") + "[discretization]\nlevel = 3\n"
@@ -116,11 +129,15 @@ fn plate(features: &BTreeMap<Feature, f64>) -> String {
         };
     }
     if has(F::Forces) {
-        let force = |x: f64, f: f64| format!("[[force]]\nat = [{x}, 0.6]\nvalue = [{f}, 0]\n");
+        let force =
+            |x: f64, f: f64| format!("[[force]]\nat = [{}, 0.6]\nvalue = [{f}, 0]\n", left + x);
         rest += &(force(0.3, size(F::Forces)) + &force(0.7, -size(F::Forces)));
     }
     if has(F::UserFunctions) {
-        rest += "[[enrichment]]\nfunction = \"exp(x)\"\nat = [0.5, 0.6]\nradius = 0.2\n";
+        rest += &format!(
+            "[[enrichment]]\nfunction = \"exp(x - {left})\"\nat = [{}, 0.6]\nradius = 0.2\n",
+            left + 0.5
+        );
     }
     all + &rest + &settings(features, part)
 }
@@ -233,6 +250,7 @@ fn tolerance(feature: Feature) -> f64 {
     match feature {
         F::GivenStrains | F::GivenShear | F::SolvedTemperature => 1e-8,
         F::Forces | F::Multilevel => 1e-6,
+        F::Axisymmetric => 1e-4,
         // faces of tips without series overlap by what their cells leave
         F::Contact => 1e-4,
         F::Growth | F::CriticalLoad | F::NoToughness | F::ExactSolution => 1e-12,
