@@ -429,6 +429,15 @@ def test_anisotropic_bodies():
     drawn("anisotropic", solved("orthotropic-plate"), [0.5, 0], 1e-9, "s11", "tsai-hill")
 
 
+def test_bodies_of_revolution():
+    names = ["von-mises", "shoop", "sxx", "energy"]
+    page = drawn("revolution", solved("penny-crack"), [0.5, 0], 1e-9, *names)
+    # the axis, where u_x / x is a limit
+    page.run("page.move({center: [0, 1], width: 1e-6})")
+    page.rest()
+    compared(page)
+
+
 def test_cracks_along_arcs():
     page = drawn("arc", solved("arc-crack"), [math.sin(0.75), math.cos(0.75)], 1e-9, "uy")
     page.run("page.move({center: [0, 1], width: 0.1})")

@@ -143,11 +143,6 @@ impl ExportArgs {
 
     /// Returns the initial view of the page, if the dataset has it.
     fn start(&self, dataset: &Dataset) -> anyhow::Result<PageStart> {
-        // the evaluator that is in pages takes u_x of the hoop strain without its shift
-        ensure!(
-            !dataset.equation.is_axisymmetric(),
-            "pages cannot draw bodies of revolution yet; use `ppum render`, or end -o in .vtu"
-        );
         let field = field(dataset, self.step)?;
         let file = match self.file.file_name() {
             Some(name) if !is_standard(&self.file) => name.to_string_lossy().into_owned(),
