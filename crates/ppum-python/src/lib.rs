@@ -9,6 +9,7 @@
 #![cfg(feature = "python")]
 
 mod building;
+mod command;
 mod compare;
 mod dataset;
 mod errors;
@@ -33,6 +34,7 @@ mod _core {
     #[pymodule_export]
     use crate::{
         building::{build, scattered},
+        command::command,
         compare::{compare, resample},
         dataset::{PyDataset, from_bytes, read},
         exporting::{Triangles, check_target, page, replace, triangles, vtkhdf},

@@ -9,6 +9,7 @@ import ppum
 #: From the compiled part upwards; the package itself, which imports all, is above them.
 LAYERS = {
     "compiled": ["_core"],
+    "command": ["_command", "__main__"],
     "errors, units, text": ["_warnings", "_errors", "_units", "_text", "_options", "_files"],
     "data": ["_edges", "_tables", "_facts"],
     "field": ["_views", "_values", "_styles", "_field"],

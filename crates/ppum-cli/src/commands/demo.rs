@@ -92,7 +92,7 @@ impl DemoArgs {
 
     /// A command line as one would type it, with the program as this one was called.
     fn shown(&self, line: &str) -> String {
-        let program = std::env::args_os().next().unwrap_or_else(|| "ppum".into());
+        let program = std::env::args_os().find(is_program).unwrap_or_else(|| "ppum".into());
         let quoted = |word: &OsString| {
             let text = word.to_string_lossy();
             if text.contains(' ') { format!("'{text}'") } else { text.into_owned() }
@@ -100,6 +100,11 @@ impl DemoArgs {
         let words = self.words(line);
         [&program].into_iter().chain(&words[1..]).map(quoted).collect::<Vec<_>>().join(" ")
     }
+}
+
+/// True of the name that this program was called by: not of an interpreter that runs it.
+fn is_program(word: &OsString) -> bool {
+    Path::new(word).file_stem().is_some_and(|name| name == "ppum")
 }
 
 /// Refuses a file that is not the demonstration's own.

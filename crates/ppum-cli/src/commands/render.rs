@@ -93,7 +93,12 @@ impl RenderArgs {
     pub(crate) fn run(&self, out: &mut StandardStream) -> anyhow::Result<()> {
         let bar = ProgressLine::new();
         let Request { backend, precision, .. } = self.request;
-        let engine = Engine::new(backend, precision, graphics::DRAW, &bar)?;
+        let engine = Engine::new(
+            backend,
+            precision,
+            graphics::graphics().cards.map(|cards| cards.draw),
+            &bar,
+        )?;
         let made = threads::with(self.threads, || self.made(&engine));
         file::warn(engine.into_notices());
         drop(bar);

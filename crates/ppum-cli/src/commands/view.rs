@@ -1,10 +1,16 @@
 //! `ppum view`: the window.
 
-use std::path::PathBuf;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
 
+use anyhow::{Context as _, ensure};
 use ppum_scene::backend::Backend;
 
+use crate::graphics::{self, Window, WindowRequest};
+use crate::memory;
 use crate::output::StandardStream;
+use crate::standard::is_standard;
+use crate::target::{self, FileFormat, FileKind};
 
 /// Explore datasets in a window, exactly, down to the tip
 #[derive(Debug, clap::Args)]
@@ -49,64 +55,43 @@ fn size(text: &str) -> Result<[u32; 2], String> {
 }
 
 impl ViewArgs {
-    /// Opens the window, and ends when it is closed.
-    #[cfg(feature = "window")]
+    /// Opens the window, and ends when it is closed, or says how to get the window.
     pub(crate) fn run(&self, out: &mut StandardStream) -> anyhow::Result<()> {
+        let window = graphics::graphics().window.context(
+            "this program was built without the window; build it with \
+             `cargo install --locked --path crates/ppum-cli --features window`",
+        )?;
         match &self.screenshot {
-            None => Ok(ppum_viewer::window::run(self.start()?)?),
-            Some(target) => self.draw(out, target),
+            None => (window.open)(self.request()?),
+            Some(target) => self.draw(window, out, target),
         }
     }
 
     /// Files that are not there are told before a window opens.
-    #[cfg(feature = "window")]
-    fn start(&self) -> anyhow::Result<ppum_viewer::window::WindowStart> {
-        use anyhow::Context as _;
-
+    fn request(&self) -> anyhow::Result<WindowRequest> {
         let files: Vec<PathBuf> = self.session.iter().chain(&self.files).cloned().collect();
         for file in &files {
             std::fs::metadata(file).with_context(|| format!("cannot read {}", file.display()))?;
         }
-        Ok(ppum_viewer::window::WindowStart {
-            files,
-            size: self.size.map(|size| size.map(|n| n as f32)),
-            backend: self.backend,
-            folder: ppum_viewer::files::window_state::folder(),
-            memory: Some(crate::memory::free),
-            ..Default::default()
-        })
+        let (size, backend) = (self.size, self.backend);
+        Ok(WindowRequest { files, size, backend, free_memory: memory::free })
     }
 
-    #[cfg(feature = "window")]
-    fn draw(&self, out: &mut StandardStream, target: &std::path::Path) -> anyhow::Result<()> {
-        use std::io::Write as _;
-
+    fn draw(&self, window: Window, out: &mut StandardStream, target: &Path) -> anyhow::Result<()> {
         let inputs = self.session.iter().chain(&self.files).map(PathBuf::as_path);
-        let is_png = crate::target::FileFormat::of(target) == Some(crate::target::FileFormat::Png);
-        anyhow::ensure!(
-            is_png || crate::standard::is_standard(target),
+        ensure!(
+            FileFormat::of(target) == Some(FileFormat::Png) || is_standard(target),
             "--screenshot {}: the picture of a window is a PNG file; end the name in .png",
             target.display()
         );
-        crate::target::check(target, crate::target::FileKind::Picture, inputs)?;
-        let start = self.start()?;
-        let image = ppum_viewer::offscreen::screenshot(start)?;
+        target::check(target, FileKind::Picture, inputs)?;
+        let image = (window.screenshot)(self.request()?)?;
         let png = ppum_render::png::encode(&image, &[])?;
-        if crate::standard::is_standard(target) {
+        if is_standard(target) {
             return Ok(out.exact().write_all(&png)?);
         }
-        crate::target::save(target, |file| file.write_all(&png))?;
+        target::save(target, |file| file.write_all(&png))?;
         writeln!(out, "wrote {}", target.display())?;
         Ok(())
-    }
-
-    /// Says how to get the window.
-    #[cfg(not(feature = "window"))]
-    pub(crate) fn run(&self, _: &mut StandardStream) -> anyhow::Result<()> {
-        let Self { files: _, session: _, backend: _, size: _, screenshot: _ } = self;
-        anyhow::bail!(
-            "this program was built without the window; build it with \
-             `cargo install --locked --path crates/ppum-cli --features window`"
-        )
     }
 }

@@ -22,13 +22,15 @@ _Norms = tuple[list[float], list[float], list[int]]
 
 __all__ = [
     "VERSION", "Curves", "Dataset", "Field", "Triangles", "_panic", "animation", "build", "check", "check_request",
-    "check_target", "colormap", "colormaps", "compare", "default_request", "derivative", "extrema", "factor", "figure",
+    "check_target", "colormap", "colormaps", "command", "compare", "default_request", "derivative", "extrema", "factor", "figure",
     "foreign_options", "frame", "from_bytes", "influence", "intensities", "option_texts", "page", "polynomials", "probe",
     "profiles", "rate", "read", "render", "replace", "reports", "resample", "rgba", "scattered", "solve", "triangles", "vtkhdf",
     "weight_functions",
 ]  # fmt: skip
 
 VERSION: Final[str]
+
+def command(arguments: list[str]) -> int: ...
 
 @final
 class Dataset:

@@ -4,7 +4,7 @@ use std::io::{self, Write};
 
 use serde::Serialize;
 
-use crate::graphics::{self, Adapter, MISSING};
+use crate::graphics::{Adapter, graphics, missing};
 
 /// The graphics adapters of this machine, in the shape of the JSON.
 #[derive(Debug, Serialize)]
@@ -15,13 +15,14 @@ pub(super) struct AdaptersReport {
 impl AdaptersReport {
     /// Opens what each backend would open.
     pub(super) fn new() -> Self {
-        Self { adapters: graphics::adapters() }
+        let cards = graphics().cards;
+        Self { adapters: cards.map_or_else(Vec::new, |cards| (cards.adapters)()) }
     }
 
     /// Writes text for people.
     pub(super) fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         if self.adapters.is_empty() {
-            return writeln!(out, "{MISSING}");
+            return writeln!(out, "{}", missing());
         }
         self.adapters.iter().try_for_each(|row| row.write(out))?;
         if !self.adapters.iter().any(|row| row.taken_by.contains(&"auto")) {

@@ -5,11 +5,10 @@ use ppum_gpu::{AdapterChoice, AdapterInfo, Gpu, GpuError, Method, RenderError, R
 use ppum_render::raster::Raster;
 use ppum_render::samples::{Means, SampleImage, Samples};
 use ppum_scene::backend::Backend;
-use ppum_scene::engine::DrawOnCard;
 use ppum_scene::error::CardError;
 use ppum_scene::values::{DrawingInput, PixelValues};
 
-use super::Adapter;
+use ppum_cli::graphics::{Adapter, Cards};
 
 fn failure(error: &RenderError) -> CardError {
     let is_normal =
@@ -17,8 +16,8 @@ fn failure(error: &RenderError) -> CardError {
     CardError { message: message(error), is_normal }
 }
 
-/// The function that draws.
-pub(crate) const DRAW: Option<DrawOnCard> = Some(draw);
+/// Drawing on graphics cards.
+pub(crate) const CARDS: Cards = Cards { draw, adapters };
 
 /// Draws the means of so many samples a pixel. After an error the CPU may try.
 fn draw(
@@ -77,17 +76,8 @@ fn message(error: &RenderError) -> String {
     format!("{error}{remedy}")
 }
 
-/// The answer of `ppum info --gpu` where there is none.
-pub(crate) const MISSING: &str = "\
-no graphics adapter: this machine has no Vulkan, Metal or Direct3D 12 driver that this program can use.
-Pictures are drawn on the CPU, which is exact and quick. For drawing on a graphics card install its driver;
-for trying out --backend gpu without a card a software driver does:
-  Debian, Ubuntu   apt-get install libvulkan1 mesa-vulkan-drivers
-  Fedora           dnf install vulkan-loader mesa-vulkan-drivers
-  Arch             pacman -S vulkan-icd-loader vulkan-swrast";
-
 /// The graphics adapters of this machine; opens what each backend would open.
-pub(crate) fn adapters() -> Vec<Adapter> {
+fn adapters() -> Vec<Adapter> {
     let taken =
         [("auto", AdapterChoice::Real), ("gpu", AdapterChoice::Any), ("splat", AdapterChoice::Any)]
             .map(|(backend, choice)| (backend, Gpu::open(choice).ok()));
@@ -96,25 +86,23 @@ pub(crate) fn adapters() -> Vec<Adapter> {
             let takes = gpu.as_ref().is_some_and(|gpu| *gpu.info() == info);
             (takes && (*backend != "splat" || info.blends_floats)).then_some(*backend)
         };
-        Adapter::new(&info, taken.iter().filter_map(by).collect())
+        described(&info, taken.iter().filter_map(by).collect())
     };
     ppum_gpu::adapters().into_iter().map(adapter).collect()
 }
 
-impl Adapter {
-    fn new(info: &AdapterInfo, taken_by: Vec<&'static str>) -> Self {
-        const MIB: u64 = 1 << 20;
-        Self {
-            name: info.name.clone(),
-            kind: info.kind.name(),
-            interface: info.backend.clone(),
-            driver: info.driver.clone(),
-            largest_binding_mib: info.largest_storage_binding / MIB,
-            largest_buffer_mib: info.largest_buffer / MIB,
-            largest_texture: info.largest_texture,
-            splat: info.blends_floats,
-            taken_by,
-        }
+fn described(info: &AdapterInfo, taken_by: Vec<&'static str>) -> Adapter {
+    const MIB: u64 = 1 << 20;
+    Adapter {
+        name: info.name.clone(),
+        kind: info.kind.name(),
+        interface: info.backend.clone(),
+        driver: info.driver.clone(),
+        largest_binding_mib: info.largest_storage_binding / MIB,
+        largest_buffer_mib: info.largest_buffer / MIB,
+        largest_texture: info.largest_texture,
+        splat: info.blends_floats,
+        taken_by,
     }
 }
 

@@ -1,0 +1,7 @@
+"""The command ``ppum`` as ``python -m ppum``."""
+
+import sys
+
+from ._command import main
+
+sys.exit(main())
