@@ -44,6 +44,32 @@ impl<const D: usize> LaneJob<f64> for FieldEvaluation<'_, '_, D> {
     }
 }
 
+/// Entries for a number of derivatives that are not generic: kernels are compiled here, once, and
+/// not in every crate that calls them.
+macro_rules! entries {
+    ($derivatives:literal: $at:ident, $over:ident) => {
+        impl LocalField<'_> {
+            #[inline(never)]
+            fn $at(&self, offsets: &[Vec2], side: Side, out: &mut [Jet<f64>]) {
+                if let Some(mesh) = &self.mesh {
+                    let functions = &self.functions;
+                    return mesh.evaluate_many::<$derivatives>(functions, (offsets, side), out);
+                }
+                self.on_lanes::<$derivatives>(offsets, side, None, out);
+            }
+
+            #[inline(never)]
+            fn $over(&self, offsets: &[Vec2], side: Side, patches: &[u32], out: &mut [Jet<f64>]) {
+                self.on_lanes::<$derivatives>(offsets, side, Some(patches), out);
+            }
+        }
+    };
+}
+
+entries!(0: values_at, values_over);
+entries!(1: gradients_at, gradients_over);
+entries!(2: hessians_at, hessians_over);
+
 impl LocalField<'_> {
     /// Evaluates at many points, vectorised over lanes: `out` holds the components of the first
     /// point, then those of the second, and so on; points outside the domain give NaN.
@@ -61,10 +87,11 @@ impl LocalField<'_> {
         side: Side,
         out: &mut [Jet<f64>],
     ) {
-        if let Some(mesh) = &self.mesh {
-            return mesh.evaluate_many::<D>(&self.functions, (offsets, side), out);
+        match D {
+            0 => self.values_at(offsets, side, out),
+            1 => self.gradients_at(offsets, side, out),
+            _ => self.hessians_at(offsets, side, out),
         }
-        self.on_lanes::<D>(offsets, side, None, out);
     }
 
     /// Evaluates a field on a mesh at the points of a grid, row by row: as
@@ -96,7 +123,11 @@ impl LocalField<'_> {
         patches: &[u32],
         out: &mut [Jet<f64>],
     ) {
-        self.on_lanes::<D>(offsets, side, Some(patches), out);
+        match D {
+            0 => self.values_over(offsets, side, patches, out),
+            1 => self.gradients_over(offsets, side, patches, out),
+            _ => self.hessians_over(offsets, side, patches, out),
+        }
     }
 
     fn on_lanes<const D: usize>(

@@ -146,6 +146,35 @@ impl<'f> LocalField<'f> {
         side: Side,
         out: &mut [Jet<f64>],
     ) -> bool {
+        // entries that are not generic: kernels are compiled here, and not in every crate that calls
+        match D {
+            0 => self.values(offset, side, out),
+            1 => self.gradients(offset, side, out),
+            _ => self.hessians(offset, side, out),
+        }
+    }
+
+    #[inline(never)]
+    fn values(&mut self, offset: Vec2, side: Side, out: &mut [Jet<f64>]) -> bool {
+        self.evaluated::<0>(offset, side, out)
+    }
+
+    #[inline(never)]
+    fn gradients(&mut self, offset: Vec2, side: Side, out: &mut [Jet<f64>]) -> bool {
+        self.evaluated::<1>(offset, side, out)
+    }
+
+    #[inline(never)]
+    fn hessians(&mut self, offset: Vec2, side: Side, out: &mut [Jet<f64>]) -> bool {
+        self.evaluated::<2>(offset, side, out)
+    }
+
+    fn evaluated<const D: usize>(
+        &mut self,
+        offset: Vec2,
+        side: Side,
+        out: &mut [Jet<f64>],
+    ) -> bool {
         if self.mesh.is_some() {
             return self.on_mesh::<D>(offset, side, out).is_some();
         }

@@ -94,7 +94,31 @@ impl<'m, 'f> ElementField<'m, 'f> {
     ///
     /// # Panics
     /// If `out` is shorter than the number of components.
-    pub fn evaluate<const D: usize>(
+    pub fn evaluate<const D: usize>(&self, place: (Vec2, Vec2), side: Side, out: &mut [Jet<f64>]) {
+        // entries that are not generic: kernels are compiled here, and not in every crate that calls
+        match D {
+            0 => self.values(place, side, out),
+            1 => self.gradients(place, side, out),
+            _ => self.hessians(place, side, out),
+        }
+    }
+
+    #[inline(never)]
+    fn values(&self, place: (Vec2, Vec2), side: Side, out: &mut [Jet<f64>]) {
+        self.evaluated::<0>(place, side, out);
+    }
+
+    #[inline(never)]
+    fn gradients(&self, place: (Vec2, Vec2), side: Side, out: &mut [Jet<f64>]) {
+        self.evaluated::<1>(place, side, out);
+    }
+
+    #[inline(never)]
+    fn hessians(&self, place: (Vec2, Vec2), side: Side, out: &mut [Jet<f64>]) {
+        self.evaluated::<2>(place, side, out);
+    }
+
+    fn evaluated<const D: usize>(
         &self,
         (delta, offset): (Vec2, Vec2),
         side: Side,
