@@ -6,7 +6,7 @@ mod plot;
 use std::f64::consts::PI;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use ppum::crack::{CrackEnd, TipId, tips};
+use ppum::crack::{Crack, CrackEnd, TipId, tips};
 use ppum::field::Field;
 use ppum::progress::{Cancelled, Phase, Progress, Watcher};
 use ppum::quantity::Quantity;
@@ -129,6 +129,9 @@ pub const MOST: usize = 20_000_000;
 /// Values of a curve's variable that are the same except for rounding, in parts of its range.
 const SAME: f64 = 1e-12;
 
+/// Distance of points from a crack's vertices, in parts of its length.
+const BESIDE: f64 = 1e-9;
+
 /// The smallest distance of a ray from its tip, in parts of the largest.
 const NEAREST: f64 = 1e-6;
 
@@ -175,7 +178,8 @@ impl ProfileCurve {
 
     /// The table of a curve that is drawn: points of lines and cracks crowd at tips, and a line or
     /// a circle has both sides of the cracks that it passes through, first that from which it
-    /// comes; at its ends that alone which it runs on.
+    /// comes; at its ends that alone which it runs on. A crack has points just before and behind
+    /// its vertices, where opening and sliding jump with its normal.
     ///
     /// # Errors
     /// See [`ProfileError`].
@@ -190,6 +194,9 @@ impl ProfileCurve {
         let is_circle = matches!(self, Self::Circle { .. });
         let parts = sample::crowded(count, &self.parts_at_tips(field, count));
         if let Self::Crack { index } = self {
+            let vertices = field.step.cracks.get(*index).map(parts_beside_vertices);
+            let mut parts = [parts, vertices.unwrap_or_default()].concat();
+            parts.sort_by(f64::total_cmp);
             return faces::table(field, quantities, *index, &parts, watcher);
         }
         let mut places = self.places(field, &parts)?;
@@ -307,6 +314,18 @@ impl ProfileCurve {
         };
         Ok(places)
     }
+}
+
+/// The parts of a crack's length at its inner vertices, each a little less and a little more.
+fn parts_beside_vertices(crack: &Crack) -> Vec<f64> {
+    let (mut at, total) = (0.0, crack.length());
+    let inner = crack.edges().take(crack.points.len().saturating_sub(2));
+    inner
+        .flat_map(|edge| {
+            at += edge.length() / total;
+            [at - BESIDE, at + BESIDE]
+        })
+        .collect()
 }
 
 fn check(count: usize) -> Result<(), ProfileError> {

@@ -46,6 +46,7 @@ pub fn columns(
         let points: Vec<_> = first.iter().zip(column).map(|(&x, y)| [x, y]).collect();
         let points = match &sides {
             Some(sides) => broken(&points, sides),
+            None if jumps => broken_at_vertices(points),
             None => points,
         };
         Some(((*name).to_owned(), points))
@@ -69,6 +70,14 @@ fn broken(points: &[[f64; 2]], sides: &[f64]) -> Vec<[f64; 2]> {
         }
     }
     all
+}
+
+/// The points of a crack with a gap at each vertex, before and behind which there is one.
+fn broken_at_vertices(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    let least = 3.0 * super::BESIDE * points.last().map_or(0.0, |last| last[0]);
+    let is_apart = |a: &[f64; 2], b: &[f64; 2]| b[0] - a[0] > least;
+    let pieces: Vec<&[[f64; 2]]> = points.chunk_by(is_apart).collect();
+    pieces.join(&[[f64::NAN; 2]][..])
 }
 
 /// The part of a ray, one in so many of its points, that is near enough to the tip for the
@@ -136,5 +145,47 @@ impl Variable {
 
     pub(super) fn unit(self) -> &'static str {
         if self == Self::Angle { "deg" } else { "" }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use ppum::progress::unwatched;
+    use ppum_testkit::synthetic::{Recipe, kinked};
+
+    use super::*;
+    use crate::report::profile::ProfileCurve;
+
+    /// Opening and sliding are resolved along the crack's normal, which turns at a kink: the curves
+    /// break there, at the kink alone, and each piece ends with the values of its own side.
+    #[test]
+    fn opening_breaks_at_kinks() {
+        let crack = kinked();
+        let (first, second) = (crack.edge(0), crack.edge(1));
+        let recipe = Recipe { components: 2, cracks: vec![crack], ..Recipe::random(4) };
+        let dataset = recipe.dataset();
+        let field = Field::new(&dataset, 0).unwrap();
+        let profile = ProfileCurve::Crack { index: 0 };
+        let table = profile.drawn(&field, &[], 61, unwatched()).unwrap().table;
+        let curves = columns(&table, Variable::Length, true);
+        let at = first.length();
+        for (name, points) in &curves {
+            let pieces: Vec<_> = points.split(|p| p[1].is_nan()).collect();
+            assert_eq!(pieces.len(), 2, "{name}");
+            let [before, behind] = [pieces[0][pieces[0].len() - 1], pieces[1][0]];
+            assert!(before[0] < at && at < behind[0] && behind[0] - before[0] < 1e-8, "{name}");
+        }
+        // the jump of the displacement is one, and its parts along both normals are given
+        let turn = |k: usize| {
+            let points = &curves[k].1;
+            let gap = points.iter().position(|p| p[1].is_nan()).unwrap();
+            [points[gap - 1][1], points[gap + 1][1]]
+        };
+        let ([o, p], [s, t]) = (turn(0), turn(1));
+        assert!((o.hypot(s) / p.hypot(t) - 1.0).abs() < 1e-6);
+        let [a, b] = [first, second].map(|edge| edge.to - edge.from);
+        let angle = (a.x * b.y - a.y * b.x).atan2(a.dot(b));
+        let rotated = (o * t - s * p).atan2(o * p + s * t);
+        assert!((rotated.abs() - angle.abs()).abs() < 1e-6, "{rotated} {angle}");
     }
 }
