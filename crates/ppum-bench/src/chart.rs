@@ -17,7 +17,10 @@ pub(crate) fn save(
     curves: Vec<PlotCurve>,
 ) -> anyhow::Result<()> {
     let axis = |(name, unit)| PlotAxis::new(name, unit).logarithmic();
-    let page = plot(&Plot { title: title.into(), x: axis(x), y: axis(y), curves }, SIZE);
+    let page = plot(
+        &Plot { title: title.into(), x: axis(x), y: axis(y), curves, ..Plot::default() },
+        SIZE,
+    );
     let texts = [("Software".to_owned(), concat!("ppum ", env!("CARGO_PKG_VERSION")).to_owned())];
     let bytes =
         PageFormat::of(path).bytes(&page, None, &texts).context("cannot encode the image")?;

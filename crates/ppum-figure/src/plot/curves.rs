@@ -16,6 +16,8 @@ pub struct Plot {
     pub y: PlotAxis,
     /// The curves, the lowest first.
     pub curves: Vec<PlotCurve>,
+    /// True if the names of lines stand in a row above the frame, where they cover no curve.
+    pub has_names_above: bool,
 }
 
 /// An axis of a plot.

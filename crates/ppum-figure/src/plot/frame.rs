@@ -23,6 +23,11 @@ const TICK: f64 = 5.0;
 const MINOR_TICK: f64 = 3.0;
 const GAP: f64 = 6.0;
 const MARGIN: f64 = 16.0;
+/// Length of a line's sample in the row of names, and the height of that row.
+const SAMPLE: f64 = 26.0;
+const NAMES: f64 = 18.0;
+/// Marks in so many intervals have labels at round numbers of them.
+const FEW: usize = 11;
 /// Least distances of labelled ticks, across and along the direction of reading.
 const DISTANCE: [f64; 2] = [90.0, 48.0];
 
@@ -58,6 +63,7 @@ impl PlotFrame {
         let widest = widths.fold(0.0, f64::max);
         let below = TICK + GAP + TICK_TEXT + GAP + 1.3 * LABEL_TEXT + MARGIN;
         let above = if plot.title.is_empty() { MARGIN } else { TITLE_TEXT + 2.0 * MARGIN };
+        let above = if plot.has_names_above { above + NAMES } else { above };
         let left = MARGIN + 1.3 * LABEL_TEXT + 2.0 * GAP + TICK;
         let min = [(left * scale + widest).round(), (above * scale).round()];
         let [columns, rows] = size.map(f64::from);
@@ -157,8 +163,30 @@ impl PlotFrame {
         ink.text(&x, LABEL_TEXT, vec2(middle[0], below), Align::Middle);
         ink.upwards(&y, LABEL_TEXT, vec2(beside.round(), middle[1]));
         let title = text::fitted(&plot.title, TITLE_TEXT * scale, wide);
-        let above = self.min[1] - 0.6 * MARGIN * scale;
+        let names = if plot.has_names_above { NAMES } else { 0.0 };
+        let above = self.min[1] - (0.6 * MARGIN + names) * scale;
         ink.text(&title, TITLE_TEXT, vec2(self.min[0], above), Align::Start);
+        ink.items
+    }
+
+    /// The names of curves with samples of their lines in a row above the frame, as many as it has
+    /// room for.
+    pub(super) fn names(&self, curves: &[(StrokeStyle, &str)]) -> Vec<CanvasItem> {
+        let scale = self.scale;
+        let mut ink = Ink { color: INK, scale, stroke: scale, items: Vec::new() };
+        let (mut x, y) = (self.min[0], self.min[1] - 0.75 * NAMES * scale);
+        for &(pen, name) in curves {
+            let at = x + (SAMPLE + GAP) * scale;
+            let end = at + text::width(name, TICK_TEXT * scale);
+            if end > self.max[0] {
+                break;
+            }
+            let sample = vec![vec2(x, y), vec2(x + SAMPLE * scale, y)];
+            ink.items.push(CanvasItem::Line { path: CanvasPath::of_pieces(vec![sample]), pen });
+            let base = y + 0.5 * CAP_HEIGHT * TICK_TEXT * scale;
+            ink.text(name, TICK_TEXT, vec2(at, base), Align::Start);
+            x = end + 3.0 * GAP * scale;
+        }
         ink.items
     }
 }
@@ -171,11 +199,14 @@ fn named(names: &[String], norm: &Normalization) -> Ticks {
 }
 
 /// Ticks at values, a label at every one or, where there is no room for so many, at every second,
-/// third, …
+/// third, …; of more than [`FEW`] at every 2nd, 5th, 10th, 20th, …
 fn marked(values: &[f64], norm: &Normalization, most: usize) -> Ticks {
     let intervals = values.len() - 1;
-    let step =
-        (1..=intervals).find(|step| intervals.is_multiple_of(*step) && intervals / step < most);
+    let round = (0..).flat_map(|power| [1, 2, 5].map(|digit| digit * 10_usize.pow(power)));
+    let step = match intervals {
+        FEW.. => round.take(40).find(|step| intervals / step < most),
+        _ => (1..=intervals).find(|k| intervals.is_multiple_of(*k) && intervals / k < most),
+    };
     let (mut ticks, step) = (Ticks::default(), step.unwrap_or(1));
     for (k, &value) in values.iter().enumerate() {
         let at = norm.position(value);

@@ -71,6 +71,12 @@ pub fn plot(plot: &Plot, size: [u32; 2]) -> Canvas {
     page.items.push(inside(plot, &frame));
     page.items.extend(frame.lines());
     page.items.extend(frame.texts(plot));
+    if plot.has_names_above {
+        let named = plot.curves.iter().enumerate().filter(|(_, curve)| !curve.label.is_empty());
+        let sample = |(k, curve): (usize, &PlotCurve)| pen(curve.look, k, frame.scale);
+        let names: Vec<_> = named.map(|all| (sample(all), &*all.1.label)).collect();
+        page.items.extend(frame.names(&names));
+    }
     page
 }
 
@@ -131,7 +137,7 @@ fn inside(plot: &Plot, frame: &PlotFrame) -> CanvasItem {
             entries.push(LegendEntry::new(symbol, &curve.label));
         }
     }
-    if plot.curves.len() > 1 || entries.len() > 1 {
+    if !plot.has_names_above && (plot.curves.len() > 1 || entries.len() > 1) {
         canvas.items.extend(legend(frame.pixels(), &entries, &paths, frame.scale));
     }
     CanvasItem::Inset { corner: frame.corner(), canvas }
@@ -183,7 +189,7 @@ mod tests {
     fn line(points: &[[f64; 2]]) -> Plot {
         let curves = vec![PlotCurve::new("a", points.to_vec())];
         let (x, y) = (PlotAxis::new("x", "m"), PlotAxis::new("σ_{yy}", "MPa"));
-        Plot { title: "A plot".into(), x, y, curves }
+        Plot { title: "A plot".into(), x, y, curves, ..Plot::default() }
     }
 
     /// The curves' paths, in pixels of the page.
@@ -299,6 +305,42 @@ mod tests {
         };
         assert_eq!(words([900, 600]), ["−180", "−90", "90", "180"]);
         assert_eq!(words(LEAST), ["−180", "180"]);
+    }
+
+    /// Steps have labels at round numbers, whatever their number: 19 is divided by none.
+    #[test]
+    fn many_marks_have_labels_at_round_numbers() {
+        let mut steps = line(&[[0.0, 1.0], [19.0, 2.0]]);
+        steps.x.marks = (0..20).map(f64::from).collect();
+        let texts = plot(&steps, [640, 480]).items.into_iter().filter_map(|item| match item {
+            CanvasItem::Text(text) => Some(text.text),
+            _ => None,
+        });
+        let labels: Vec<_> = texts.filter(|text| text.parse::<usize>().is_ok()).collect();
+        assert!(["0", "5", "10", "15"].iter().all(|label| labels.contains(&(*label).into())));
+    }
+
+    /// Names above the frame are in no box over the curves.
+    #[test]
+    fn names_above_the_frame_cover_no_curve() {
+        let mut named = line(&[[0.0, 1.0], [1.0, 2.0]]);
+        named.curves.push(PlotCurve::new("b", vec![[0.0, 2.0], [1.0, 1.0]]));
+        for is_above in [false, true] {
+            named.has_names_above = is_above;
+            let page = plot(&named, [640, 480]);
+            let top = PlotArea::new(&named, [640, 480]).corner.y;
+            let has_box = page.items.iter().any(|item| match item {
+                CanvasItem::Inset { canvas, .. } => {
+                    canvas.items.iter().any(|item| matches!(item, CanvasItem::Text(_)))
+                }
+                _ => false,
+            });
+            let is_name = |item: &&CanvasItem| match item {
+                CanvasItem::Text(text) => text.text == "b" && text.at.y < top,
+                _ => false,
+            };
+            assert_eq!((has_box, page.items.iter().any(|i| is_name(&i))), (!is_above, is_above));
+        }
     }
 
     /// Nothing but numbers that can be drawn, whatever is plotted, and everything on the page.

@@ -141,7 +141,7 @@ impl CurveValues {
             }
             _ => PlotCurve::new(name.clone(), points.clone()),
         };
-        Plot { title: String::new(), x, y, curves: self.curves.iter().map(drawn).collect() }
+        Plot { x, y, curves: self.curves.iter().map(drawn).collect(), ..Plot::default() }
     }
 
     /// The row whose variable is nearest to a value, and how the body's point of it is found.

@@ -1,6 +1,6 @@
 //! A plot of figures, in the window.
 
-use egui::{Sense, Stroke, Ui};
+use egui::{Align2, FontId, Rect, Sense, Stroke, Ui};
 use ppum::vec2::vec2;
 use ppum_figure::canvas::{Canvas, CanvasItem};
 use ppum_figure::plot::{LEAST, Plot, PlotArea, plot};
@@ -19,11 +19,14 @@ pub struct PlotWidget {
     pub area: PlotArea,
 }
 
+/// Points of the window per pixel of a plot, at most: plots are made for pages, which are larger.
+pub const SMALLER: f32 = 0.75;
+
 /// Shows a plot under a name in a room of some size \[points\]; a small room shows all of
 /// it, smaller.
 pub fn chart(ui: &mut Ui, name: &str, figure: &Plot, size: egui::Vec2) -> PlotWidget {
     let scale = [size.x / LEAST[0] as f32, size.y / LEAST[1] as f32];
-    scaled_chart(ui, name, figure, size, scale[0].min(scale[1]).clamp(0.1, 1.0))
+    scaled_chart(ui, name, figure, size, scale[0].min(scale[1]).clamp(0.1, SMALLER))
 }
 
 /// Shows a plot at so many points of the window per pixel.
@@ -68,7 +71,7 @@ impl PlotWidget {
 }
 
 /// A page with its greys turned round, for dark windows; colours are the same.
-fn darkened(page: Canvas) -> Canvas {
+pub(crate) fn darkened(page: Canvas) -> Canvas {
     let items = page.items.into_iter().map(|item| match item {
         CanvasItem::Line { path, mut pen } => {
             pen.color = turned(pen.color);
@@ -88,6 +91,17 @@ fn darkened(page: Canvas) -> Canvas {
         other => other,
     });
     Canvas { size: page.size, paper: turned(page.paper), items: items.collect() }
+}
+
+/// Shows a text on a ground at the lower left corner of a plot.
+pub fn reading(ui: &Ui, rect: Rect, text: &str) {
+    let (font, ink) = (FontId::proportional(13.0), ui.visuals().strong_text_color());
+    let painter = ui.painter_at(rect);
+    let galley = painter.layout(text.to_owned(), font, ink, rect.width() - 16.0);
+    let at = rect.left_bottom() + egui::vec2(8.0, -3.0);
+    let place = Align2::LEFT_BOTTOM.anchor_size(at, galley.size());
+    painter.rect_filled(place.expand(3.0), 3.0, ui.visuals().extreme_bg_color);
+    painter.galley(place.min, galley, ink);
 }
 
 fn turned(color: Rgba) -> Rgba {

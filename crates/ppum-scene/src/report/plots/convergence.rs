@@ -66,10 +66,10 @@ pub fn adaptation(dataset: &Dataset) -> Option<Plot> {
     let kinds = [("energy", "estimated error"), ("K", "estimated error of factors")];
     let curves: Vec<_> = kinds.into_iter().filter_map(|(label, name)| of(label, name)).collect();
     (!curves.is_empty()).then(|| Plot {
-        title: String::new(),
         x: PlotAxis::new("unknowns", "").logarithmic(),
         y: PlotAxis::new("estimated error", "").logarithmic(),
         curves,
+        ..Plot::default()
     })
 }
 

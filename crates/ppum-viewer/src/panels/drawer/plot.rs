@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use egui::{Align2, Color32, ComboBox, DragValue, FontId, Rect, Stroke, Ui, vec2};
+use egui::{ComboBox, DragValue, Stroke, Ui, vec2};
 use ppum::crack::{Crack, tips};
 use ppum_figure::plot::{LEAST, Plot, plot};
 use ppum_scene::profile::ProfileCurve;
@@ -14,7 +14,7 @@ use crate::panel_context::PanelContext;
 use crate::save_target::{SaveTarget, has_extension, replace};
 use crate::session::Pane;
 use crate::viewport::ViewState;
-use crate::widgets::chart::{PlotWidget, scaled_chart};
+use crate::widgets::chart::{PlotWidget, SMALLER, reading, scaled_chart};
 use crate::widgets::entry::entry;
 use crate::widgets::wrong;
 use crate::widgets::{button, note_folder};
@@ -298,17 +298,5 @@ fn graph(ui: &mut Ui, pane: &Pane, viewport: &mut ViewState, values: &CurveValue
         }
     }
     viewport.tools.marked = Some(spot);
-    lettered(ui, &painter, rect, &values.words(row));
-}
-
-/// Points of the window per pixel of the plot: plots are made for pages, which are larger.
-const SMALLER: f32 = 0.75;
-
-fn lettered(ui: &Ui, painter: &egui::Painter, rect: Rect, text: &str) {
-    let font = FontId::proportional(13.0);
-    let galley = painter.layout_no_wrap(text.to_owned(), font, ui.visuals().strong_text_color());
-    let at = rect.left_bottom() + vec2(8.0, -3.0);
-    let place = Align2::LEFT_BOTTOM.anchor_size(at, galley.size());
-    painter.rect_filled(place.expand(3.0), 3.0, ui.visuals().extreme_bg_color);
-    painter.galley(place.min, galley, Color32::WHITE);
+    reading(ui, rect, &values.words(row));
 }

@@ -1,15 +1,21 @@
 //! Stress intensity factors and lengths of cracks against the steps of a series, as curves or in a
 //! table.
 
-use egui::{ScrollArea, Ui, vec2};
+use std::sync::Arc;
+
+use egui::{Pos2, ScrollArea, Ui, vec2};
 use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step, TipIntensity};
+use ppum::text::trimmed;
 use ppum_figure::plot::{CurveStyle, Plot, PlotAxis, PlotCurve};
 
+use super::plot::outputs;
+use super::series_table;
 use crate::panel_context::PanelContext;
 use crate::session::Pane;
+use crate::shapes::plain;
 use crate::viewport::ViewState;
-use crate::widgets::chart::chart;
+use crate::widgets::chart::{chart, reading};
 
 /// Values of each step, as a curve.
 pub(super) type StepValues = Vec<(String, Vec<[f64; 2]>)>;
@@ -23,13 +29,18 @@ pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
         ui.label("This dataset has one step. Of a series its history is plotted here.");
         return;
     }
-    let has_table = &mut viewport.controls.has_step_table;
-    ui.horizontal(|ui| {
+    let dataset = Arc::clone(dataset);
+    ui.horizontal_wrapped(|ui| {
+        let has_table = &mut viewport.controls.has_step_table;
         ui.selectable_value(has_table, false, "Curves");
         ui.selectable_value(has_table, true, "Table");
+        ui.separator();
+        let csv = || series_table::table(&dataset).csv();
+        let bytes = || csv().into_bytes();
+        outputs(ui, viewport, ("steps", &[("csv", &bytes)]), &csv);
     });
-    match *has_table {
-        true => super::series_table::show(ui, context),
+    match viewport.controls.has_step_table {
+        true => series_table::show(ui, context),
         false => charts(ui, pane, viewport),
     }
 }
@@ -52,14 +63,35 @@ fn charts(ui: &mut Ui, pane: &mut Pane, viewport: &mut ViewState) {
                 plot.x.marks = (0..dataset.steps.len()).map(|k| k as f64).collect();
                 let chart = chart(ui, name, &plot, vec2(width, room.y.max(120.0)));
                 chart.mark(ui, step as f64);
+                let last = dataset.steps.len() - 1;
+                let step_at = |at: Pos2| (chart.across(at.x).round().max(0.0) as usize).min(last);
                 if let Some(at) = chart.response.interact_pointer_pos() {
-                    let chosen = chart.across(at.x).round().max(0.0) as usize;
-                    pane.scene.subject.step = Some(chosen.min(dataset.steps.len() - 1));
+                    pane.scene.subject.step = Some(step_at(at));
+                }
+                if let Some(at) = chart.response.hover_pos() {
+                    reading(ui, chart.response.rect, &words(&plot, step_at(at)));
                 }
             }
         });
     });
 }
+
+/// The values of a step: `step 3: tip 0 7.1214, tip 1 7.1209`.
+#[must_use]
+pub fn words(plot: &Plot, step: usize) -> String {
+    let value = |curve: &PlotCurve| {
+        let [_, value] = curve.points.get(step).copied().filter(|[_, v]| v.is_finite())?;
+        let name = if curve.label.is_empty() { &plot.y.label } else { &curve.label };
+        Some(format!("{} {}", plain(name), trimmed(value).replace('-', "−")))
+    };
+    let values: Vec<_> = plot.curves.iter().filter_map(value).take(TOLD).collect();
+    let none = || "no value".to_owned();
+    let values = if values.is_empty() { none() } else { values.join(", ") };
+    format!("step {step}: {values}")
+}
+
+/// Values that are read at a step.
+const TOLD: usize = 6;
 
 /// Curves of a plot: of more tips or cracks the first ones are drawn, since nobody could tell
 /// them apart.
@@ -81,11 +113,7 @@ pub fn plots(dataset: &Dataset) -> Vec<(&'static str, Plot)> {
         ("K_I against the steps", "K_{I}", factors(|tip| tip.k1)),
         ("K_II against the steps", "K_{II}", factors(|tip| tip.k2)),
         ("Crack length against the steps", "crack length", lengths),
-        (
-            "Load against the steps",
-            "load",
-            vec![("load".into(), over_steps(dataset, |step| step.load))],
-        ),
+        ("Load against the steps", "load", loads(dataset)),
     ];
     let some = all.into_iter().filter(|(.., values)| values.iter().any(|(_, v)| !v.is_empty()));
     some.map(|(name, label, values)| (name, plot(label, values))).collect()
@@ -93,18 +121,27 @@ pub fn plots(dataset: &Dataset) -> Vec<(&'static str, Plot)> {
 
 pub(super) fn plot(label: &str, values: StepValues) -> Plot {
     let is_one = values.len() == 1;
-    let curve = |(name, points): (String, Vec<[f64; 2]>)| {
+    let curve = |(k, (name, points)): (usize, (String, Vec<[f64; 2]>))| {
         let name = if is_one { String::new() } else { name };
-        PlotCurve::new(name, points).with_look(CurveStyle::Dotted)
+        // both tips of a symmetric crack are seen
+        let look = if k % 2 == 0 { CurveStyle::Dotted } else { CurveStyle::Dashed };
+        PlotCurve::new(name, points).with_look(look)
     };
-    let curves = values.into_iter().map(curve).collect();
+    let curves = values.into_iter().enumerate().map(curve).collect();
     let (x, y) = (PlotAxis::new("step", ""), PlotAxis::new(label, ""));
-    Plot { title: String::new(), x, y, curves }
+    Plot { x, y, curves, has_names_above: !is_one, ..Plot::default() }
 }
 
 /// A value of each step against its number.
 pub(super) fn over_steps(dataset: &Dataset, value: impl Fn(&Step) -> f64) -> Vec<[f64; 2]> {
     dataset.steps.iter().enumerate().map(|(k, step)| [k as f64, value(step)]).collect()
+}
+
+/// The load in each step; a constant one is no curve, the player says it.
+fn loads(dataset: &Dataset) -> StepValues {
+    let points = over_steps(dataset, |step| step.load);
+    let is_constant = points.windows(2).all(|pair| pair[0][1] == pair[1][1]);
+    if is_constant { Vec::new() } else { vec![("load".into(), points)] }
 }
 
 /// A value of each tip in the steps that have it; broken where it is missing.

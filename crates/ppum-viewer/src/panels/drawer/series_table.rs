@@ -7,7 +7,6 @@ use ppum::text::{short, trimmed};
 use ppum_scene::facts::increment;
 use ppum_scene::table::{Column, NumberTable};
 
-use super::plot::outputs;
 use crate::panel_context::PanelContext;
 
 /// A tip of a step, or a step without tips.
@@ -27,9 +26,6 @@ pub(super) fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     let (pane, viewport) = context.active();
     let Some(opened) = viewport.opened.clone() else { return };
     let dataset = &opened.dataset;
-    let csv = || table(dataset).csv();
-    let bytes = || csv().into_bytes();
-    ui.horizontal_wrapped(|ui| outputs(ui, viewport, ("steps", &[("csv", &bytes)]), &csv));
     if let Some(end) = end(dataset) {
         ui.strong(end);
     }
@@ -114,7 +110,7 @@ impl TipRow<'_> {
         [name, k1, k2, grown, next].map(|text| text.unwrap_or_else(|| "–".into()))
     }
 
-    fn numbers(&self) -> [f64; 9] {
+    fn numbers(&self) -> [f64; 10] {
         let tip = self.tip.map_or([f64::NAN; 2], |tip| {
             [f64::from(tip.crack), f64::from(u8::from(tip.end == End::Last))]
         });
@@ -124,14 +120,27 @@ impl TipRow<'_> {
             growth.map_or([f64::NAN; 3], |tip| [tip.extension, tip.length, tip.direction]);
         let [crack, end] = tip;
         let [k1, k2] = factors;
-        [self.number as f64, self.step.load, crack, end, k1, k2, grown, length, angle]
+        let cracked =
+            self.tip.map_or(f64::NAN, |tip| self.step.cracks[tip.crack as usize].length());
+        [self.number as f64, self.step.load, crack, end, cracked, k1, k2, grown, length, angle]
     }
 }
 
 /// All steps with all digits; `end` is 0 for the first end of a crack and 1 for the last.
 #[must_use]
 pub fn table(dataset: &Dataset) -> NumberTable {
-    let names = ["step", "load", "crack", "end", "k1", "k2", "extension", "increment", "angle"];
+    let names = [
+        "step",
+        "load",
+        "crack",
+        "end",
+        "crack_length",
+        "k1",
+        "k2",
+        "extension",
+        "increment",
+        "angle",
+    ];
     let unit = |name: &str| if name == "angle" { "rad" } else { "" };
     let columns = names.map(|name| Column::new(name, unit(name))).into();
     NumberTable::new(columns, rows(dataset).iter().flat_map(TipRow::numbers).collect())
