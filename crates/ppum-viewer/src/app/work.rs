@@ -265,10 +265,10 @@ impl Viewer {
         let name = name(path);
         let text = match (why, stamp) {
             (Why::Changed, None) => {
-                format!("{name} is no longer there; what was read of it is still shown")
+                format!("{name} is no longer there; what was read of it is still shown. {SAVE_IT}")
             }
             (Why::Changed, _) => format!(
-                "{name} has changed and cannot be read: {error}. What was read before is still shown"
+                "{name} has changed and cannot be read: {error}. What was read before is still shown. {SAVE_IT}"
             ),
             // a session may lie far from its files
             (Why::Restored, _) => {
@@ -294,6 +294,10 @@ impl Viewer {
             viewport.show_whole(pane);
         }
         viewport.told.extend(player::mend(pane, &dataset));
+        let before = viewport.opened.as_ref().map(|opened| &opened.dataset);
+        if why == Why::Changed && before.is_some_and(|before| is_another(before, &dataset)) {
+            viewport.told.push(another_body(&dataset));
+        }
         viewport.take(pane, OpenDataset::new(Some(path), dataset));
     }
 
@@ -336,6 +340,21 @@ impl Viewer {
         }
     }
 }
+
+/// True if a dataset is of another body: no body of the same title whose holes have changed.
+fn is_another(before: &Dataset, now: &Dataset) -> bool {
+    let is_renamed = before.title != now.title && before.domain != now.domain;
+    is_renamed || before.domain.bounds != now.domain.bounds
+}
+
+/// What is said of a file that has another body now.
+fn another_body(dataset: &Dataset) -> String {
+    let title = dataset.title.split_whitespace().collect::<Vec<_>>().join(" ");
+    format!("another body is in this file now, “{title}”, and is shown; {OTHER_NAME}")
+}
+
+const OTHER_NAME: &str = "let the program that writes it use another name to keep both";
+const SAVE_IT: &str = "File, Save the dataset… writes that to a file";
 
 const NOTHING_TO_SAVE: &str = "Nothing is saved: this view shows no dataset. Choose the view that shows it by a click, or solve the problem first";
 

@@ -158,6 +158,7 @@ fn an_open_file_is_watched() {
     fs::write(&path, "broken").expect("written");
     lab.until("a broken file is told", |viewer| !viewer.files.notes.is_empty());
     assert!(lab.notes().contains("plate.h5 has changed and cannot be read: "), "{}", lab.notes());
+    assert!(lab.notes().contains("Save the dataset"), "{}", lab.notes());
     assert_eq!(title(lab.window.state()), "Second");
 
     fs::remove_file(&path).expect("removed");
@@ -293,6 +294,8 @@ fn a_file_that_has_become_another_plate_is_shown_as_that() {
         let told = format!("plate.h5: {quantity} cannot be shown: ");
         assert!(lab.notes().contains(&told), "{}", lab.notes());
         assert!(lab.notes().contains("cannot be deformed"), "{}", lab.notes());
+        let other = format!("another body is in this file now, “{name}”");
+        assert!(lab.notes().contains(&other), "{}", lab.notes());
     }
 }
 
