@@ -359,6 +359,93 @@ impl egui::Plugin for Tab {
     }
 }
 
+/// Keeps keys that come within one frame in their order: what is typed behind the key of a list or
+/// a dialog waits until that has the keyboard, and Enter until the text before it is written.
+#[derive(Default)]
+pub(crate) struct KeyOrder {
+    held: Vec<Event>,
+    /// Frames to wait at most until something has the keyboard.
+    frames: u8,
+    /// True in the frame after Enter, when what was written in may be closed.
+    is_pausing: bool,
+}
+
+impl egui::Plugin for KeyOrder {
+    fn debug_name(&self) -> &'static str {
+        "Key order"
+    }
+
+    fn input_hook(&mut self, ctx: &egui::Context, input: &mut RawInput) {
+        let is_typed = |event: &mut Event| matches!(event, Event::Key { .. } | Event::Text(_));
+        let mut typed = std::mem::take(&mut self.held);
+        typed.extend(input.events.extract_if(.., is_typed));
+        let is_writing = ctx.memory(|memory| memory.focused().is_some());
+        let count = match is_writing {
+            _ if std::mem::take(&mut self.is_pausing) => 0,
+            true => first_entry(&typed),
+            false if self.frames > 0 => 0,
+            false => first_opening(&typed),
+        };
+        self.frames = self.frames.saturating_sub(1);
+        self.held = typed.split_off(count);
+        if !self.held.is_empty() {
+            self.is_pausing = is_writing && typed.iter().any(|event| ending(event).is_some());
+            if !is_writing && count > 0 {
+                // the letter of the key itself is not for the text
+                let is_letter = matches!(self.held[0], Event::Text(_));
+                self.held.drain(..usize::from(is_letter));
+                self.frames = PATIENCE;
+            }
+            ctx.request_repaint();
+        }
+        input.events.append(&mut typed);
+    }
+}
+
+/// Frames after which a list or a dialog has the keyboard, or will not have it.
+const PATIENCE: u8 = 4;
+
+/// The number of events until Enter or another key that ends what is written; that key alone if it
+/// comes first.
+fn first_entry(typed: &[Event]) -> usize {
+    match typed.iter().position(|event| ending(event).is_some()) {
+        Some(0) => typed.iter().take_while(|event| ending(event) == ending(&typed[0])).count(),
+        Some(number) => number,
+        None => typed.len(),
+    }
+}
+
+/// The key of an event if it ends what is written.
+fn ending(event: &Event) -> Option<Key> {
+    match event {
+        Event::Key { key, .. } if ENDS.contains(key) => Some(*key),
+        _ => None,
+    }
+}
+
+const ENDS: [Key; 5] = [Key::Enter, Key::Escape, Key::Tab, Key::ArrowDown, Key::ArrowUp];
+
+/// The number of events up to the first key of an action that opens a list or a dialog.
+fn first_opening(typed: &[Event]) -> usize {
+    let opens = |event: &Event| match event {
+        Event::Key { key, pressed: true, modifiers, .. } => all().any(|entry| {
+            let is_this = |shortcut: KeyboardShortcut| {
+                shortcut.logical_key == *key && modifiers.matches_logically(shortcut.modifiers)
+            };
+            entry.action.opens_text() && entry.shortcut().is_some_and(is_this)
+        }),
+        _ => false,
+    };
+    typed.iter().position(opens).map_or(typed.len(), |number| number + 1)
+}
+
+impl Action {
+    /// True if it opens something that is written in.
+    fn opens_text(self) -> bool {
+        matches!(self, Quantity | Palette | Open | OpenBeside | SaveSession | SaveSessionAs)
+    }
+}
+
 /// The actions whose keys were pressed, unless someone writes or chooses from a list.
 pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
     let mut all = by_shortcuts(ctx);

@@ -71,6 +71,7 @@ impl Viewer {
         ctx.set_fonts(fonts());
         // a cursor that blinks would have the window drawn for ever
         ctx.all_styles_mut(|style| style.visuals.text_cursor.blink = false);
+        ctx.add_plugin(actions::KeyOrder::default());
         ctx.add_plugin(actions::Tab::default());
         for theme in [egui::Theme::Dark, egui::Theme::Light] {
             ctx.style_mut_of(theme, |style| make_readable(&mut style.visuals));

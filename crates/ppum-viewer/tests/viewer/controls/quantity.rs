@@ -143,3 +143,30 @@ fn the_formula_behind_a_name_can_be_changed() {
     let found = values(&window, "curl");
     assert!(is_near(found), "{found:?}");
 }
+
+/// A slow frame hands over all keys at once: the list opens, has the text, and Enter chooses.
+#[test]
+fn keys_of_one_frame_keep_their_order() {
+    let mut window = plate_window();
+    let key = |key: Key| {
+        let (physical_key, repeat, modifiers) = (None, false, Modifiers::NONE);
+        let press = |pressed| Event::Key { key, physical_key, pressed, repeat, modifiers };
+        [press(true), press(false)]
+    };
+    let letter = |of: Key, text: &str| {
+        let [press, release] = key(of);
+        [press, Event::Text(text.into()), release]
+    };
+    let typed = [(Key::Q, "q"), (Key::S, "s"), (Key::Y, "y"), (Key::Y, "y")];
+    let all = typed.into_iter().flat_map(|(of, text)| letter(of, text));
+    let events: Vec<_> = all.chain(key(Key::Enter)).chain(letter(Key::L, "l")).collect();
+    window.input_mut().events.extend(events);
+    window.step();
+    for _ in 0..12 {
+        window.step();
+    }
+    let scene = &window.state().session.panes[0].scene;
+    assert_eq!(scene.quantity.as_deref(), Some("syy"));
+    assert_eq!(scene.colors.scale, ppum_render::scale::Scale::Log, "the key behind Enter");
+    assert!(window.query_by_label("Search quantities").is_none());
+}
