@@ -42,8 +42,9 @@ impl Player {
     /// Goes on to the next step when it is time, and the one before was seen.
     pub fn advance(&mut self, ctx: &egui::Context, pane: &mut Pane, viewport: &ViewState) {
         let Some(opened) = viewport.opened.as_ref().filter(|_| self.is_playing) else { return };
-        // an image that is ready wakes the window
-        if viewport.frames.is_working() {
+        // an image that is ready wakes the window, and so does the first range of all steps
+        let has_range = viewport.controls.step_range.progress_text().is_none();
+        if viewport.frames.is_working() || !has_range {
             return;
         }
         let pause = Duration::from_secs_f64(1.0 / self.speed);

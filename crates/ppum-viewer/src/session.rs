@@ -134,6 +134,9 @@ pub struct Pane {
     pub plot: PlotChoice,
     /// True if the extrema of the view are marked.
     pub extrema: bool,
+    /// True if an automatic range is that of the step that is shown, of a series too, and not that
+    /// of all its steps.
+    pub one_step_range: bool,
 }
 
 impl Default for Pane {
@@ -152,6 +155,7 @@ impl Default for Pane {
             curve: None,
             plot: PlotChoice::default(),
             extrema: false,
+            one_step_range: false,
         }
     }
 }

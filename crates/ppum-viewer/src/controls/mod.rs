@@ -5,6 +5,7 @@ pub mod choices;
 pub mod deformation_animation;
 pub mod facts;
 pub mod range;
+pub mod step_range;
 pub mod whole;
 
 use std::collections::BTreeMap;
@@ -12,6 +13,7 @@ use std::sync::Weak;
 
 use ppum::dataset::Dataset;
 use ppum_figure::plot::Plot;
+use ppum_render::range::RangeChoice;
 use ppum_scene::magnification::Magnification;
 use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays};
 use ppum_scene::scene::SceneRequest;
@@ -25,6 +27,7 @@ use crate::widgets::editor::Editor;
 use choices::FieldChoices;
 use deformation_animation::DeformationAnimation;
 use facts::Facts;
+use step_range::StepRange;
 use whole::{RangeSearch, Whole};
 
 /// Plots over the steps, with their names.
@@ -45,6 +48,8 @@ pub struct Controls {
     pub known: FieldChoices,
     /// The range of the whole body, while it is looked for.
     pub whole: Option<Whole>,
+    /// The range of all steps, while one looks through a series.
+    pub step_range: StepRange,
     /// The reason why a range was refused.
     pub refused: Option<String>,
     /// Levels of isolines that are written.
@@ -105,7 +110,7 @@ impl Controls {
     /// exist then.
     #[must_use]
     pub fn drawn(&self, scene: &SceneRequest) -> SceneRequest {
-        let mut scene = scene.drawn();
+        let mut scene = self.ranged(scene);
         if let (Some(swing), Some(factor)) = (&self.swing, &mut scene.deformed) {
             let whole = match *factor {
                 Magnification::Given(whole) => Some(whole),
@@ -113,6 +118,15 @@ impl Controls {
             };
             *factor = whole.map_or(*factor, |whole| swing.of(whole));
         }
+        scene
+    }
+
+    /// Returns the scene at rest: of a series with the range of all its steps, if that is found.
+    #[must_use]
+    pub fn ranged(&self, scene: &SceneRequest) -> SceneRequest {
+        let mut scene = scene.drawn();
+        let range = &mut scene.colors.range;
+        *range = self.step_range.range().filter(|_| *range == RangeChoice::Auto).unwrap_or(*range);
         scene
     }
 

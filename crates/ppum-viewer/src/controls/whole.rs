@@ -15,9 +15,8 @@ use crate::frames::{FrameRequest, PaneFrames, SubtractedImage};
 /// A range that is looked for.
 pub struct Whole {
     frames: PaneFrames,
-    scene: SceneRequest,
-    dataset: Arc<Dataset>,
-    minus: Option<SubtractedImage>,
+    /// The request of all steps; none of a body without size.
+    request: Option<FrameRequest>,
     steps: VecDeque<usize>,
     total: usize,
     found: Option<[f64; 2]>,
@@ -47,29 +46,33 @@ impl Whole {
         (scene, minus): (&SceneRequest, Option<SubtractedImage>),
         steps: Steps<usize>,
     ) -> Self {
-        let ctx = ctx.clone();
         let mut scene =
             SceneRequest { overlays: Overlays::default(), deformed: None, ..scene.clone() };
         scene.colors.range = RangeChoice::Auto;
+        let view = camera::view(None, dataset.domain.bounds, PIXELS, 0);
+        let new = |view| FrameRequest::new(Arc::clone(dataset), scene, view);
+        Self::of(ctx, view.map(|view| FrameRequest { minus, ..new(view) }), steps)
+    }
+
+    /// Looks for the range of what is requested at some steps.
+    pub(super) fn of(
+        ctx: &egui::Context,
+        request: Option<FrameRequest>,
+        steps: Steps<usize>,
+    ) -> Self {
+        let ctx = ctx.clone();
         Self {
             frames: PaneFrames::new(move || ctx.request_repaint()),
-            scene,
-            dataset: Arc::clone(dataset),
-            minus,
+            request,
             total: steps.len(),
             steps: steps.collect(),
             found: None,
         }
     }
 
-    /// True if it is the range of so many steps.
-    pub(crate) fn is_of(&self, steps: &Steps<usize>) -> bool {
-        self.total == steps.len()
-    }
-
     /// The progress of the search as text.
     pub(crate) fn progress_text(&self) -> String {
-        format!("{} of {} steps are done", self.total - self.steps.len(), self.total)
+        format!("{} of {} steps", self.total - self.steps.len(), self.total)
     }
 
     /// Takes what has been found since.
@@ -81,14 +84,11 @@ impl Whole {
             self.take();
         }
         let Some(&step) = self.steps.front() else { return self.end() };
-        let mut scene = self.scene.clone();
-        scene.subject.step = Some(step);
-        let Some(view) = camera::view(None, self.dataset.domain.bounds, PIXELS, 0) else {
+        let Some(mut request) = self.request.clone() else {
             return RangeSearch::Failed("the plate has no size".into());
         };
-        let dataset = Arc::clone(&self.dataset);
-        let minus = self.minus.clone();
-        self.frames.want(FrameRequest { minus, ..FrameRequest::new(dataset, scene, view) });
+        request.scene.subject.step = Some(step);
+        self.frames.want(request);
         RangeSearch::Working
     }
 

@@ -58,7 +58,7 @@ impl FrameRequest {
     }
 
     /// True if another one differs in nothing but the place.
-    pub(super) fn differs_in_place(&self, other: &Self) -> bool {
+    pub(crate) fn differs_in_place(&self, other: &Self) -> bool {
         *self != *other && *self == Self { view: self.view, ..other.clone() }
     }
 }

@@ -44,7 +44,8 @@ fn row(ui: &mut Ui, context: &mut PanelContext<'_>) {
         subject.step = Some(step);
     }
     let load = trimmed(steps[step].load);
-    ui.label(format!("step {step} of {last}, load {load}"));
+    let progress = context.viewports[active].controls.step_range.progress_text();
+    ui.label(progress.unwrap_or_else(|| format!("step {step} of {last}, load {load}")));
     if let Some(stop) = stop.filter(|_| step == last) {
         let text = RichText::new(format!("Growth ends: {}", stop.words()));
         ui.add(Label::new(text.strong()).truncate()).on_hover_text(ends(steps));

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use egui::Rect;
 use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Ui, vec2};
 use ppum::crack::Crack;
+use ppum::dataset::{Dataset, TipIncrement, TipStatus};
 use ppum::vec2::Vec2;
 use ppum_render::extrema::Extremum;
 
@@ -52,6 +53,14 @@ impl ViewState {
         {
             extrema(&painter, sight, frame);
         }
+        let opened = self.opened.as_ref().filter(|opened| {
+            pane.scene.subject.step_of(&opened.dataset) + 1 == opened.dataset.steps.len()
+        });
+        for (end, reason) in opened.map_or_else(Vec::new, |o| growth_ends(&o.dataset)) {
+            if let Some(at) = sight.position(&Location::new(end, Vec2::ZERO)) {
+                lettered(&painter, at + vec2(8.0, -8.0), Align2::LEFT_BOTTOM, &reason);
+            }
+        }
         self.told_integral(ui, sight, pane, cracks);
     }
 
@@ -68,6 +77,32 @@ impl ViewState {
         beside(ui, sight.rect, top, &text);
     }
 }
+
+/// Returns the ends of cracks that grow no further after the last step of a series whose growth has
+/// ended, each with the reason.
+#[must_use]
+pub fn growth_ends(dataset: &Dataset) -> Vec<(Vec2, String)> {
+    let Some((last, before)) = dataset.steps.split_last() else { return Vec::new() };
+    let Some((growth, stop)) = last.growth.as_ref().and_then(|g| Some((g, g.stop?))) else {
+        return Vec::new();
+    };
+    let reason = |fate: TipStatus| match fate {
+        TipStatus::Grows => stop.words().to_owned(),
+        fate => fate.words(),
+    };
+    let rows = before.iter().filter_map(|step| step.growth.as_ref()).flat_map(|g| &g.tips);
+    // a tip that goes on and is none any more has met something
+    let ended = rows.filter(|row| row.fate.goes_on() && row.fate != TipStatus::Grows);
+    let all = ended.chain(&growth.tips).take(LABELS);
+    let end = |row: &TipIncrement| {
+        let crack = last.cracks.get(row.tip.crack as usize)?;
+        Some((crack.end_point(row.tip.end), reason(row.fate)))
+    };
+    all.filter_map(end).collect()
+}
+
+/// Labels of more ends would cover the body.
+const LABELS: usize = 12;
 
 /// Shows a text on its own background above a position, inside a rectangle.
 fn beside(ui: &mut Ui, within: Rect, at: Pos2, text: &str) {

@@ -6,7 +6,7 @@ pub mod difference;
 mod fallback;
 pub mod hover;
 pub mod locator;
-mod marks;
+pub mod marks;
 mod opened;
 mod pipeline;
 pub mod pixels;
@@ -32,7 +32,7 @@ use ppum_scene::scene::SceneRequest;
 use ppum_scene::subject::scene_bounds;
 
 use crate::camera::{BodyBoxes, Camera};
-use crate::controls::Controls;
+use crate::controls::{Controls, step_range};
 use crate::export::{ExportChoice, ImageExport, Motion, PageSize};
 use crate::field::OwnedField;
 use crate::frames::{Backend, FrameRequest, PaneFrames, RenderedFrame};
@@ -141,7 +141,11 @@ impl ViewState {
             field: Arc::clone(&frame.field),
             file: self.opened.as_ref().and_then(|opened| opened.path.clone()),
             left: frame.left.clone(),
-            scene: pane.scene.drawn(),
+            // an animation of the steps finds their range by itself
+            scene: match choice {
+                ExportChoice::Steps => pane.scene.drawn(),
+                _ => self.controls.ranged(&pane.scene),
+            },
             view,
             page: page.unwrap_or(PageSize::pixels(view.pixels)),
             choice,
@@ -159,6 +163,9 @@ impl ViewState {
         let step = pane.scene.subject.step_of(&opened.dataset);
         self.controls.facts.look_up(&opened.dataset, step);
         self.controls.advance(ctx, pane, &self.frames);
+        let view = self.camera.view.filter(|_| self.pair == PairRole::Alone);
+        let asked = view.and_then(|view| step_range::asked(pane, opened, view));
+        self.controls.step_range.advance(ctx, asked, ctx.input(|input| input.time));
         if let Some(frame) = self.frame().cloned() {
             self.tools.refresh(&frame, pane);
         }
@@ -285,7 +292,8 @@ impl ViewState {
     /// True while an image is on its way, or where it is to be.
     #[must_use]
     pub fn is_drawing(&self) -> bool {
-        self.frames.is_working() || self.deformed.is_working()
+        let is_searching = self.controls.step_range.is_searching();
+        self.frames.is_working() || self.deformed.is_working() || is_searching
     }
 
     /// Describes the view in a few words: `plate.h5 · step 3 · syy`.

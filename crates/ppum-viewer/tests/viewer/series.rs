@@ -12,9 +12,11 @@ use ppum::vec2::vec2;
 use ppum_fracture::solve::solve;
 use ppum_problem::Problem;
 use ppum_testkit::synthetic::growing;
-use ppum_viewer::panels::drawer::series::plots;
+use ppum_viewer::export::{ExportChoice, Motion};
+use ppum_viewer::panels::drawer::series::{plots, words};
 use ppum_viewer::panels::drawer::{series_table, solver};
 use ppum_viewer::session::DrawerPage;
+use ppum_viewer::viewport::marks::growth_ends;
 
 use crate::kit::plate;
 use crate::lab::{Lab, shot};
@@ -184,8 +186,73 @@ fn a_table_of_the_steps_says_why_growth_ends() {
     let column = |name: &str| table.column(name).expect("it is there");
     assert_eq!(column("step"), [0.0, 1.0, 2.0]);
     assert_eq!(column("extension"), [0.0, 0.5, 1.0]);
+    assert_eq!(column("crack_length")[1], dataset.steps[1].cracks[0].length());
     let k1 = column("k1");
     assert_eq!((k1[0], k1[1].is_nan(), k1[2]), (1.0, true, 3.0));
+}
+
+/// Where growth ends the reason stands at the end of the crack: at a tip that has met something in
+/// an earlier step, and at one that is held in the last.
+#[test]
+fn ends_of_growth_are_labelled_on_the_plate() {
+    let mut dataset = growing(3);
+    let rows = [(1, End::Last, TipStatus::MeetsHole(4)), (1, End::Start, TipStatus::Grows)];
+    for (k, end, fate) in rows.into_iter().chain([(2, End::Start, TipStatus::Held)]) {
+        let tip = TipIncrement::staying(TipId { crack: 0, end }, fate);
+        dataset.steps[k].growth.get_or_insert_default().tips.push(tip);
+    }
+    assert!(growth_ends(&dataset).is_empty(), "growth goes on");
+    dataset.steps[2].growth.get_or_insert_default().stop = Some(GrowthStop::AllHeld);
+    let crack = &dataset.steps[2].cracks[0];
+    let expected = [(End::Last, "meets hole 4"), (End::Start, "held")];
+    let expected = expected.map(|(end, words)| (crack.end_point(end), words.to_owned()));
+    assert_eq!(growth_ends(&dataset), expected);
+}
+
+/// While one looks through the steps, all of them have one range: the smallest and the largest end
+/// of their own ranges, which a step has again once it is asked for.
+#[test]
+fn the_steps_have_one_range() {
+    let mut lab = series(4);
+    lab.state().session.panes[0].scene.quantity = Some("uy".into());
+    let mut ranges = |lab: &mut Lab, is_one: bool| {
+        lab.state().session.panes[0].one_step_range = is_one;
+        [0, 1, 2, 3].map(|step| {
+            lab.state().session.panes[0].scene.subject.step = Some(step);
+            lab.settle();
+            lab.settle();
+            lab.viewer().viewports[0].frames.newest().expect("an image").ends()
+        })
+    };
+    let (all, own) = (ranges(&mut lab, false), ranges(&mut lab, true));
+    assert!(all.iter().all(|range| *range == all[0]), "{all:?}");
+    assert!(own.iter().skip(1).all(|range| *range != own[0]), "{own:?}");
+    // coarser images find the shared range: their extrema are those of the same body
+    let ends = [own.map(|range| range[0]), own.map(|range| range[1])];
+    let shared = [ends[0].into_iter().fold(0.0, f64::min), ends[1].into_iter().fold(0.0, f64::max)];
+    let size = shared[1] - shared[0];
+    assert!((0..2).all(|k| (all[0][k] - shared[k]).abs() < 0.02 * size), "{all:?} {own:?}");
+    // an image that is saved has the range that is seen, and so has its command
+    lab.state().session.panes[0].one_step_range = false;
+    lab.settle();
+    let viewer = lab.viewer();
+    let kind = (ExportChoice::Image, Motion::default());
+    let order = viewer.viewports[0].export(&viewer.session.panes[0], kind, None);
+    let command = order.expect("an image").command(Path::new("a.png")).expect("a command");
+    assert!(command.contains("--range="), "{command}");
+}
+
+/// Values are read at a step; a constant load is no plot.
+#[test]
+fn values_of_a_step_are_read() {
+    let mut dataset = with_factors();
+    let all = plots(&dataset);
+    assert_eq!(words(&all[0].1, 2), "step 2: K_I 3");
+    assert_eq!(words(&all[0].1, 1), "step 1: no value");
+    dataset.steps.iter_mut().for_each(|step| step.load = 2.0);
+    let names: Vec<_> = plots(&dataset).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names.len() + 1, all.len(), "{names:?}");
+    assert!(!names.contains(&"Load against the steps"));
 }
 
 /// No button of the player moves when the numbers of the step get longer or it plays.
@@ -274,7 +341,7 @@ fn the_player_has_room_in_a_small_window() {
     lab.settle();
     lab.settle();
     shot(&mut lab, "solving-small");
-    for name in ["Step before", "Step after", "Play the steps", "Loop", "Keys", "File"] {
+    for name in ["Step before", "Step after", "Play the steps", "Loop", "Keys", "Undo"] {
         let rect = lab.window.get_by_label(name).rect();
         assert!(rect.left() >= 0.0 && rect.right() <= 700.0, "{name}: {rect:?}");
     }

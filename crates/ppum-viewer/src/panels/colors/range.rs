@@ -1,8 +1,6 @@
 //! The range of the colours: found, of the whole body, fixed.
 
-use std::ops::Range as Steps;
-
-use egui::{Button, DragValue, Response, RichText, TextStyle, Ui};
+use egui::{Button, Checkbox, DragValue, Response, RichText, TextStyle, Ui};
 use ppum::text::trimmed_to;
 use ppum_render::range::RangeChoice;
 use ppum_scene::colors::ColorOptions;
@@ -112,40 +110,43 @@ fn mirror(colors: &mut ColorOptions) {
     }
 }
 
-/// The range of the whole body, found in the background.
-fn whole(ui: &mut Ui, pane: &Pane, viewport: &mut ViewState) {
+/// The range of the whole body, found in the background; of a series, whether an automatic range is
+/// that of all steps.
+fn whole(ui: &mut Ui, pane: &mut Pane, viewport: &mut ViewState) {
     let Some(opened) = &viewport.opened else { return };
     let controls = &mut viewport.controls;
-    let count = opened.dataset.steps.len();
     let step = pane.scene.subject.step_of(&opened.dataset);
-    let here = ("whole plate", "Finds the range of the whole plate and fixes it", step..step + 1);
-    let all = ("all steps", "Finds the range of the plate at all steps and fixes it", 0..count);
-    for (name, meaning, steps) in [here, all].into_iter().take(count.min(2)) {
-        let button = range_button(ui, name, controls.whole.as_ref(), &steps);
-        if !button.on_hover_text(meaning).clicked() {
-            continue;
-        }
+    let button = range_button(ui, controls.whole.as_ref());
+    if button.on_hover_text("Finds the range of the whole plate and fixes it").clicked() {
         controls.refused = None;
         controls.whole = match controls.whole {
             Some(_) => None,
             None => {
                 let shown = (&pane.scene, viewport.pair.minus().cloned());
-                Some(Whole::new(ui.ctx(), &opened.dataset, shown, steps))
+                Some(Whole::new(ui.ctx(), &opened.dataset, shown, step..step + 1))
             }
         };
     }
+    if opened.dataset.steps.len() > 1 {
+        let mut is_of_all = !pane.one_step_range;
+        let is_automatic = pane.scene.colors.range == RangeChoice::Auto;
+        let all = ui.add_enabled(is_automatic, Checkbox::new(&mut is_of_all, "all steps"));
+        pane.one_step_range = !is_of_all;
+        all.on_hover_text(ALL_STEPS);
+    }
 }
+
+const ALL_STEPS: &str =
+    "While you go through the steps, the automatic range is that of all of them in this view";
 
 /// The button of a search for a range: while that works it stops it, and is as large as before, so
 /// that nothing moves.
-fn range_button(ui: &mut Ui, name: &str, whole: Option<&Whole>, steps: &Steps<usize>) -> Response {
+fn range_button(ui: &mut Ui, whole: Option<&Whole>) -> Response {
+    let name = "whole plate";
     let Some(whole) = whole else { return ui.button(name) };
     let font = TextStyle::Button.resolve(ui.style());
     let color = ui.visuals().text_color();
     let text = ui.painter().layout_no_wrap(name.to_owned(), font, color).size();
     let size = text + 2.0 * ui.spacing().button_padding;
-    let is_this = whole.is_of(steps);
-    let label = if is_this { "stop" } else { name };
-    let response = ui.add_enabled(is_this, Button::new(label).min_size(size));
-    response.on_hover_text(whole.progress_text())
+    ui.add(Button::new("stop").min_size(size)).on_hover_text(whole.progress_text())
 }
