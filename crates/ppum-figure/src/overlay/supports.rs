@@ -32,6 +32,14 @@ pub struct LoadMark {
     pub traction: Vec2,
 }
 
+impl LoadMark {
+    /// The length of the longest arrow in a view of some pixels.
+    #[must_use]
+    pub fn longest(pixels: [u32; 2], scale: f64) -> f64 {
+        (ARROW * scale).min(ARROW_PART * f64::from(pixels[0].min(pixels[1])))
+    }
+}
+
 const SUPPORT: Rgba = [28, 84, 60, 255];
 const LOAD: Rgba = [176, 32, 96, 255];
 const SEAM: Rgba = [255, 255, 255, 170];
@@ -90,8 +98,7 @@ pub fn supports(view: &View, scale: f64, supports: &[SupportMark]) -> Vec<Canvas
 /// border, those that press end there.
 #[must_use]
 pub fn loads(view: &View, scale: f64, loads: &[LoadMark]) -> Vec<CanvasItem> {
-    let side = f64::from(view.pixels[0].min(view.pixels[1]));
-    let longest = (ARROW * scale).min(ARROW_PART * side);
+    let longest = LoadMark::longest(view.pixels, scale);
     let largest = loads.iter().map(|load| load.traction.length()).fold(0.0, f64::max);
     let (mut shafts, mut heads) = (CanvasPath::default(), CanvasPath::default());
     for load in loads {

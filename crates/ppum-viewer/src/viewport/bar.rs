@@ -145,6 +145,14 @@ pub(super) fn width(plate: Rect) -> f32 {
     if is_there { BODY + labels + 2.0 * ROOM + MARGIN } else { 0.0 }
 }
 
+/// The room below a view's bar, where the whole body is never; none if there is no bar.
+pub(super) fn below(plate: Rect) -> Option<Rect> {
+    let (width, length) = (width(plate), length(plate));
+    let top = plate.center().y + 0.5 * length + 2.0 * ROOM;
+    let corner = plate.right_bottom() - vec2(MARGIN, MARGIN);
+    (width > 0.0).then(|| Rect::from_min_max(pos2(plate.right() - width, top), corner))
+}
+
 /// A bar in the window's colours.
 fn bar(ui: &Ui, picture: &ColoredRaster, labels: &Labels, length: f32) -> StandaloneColorBar {
     let mut design = FigureStyle::pixels([1024, 768]);

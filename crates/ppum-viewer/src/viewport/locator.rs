@@ -3,12 +3,13 @@
 use egui::{Color32, Rect, Response, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
 use ppum::field::Field;
 use ppum::vec2::Vec2;
-use ppum_figure::canvas::CanvasItem;
+use ppum_figure::canvas::{Canvas, CanvasItem};
 use ppum_figure::overlay;
 use ppum_figure::ticks::power_of_ten;
 use ppum_render::view::View;
 
 use crate::shapes::{self, ImagePlacement};
+use crate::widgets::chart::darkened;
 
 /// The larger side of the map, in points of the window.
 const SIDE: f32 = 110.0;
@@ -18,7 +19,8 @@ const ENLARGED: f64 = 2.5;
 /// The body as the map shows it: its holes and cracks, drawn once.
 pub struct Locator {
     map: View,
-    items: Vec<CanvasItem>,
+    /// What is drawn on the ground of a light and of a dark window.
+    items: [Vec<CanvasItem>; 2],
 }
 
 impl Locator {
@@ -29,7 +31,9 @@ impl Locator {
         let map = View::hug(bounds, [SIDE as u32; 2]).ok()?;
         let rims = overlay::rims(&map, 1.0, &field.domain.holes, [None; 2]);
         let items = [rims, overlay::cracks(&map, 1.0, &field.step.cracks)].concat();
-        Some(Self { map, items })
+        let light = Canvas { items, ..Canvas::new(map.pixels, [255; 4]) };
+        let dark = darkened(light.clone());
+        Some(Self { map, items: [light.items, dark.items] })
     }
 
     /// The width from the left of the viewport that the map takes in a view that is `times` larger
@@ -52,8 +56,10 @@ impl Locator {
         let whole = Rect::from_min_size(corner, vec2(width, height));
         let painter = ui.painter_at(rect);
         painter.rect_filled(whole.expand(4.0), 4.0, Color32::from_black_alpha(150));
-        painter.rect_filled(whole, 0.0, Color32::from_gray(230));
-        shapes::draw(&painter.with_clip_rect(whole), ImagePlacement::new(corner, 1.0), &self.items);
+        let is_dark = ui.visuals().dark_mode;
+        let items = &self.items[usize::from(is_dark)];
+        painter.rect_filled(whole, 0.0, Color32::from_gray(if is_dark { 64 } else { 230 }));
+        shapes::draw(&painter.with_clip_rect(whole), ImagePlacement::new(corner, 1.0), items);
         self.mark(&painter, whole, view);
         let zoom = format!("×{}", magnification(times));
         let name = format!("Map of the plate, {zoom}");

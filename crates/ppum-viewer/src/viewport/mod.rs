@@ -22,10 +22,12 @@ use egui::{Color32, Rect, Response, Sense, Ui, vec2};
 use ppum::crack::tips;
 use ppum::dataset::{Dataset, Step};
 use ppum::decompose::FieldPart;
-use ppum::vec2::Vec2;
+use ppum::vec2::{Rect as BodyBox, Vec2};
+use ppum_figure::overlay::{LoadMark, line_scale};
 use ppum_render::view::View;
 use ppum_scene::compare::Compare;
 use ppum_scene::location::Location;
+use ppum_scene::overlays::Overlay;
 use ppum_scene::owner::Owner;
 use ppum_scene::quantity::default_quantity;
 use ppum_scene::scene::SceneRequest;
@@ -233,7 +235,11 @@ impl ViewState {
             }
         }
         let taken = (bar::width(rect) * scale).round() as u32;
-        let boxes = self.boxes(ui.ctx(), pane, dataset);
+        let mut boxes = self.boxes(ui.ctx(), pane, dataset);
+        let is_loaded = |overlay: &Overlay| matches!(overlay, Overlay::Loads | Overlay::Supports);
+        if pane.scene.overlays.shown.iter().any(is_loaded) {
+            boxes.whole = with_arrows(boxes.whole, pixels, taken).unwrap_or(boxes.whole);
+        }
         self.camera.look(ui, pane.place, (pixels, taken), boxes)
     }
 
@@ -342,7 +348,7 @@ impl ViewState {
 
     /// The map, the scale bar, and a word where it goes no deeper.
     fn furnish(&mut self, ui: &Ui, rect: Rect, view: &View, times: f64) {
-        scale_bar::show(ui, rect, view);
+        scale_bar::show(ui, rect, bar::below(rect), view);
         if self.camera.is_at_the_end {
             end_of_doubles(ui, rect);
         }
@@ -400,6 +406,20 @@ impl ViewState {
 
 /// Width of the view around a tip that one flies to, in parts of the body's size.
 const TIP: f64 = 0.05;
+
+/// A box with room for arrows of loads around it, where all of it is seen.
+fn with_arrows(whole: BodyBox, [columns, rows]: [u32; 2], taken: u32) -> Option<BodyBox> {
+    let longest = LoadMark::longest([columns, rows], line_scale([columns, rows])) + ROOM;
+    let beside = |size: u32, taken: u32| size.checked_sub(taken + 2 * longest.ceil() as u32);
+    let pixels = [beside(columns, taken)?, beside(rows, 0)?];
+    let room = View::fit(whole, pixels).ok()?.pixel_size() * longest;
+    let room = ppum::vec2::vec2(room, room);
+    Some(BodyBox::new(whole.min - room, whole.max + room))
+}
+
+/// Pixels between arrows and the end of the view.
+const ROOM: f64 = 6.0;
+
 /// Says that it goes no deeper.
 fn end_of_doubles(ui: &Ui, rect: Rect) {
     let painter = ui.painter_at(rect);

@@ -21,29 +21,39 @@ pub(crate) fn round_length(longest: f64) -> (f64, String) {
     (f64::from(digit) * unit, words)
 }
 
-/// Draws the bar in the lower left corner of a view that is shown in a rectangle.
-pub fn show(ui: &Ui, rect: Rect, view: &View) {
+/// Draws the bar of a view that is shown in a rectangle: in the `room` that is free of the body,
+/// or in the lower left corner.
+pub fn show(ui: &Ui, rect: Rect, room: Option<Rect>, view: &View) {
     let points = f64::from(rect.width()) / view.width;
-    let (length, words) = round_length(LONGEST.min(0.4 * f64::from(rect.width())) / points);
+    let room = room.filter(|room| room.height() >= HEIGHT);
+    let longest = room.map_or(0.4 * rect.width(), |room| room.width() - 2.0 * ROOM);
+    let (length, words) = round_length(LONGEST.min(f64::from(longest)) / points);
     let width = (length * points) as f32;
-    let start = pos2(rect.left() + 14.0, rect.bottom() - 14.0);
     let painter = ui.painter_at(rect);
-    let font = FontId::proportional(13.0);
     let ink = ui.visuals().strong_text_color();
-    let paper = ui.visuals().panel_fill.gamma_multiply(0.8);
-    let galley = painter.layout_no_wrap(words, font, ink);
+    let galley = painter.layout_no_wrap(words, FontId::proportional(13.0), ink);
     let size = vec2(width.max(galley.size().x), galley.size().y + 6.0);
-    let ground = Rect::from_min_size(start - vec2(0.0, size.y), size).expand(6.0);
-    painter.rect_filled(ground, 4.0, paper);
+    let start = match room {
+        Some(room) => pos2(room.center().x - 0.5 * size.x, room.bottom() - ROOM),
+        None => rect.left_bottom() + vec2(14.0, -14.0),
+    };
+    let ground = Rect::from_min_size(start - vec2(0.0, size.y), size).expand(ROOM);
+    painter.rect_filled(ground, 4.0, ui.visuals().panel_fill.gamma_multiply(0.8));
     let stroke = Stroke::new(1.5, ink);
+    let start = start + vec2(0.5 * (size.x - width), 0.0);
     let end = start + vec2(width, 0.0);
     painter.line_segment([start, end], stroke);
     for at in [start, end] {
         painter.line_segment([at - vec2(0.0, 4.0), at], stroke);
     }
-    let at = Align2::CENTER_BOTTOM.anchor_size(start + vec2(0.5 * size.x, -5.0), galley.size());
+    let at = pos2(ground.center().x, start.y - 5.0);
+    let at = Align2::CENTER_BOTTOM.anchor_size(at, galley.size());
     painter.galley(at.min, galley, ink);
 }
+
+/// Room around the bar, and the least height of a room for it \[points\].
+const ROOM: f32 = 6.0;
+const HEIGHT: f32 = 36.0;
 
 #[cfg(test)]
 mod tests {

@@ -352,3 +352,20 @@ fn the_line_below_the_plate_shows_as_many_patches_as_there_is_room_for() {
         assert!(texts[2..].iter().all(|text| text.ends_with(", …")));
     }
 }
+
+/// Where loads are drawn, the view of the whole plate has room for their arrows.
+#[test]
+fn arrows_of_loads_have_room() {
+    let mut window = window(plate(), SIZE);
+    let least = |window: &Window| {
+        let view = window.state().viewports[0].camera.view.expect("a plate is shown");
+        let bounds = plate().domain.bounds;
+        let [low, high] = [bounds.min, bounds.max].map(|corner| view.pixel(corner));
+        low.x.min(high.y).min(f64::from(view.pixels[1]) - low.y)
+    };
+    // the longest arrow has 38 pixels here
+    assert!(least(&window) < 38.0, "{}", least(&window));
+    window.state_mut().session.panes[0].scene.overlays.shown.push(Overlay::Loads);
+    settle(&mut window);
+    assert!(least(&window) >= 38.0, "{}", least(&window));
+}
