@@ -215,7 +215,7 @@ fn ends_of_growth_are_labelled_on_the_plate() {
 fn the_steps_have_one_range() {
     let mut lab = series(4);
     lab.state().session.panes[0].scene.quantity = Some("uy".into());
-    let mut ranges = |lab: &mut Lab, is_one: bool| {
+    let ranges = |lab: &mut Lab, is_one: bool| {
         lab.state().session.panes[0].one_step_range = is_one;
         [0, 1, 2, 3].map(|step| {
             lab.state().session.panes[0].scene.subject.step = Some(step);
