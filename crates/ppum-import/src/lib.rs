@@ -39,12 +39,16 @@ mod source;
 mod svg;
 mod write;
 
+use std::collections::BTreeSet;
+
 pub use assemble::BodyDrawing;
 pub use chain::CurveChain;
 pub use curve::{EllipseArc, PlaneCurve};
 pub use error::ImportError;
 pub use sketch::NamedCurve;
 pub use source::SourceLine;
+
+use sketch::Sketch;
 
 /// A format of drawings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -102,13 +106,7 @@ pub fn read(
     format: DrawingFormat,
     options: &ImportOptions,
 ) -> Result<BodyDrawing, ImportError> {
-    let text = String::from_utf8_lossy(bytes);
-    let mut sketch = match format {
-        DrawingFormat::Dxf => dxf::read(&text),
-        DrawingFormat::Svg => svg::read(&text),
-        DrawingFormat::Msh => msh::read(&text),
-        DrawingFormat::Geo => geo::read(&text),
-    }?;
+    let mut sketch = sketch(bytes, format)?;
     sketch.keep(&options.layers)?;
     let is_faceless = sketch.is_mesh_without_faces;
     let assembled = assemble::assemble(sketch, options.tolerance.clamp(1e-12, 1e-2));
@@ -119,4 +117,35 @@ pub fn read(
         )),
         false => error,
     })
+}
+
+/// The names of the layers, groups or labels of a file's curves, sorted.
+///
+/// # Errors
+/// The text does not obey the format, or has no curves.
+///
+/// ```
+/// use ppum_import::{DrawingFormat, layers};
+///
+/// let svg = r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 40 20">
+///     <g id="part"><rect width="40" height="20"/></g> <g id="frame"><path d="M 0 0 H 40"/></g>
+/// </svg>"#;
+/// assert_eq!(layers(svg.as_bytes(), DrawingFormat::Svg)?, ["frame", "part"]);
+/// # Ok::<(), ppum_import::ImportError>(())
+/// ```
+pub fn layers(bytes: &[u8], format: DrawingFormat) -> Result<Vec<String>, ImportError> {
+    let mut sketch = sketch(bytes, format)?;
+    let names: BTreeSet<_> = sketch.curves.iter().filter_map(|curve| curve.name.clone()).collect();
+    sketch.keep(&[])?;
+    Ok(names.into_iter().collect())
+}
+
+fn sketch(bytes: &[u8], format: DrawingFormat) -> Result<Sketch, ImportError> {
+    let text = String::from_utf8_lossy(bytes);
+    match format {
+        DrawingFormat::Dxf => dxf::read(&text),
+        DrawingFormat::Svg => svg::read(&text),
+        DrawingFormat::Msh => msh::read(&text),
+        DrawingFormat::Geo => geo::read(&text),
+    }
 }
