@@ -110,6 +110,8 @@ pub enum Action {
     ShowText,
     /// One view, or two side by side.
     Split,
+    /// Two views at the same place, or each at its own.
+    Link,
     /// The difference of two views on and off.
     Minus,
     /// Take back the last change of settings.
@@ -143,6 +145,8 @@ pub enum Need {
     Series,
     /// Displacements.
     Displacements,
+    /// Two views that may show different places.
+    FreeViews,
     /// The text of a problem.
     Text,
     /// A solution that is being computed.
@@ -245,16 +249,16 @@ pub const GROUPS: &[(&str, &[ActionEntry])] = &[
         row(Draw(Tool::Crack), "", "Choose a crack by a click", Dataset,
             "profile path section cut"),
         row(Extrema, "", "Mark the extrema of the view", Dataset, "minimum maximum peak"),
-        row(Drawer(DrawerPage::Plot), "X", "Plot along a curve, or opening of a crack", Nothing,
+        row(Drawer(DrawerPage::Plot), "X", "Plot along a curve, or opening of a crack", Dataset,
             "profile line graph chart sliding jump path csv"),
-        row(Drawer(DrawerPage::Tips), "T", "Table of the tips", Nothing,
+        row(Drawer(DrawerPage::Tips), "T", "Table of the tips", Dataset,
             "sif stress intensity factors k1 k2 t g energy release error"),
         row(Drawer(DrawerPage::Series), "", "Values over the steps", Series,
             "history steps growth k over time"),
-        row(Drawer(DrawerPage::Solver), "", "The solver's report", Nothing,
-            "error estimate warnings convergence unknowns condition"),
+        row(Drawer(DrawerPage::Solver), "", "The solver's report", Dataset,
+            "error estimate warnings convergence unknowns condition contact closed faces"),
         row(Drawer(DrawerPage::Problem), "", "The problem's text", Nothing,
-            "toml input edit loads material mesh cover"),
+            "toml input edit loads material mesh cover contact friction boundary conditions"),
         row(Save(ExportChoice::Image), "S", "Save an image", Dataset,
             "export image png screenshot"),
         row(Save(ExportChoice::Figure), "Shift+S", "Save a figure", Dataset,
@@ -287,6 +291,8 @@ pub const GROUPS: &[(&str, &[ActionEntry])] = &[
     ]),
     ("Window", &[
         row(Split, "V", "Two views side by side", Dataset, "compare side window"),
+        row(Link, "", "Link the two views, or unlink them", FreeViews,
+            "synchronize together camera same place compare"),
         row(Minus, "Shift+V", "Difference of the two views", Dataset, "compare subtract error"),
         row(Undo, "Ctrl+Z", "Undo", Nothing, ""),
         row(Redo, "Ctrl+Shift+Z", "Redo", Nothing, ""),

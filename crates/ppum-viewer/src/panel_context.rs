@@ -36,6 +36,7 @@ impl PanelContext<'_> {
             }
             Need::Series => steps > 1,
             Need::Displacements => steps > 0 && !viewport.is_rigid(),
+            Need::FreeViews => self.session.panes.len() > 1 && !self.session.minus.is_shown,
             Need::Text => self.session.draft.is_some(),
             Need::Solution => self.solving.running().is_some(),
         }

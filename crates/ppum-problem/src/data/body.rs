@@ -6,7 +6,7 @@ use ppum::border::BorderLine;
 use ppum::crack::Crack;
 use ppum::domain::Domain;
 
-use super::{BoundaryPiece, Discretization};
+use super::{BoundaryPart, BoundaryPiece, Discretization};
 use crate::geometry::{settled, with_ends};
 
 /// A body with cracks: the box minus holes Ω, and the pieces of its boundary that have names.
@@ -113,6 +113,28 @@ impl Body {
     pub fn line_of(&self, crack: usize) -> Option<BorderLine> {
         self.lines[crack]
     }
+}
+
+/// The body of a text that may not be a problem yet.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyText {
+    /// The body.
+    pub body: Body,
+    /// Where the text has conditions on the boundary, in its order.
+    pub conditions: Vec<ConditionPlace>,
+    /// The key of loads on the boundary: `traction` or `flux`.
+    pub load_key: &'static str,
+}
+
+/// A condition in a text.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConditionPlace {
+    /// The part of the boundary.
+    pub part: BoundaryPart,
+    /// The part as it is written.
+    pub on: String,
+    /// Line and column of its table, from 1.
+    pub at: [usize; 2],
 }
 
 /// A body that a temperature strains, and its discretisation.

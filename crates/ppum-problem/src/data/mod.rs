@@ -26,8 +26,8 @@ mod temperature;
 mod words;
 
 pub use adaptivity::{AdaptKind, Adaptivity, StepsKept};
-pub use body::Body;
 pub(crate) use body::HeatedBody;
+pub use body::{Body, BodyText, ConditionPlace};
 pub(crate) use boundary::OUTLINE;
 pub use boundary::{
     BoundaryCondition, BoundaryPart, BoundaryPiece, BoundaryRange, Condition, DomainEdge,

@@ -147,6 +147,11 @@ impl<'a> Section<'a> {
         None
     }
 
+    /// Line and column of the table in the file, from 1.
+    pub(crate) fn position(&self) -> [usize; 2] {
+        self.document.report.position(self.offset).into()
+    }
+
     /// True if the key is there, or meant by one that is.
     pub(crate) fn mentions(&self, key: &str) -> bool {
         self.table.contains_key(key)
@@ -321,6 +326,11 @@ pub(crate) trait FromValue: Sized {
 }
 
 impl<'a> DocumentValue<'a> {
+    /// The value as it is written.
+    pub(crate) fn source(&self) -> &'a str {
+        self.document.report.text.get(self.item.span()).unwrap_or_default()
+    }
+
     /// Reports that something is wrong with the value; its name opens the message.
     pub(crate) fn error<T>(&self, message: &str) -> Option<T> {
         self.report(&format!("{} {message}", self.name));

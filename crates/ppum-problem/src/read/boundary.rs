@@ -6,7 +6,8 @@ use ppum::expression::Expression;
 use ppum::vec2::{Rect, Vec2, vec2};
 
 use crate::data::{
-    BoundaryCondition, BoundaryPart, Condition, DomainEdge, EquationKind, OUTLINE, Symmetry,
+    BoundaryCondition, BoundaryPart, Condition, ConditionPlace, DomainEdge, EquationKind, OUTLINE,
+    Symmetry,
 };
 use crate::file::{DocumentValue, FromValue as _, Section, all, no_such};
 use crate::read::body::BodyShape;
@@ -28,6 +29,16 @@ pub(super) fn boundary(
         let exchange = exchange(&section);
         Some(BoundaryCondition { exchange: exchange?, ..BoundaryCondition::new(on?, components?) })
     })
+}
+
+/// The parts of the boundary that the text has conditions on; without those that cannot be read.
+pub(super) fn places(root: &Section<'_>, body: &mut BodyShape) -> Vec<ConditionPlace> {
+    let place = |section: Section<'_>| {
+        let on = section.value("on")?;
+        let part = part(&on, body)?;
+        Some(ConditionPlace { part, on: on.source().to_owned(), at: section.position() })
+    };
+    root.sections("boundary").into_iter().filter_map(place).collect()
 }
 
 /// Keys that say all components.

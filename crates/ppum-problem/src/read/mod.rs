@@ -36,7 +36,7 @@ use toml::de::DeTable;
 
 use crate::check;
 use crate::data::{
-    Adaptivity, Body, BoundaryPart, Diagnostic, Discretization, EquationKind, HeatedBody,
+    Adaptivity, BodyText, BoundaryPart, Diagnostic, Discretization, EquationKind, HeatedBody,
     PolynomialOrder, Problem, ProblemData, ProblemError, ProblemLocation, RefinementRegion,
     SolverSettings, default_order, quantities,
 };
@@ -75,18 +75,23 @@ impl Problem {
         read(text, file_name, FileSource::Folder(base_dir))
     }
 
-    /// The body that a text gives, whatever is missing or wrong in the rest: to be drawn while the
-    /// text is written. No rule is applied to it. `None` if a part of it cannot be read.
+    /// Reads the body of a text, and where the text has conditions on its boundary, whatever is
+    /// missing or wrong in the rest: to be drawn while the text is written. No rule is applied to
+    /// it. `None` if a part of the body cannot be read.
     #[must_use]
-    pub fn body_of(text: &str, base_dir: &Path) -> Option<Body> {
+    pub fn body_of(text: &str, base_dir: &Path) -> Option<BodyText> {
         let document = ProblemDocument::new("problem", text, FileSource::Folder(base_dir));
         let table = DeTable::parse(text).ok()?;
-        let root = &Section::unchecked(&document, &ROOT, table.get_ref(), 0).checked();
-        let example = EquationKind::Elasticity.example();
-        document.equation.set(Some(EquationKind::Elasticity));
-        document.tables.get_or_init(|| table::tables(root, &example));
+        let root = Section::unchecked(&document, &ROOT, table.get_ref(), 0);
+        let kind = equation_kind(&root).unwrap_or(EquationKind::Elasticity);
+        document.equation.set(Some(kind));
+        let root = &root.checked();
+        document.tables.get_or_init(|| table::tables(root, &kind.example()));
         let (cracks, _) = cracks(root, None);
-        Some(body::body(root, None).body()?.with_lines(cracks))
+        let mut shape = body::body(root, None);
+        let conditions = boundary::places(root, &mut shape);
+        let body = shape.body()?.with_lines(cracks);
+        Some(BodyText { body, conditions, load_key: kind.keys()[2] })
     }
 
     /// The problem of a dataset, from the text it holds; none if it holds none. Tables and points
@@ -194,12 +199,7 @@ fn report_violations(
 
 fn problem<'a>(document: &'a ProblemDocument<'a>, table: &'a DeTable<'a>) -> Option<ProblemData> {
     let root = Section::unchecked(document, &ROOT, table, 0);
-    let kind = match root.mentions("equation") {
-        true => root
-            .section("equation")
-            .and_then(|section| section.or("kind", EquationKind::Elasticity)),
-        false => Some(EquationKind::Elasticity),
-    };
+    let kind = equation_kind(&root);
     document.equation.set(kind);
     let root = &root.checked();
     document.misnamed.replace(root.misnamed_keys());
@@ -274,6 +274,14 @@ fn problem<'a>(document: &'a ProblemDocument<'a>, table: &'a DeTable<'a>) -> Opt
         files: Vec::new(),
         notes: Vec::new(),
     })
+}
+
+/// The kind of the equation; none if it cannot be read.
+fn equation_kind(root: &Section<'_>) -> Option<EquationKind> {
+    if !root.mentions("equation") {
+        return Some(EquationKind::Elasticity);
+    }
+    root.section("equation")?.or("kind", EquationKind::Elasticity)
 }
 
 /// The table `[discretization]`, which the problem of a temperature need not have, and what it

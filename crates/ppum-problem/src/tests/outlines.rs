@@ -1,6 +1,6 @@
 //! Outlines of bodies, paths of pieces, and conditions on pieces.
 
-use ppum::crack::CrackEnd;
+use ppum::crack::{CrackEnd, Side};
 use ppum::domain::Hole;
 use ppum::vec2::{Rect, Vec2, vec2};
 use ppum_testkit::random::Random;
@@ -215,4 +215,22 @@ fn parts_of_arcs() {
     assert!((edges[0].center() - vec2(2.0, 2.0)).length() < 1e-13);
     let head = problem.edges_of(problem.boundary[0].on).map(|edge| edge.from);
     assert_eq!(head.collect::<Vec<_>>(), [vec2(1.0, 2.0), vec2(1.0, 4.0)]);
+}
+
+/// The places of conditions are known while material and cells are missing, those that name no part
+/// of the body are left out.
+#[test]
+fn conditions_have_places_in_texts_that_are_no_problems() {
+    let text = "[domain]\nmin = [0, 0]\nmax = [2, 1]\n[[crack]]\npoints = [[0.5, 0.5], [1, 0.5]]\n\n\
+                [[boundary]]\non = { edge = \"top\", from = 0.5 }\n[[boundary]]\non = { hole = 3 }\n\
+                [[boundary]]\ntraction = [1, 0]\non = { crack = 0, face = \"below\" }\n";
+    let found = Problem::body_of(text, Path::new("")).expect("a body");
+    assert_eq!(found.load_key, "traction");
+    let [top, face] = &found.conditions[..] else { panic!("{:?}", found.conditions) };
+    assert_eq!((&*top.on, top.at), ("{ edge = \"top\", from = 0.5 }", [7, 1]));
+    assert_eq!(top.part, BoundaryPart::Edge { edge: DomainEdge::Top, from: 0.5, to: 2.0 });
+    assert_eq!((&*face.on, face.at), ("{ crack = 0, face = \"below\" }", [11, 1]));
+    assert_eq!(face.part, BoundaryPart::Crack { crack: 0, face: Some(Side::Below) });
+    let heat = Problem::body_of(&format!("equation.kind = \"poisson\"\n{text}"), Path::new(""));
+    assert_eq!(heat.expect("a body").load_key, "flux");
 }

@@ -10,6 +10,7 @@ use ppum_scene::compare::Compare;
 use ppum_scene::magnification::Magnification;
 use ppum_scene::mirror::Mirror;
 use ppum_scene::overlays::IsolineLevels;
+use ppum_scene::profile::ProfileCurve;
 
 use crate::actions::Action;
 use crate::app::Viewer;
@@ -89,7 +90,10 @@ impl Viewer {
             Action::CircleForK => {
                 let before = pane.curve;
                 match viewport.circle_nearest_tip(pane) {
-                    true if pane.curve == before => pane.curve = None,
+                    // also a circle of another radius
+                    true if tip_of(before).is_some() && tip_of(before) == tip_of(pane.curve) => {
+                        pane.curve = None;
+                    }
                     true => self.session.drawer = Some(DrawerPage::Plot),
                     false => viewport.tell("No circle for K: this step has no crack tip"),
                 }
@@ -156,6 +160,7 @@ impl Viewer {
             }
             Action::ShowText => self.show_text_of(active),
             Action::Split => self.split(ctx),
+            Action::Link => self.link(),
             Action::Minus => self.minus(ctx),
             Action::Undo => self.restore(ctx, true),
             Action::Redo => self.restore(ctx, false),
@@ -201,6 +206,14 @@ impl Viewer {
 
 /// How much larger a key makes things.
 const ENLARGED: f64 = 1.5;
+
+/// The tip that a curve is a circle around.
+fn tip_of(curve: Option<ProfileCurve>) -> Option<usize> {
+    match curve {
+        Some(ProfileCurve::Around { tip, .. }) => Some(tip),
+        _ => None,
+    }
+}
 
 /// Takes a setting away, or gives it a value if it has none.
 fn toggle<T>(setting: &mut Option<T>, on: T) {

@@ -17,6 +17,7 @@ use crate::fonts::fonts;
 use crate::frames::{Backend, SubtractedImage};
 use crate::panel_context::PanelContext;
 use crate::panels::export::Exporter;
+use crate::panels::import::ImportDialog;
 use crate::panels::palette::CommandPalette;
 use crate::panels::{self, help, top};
 use crate::player::Player;
@@ -50,6 +51,8 @@ pub struct Viewer {
     waiting: std::collections::VecDeque<crate::files::read::ReadFile>,
     pub(crate) palette: Option<CommandPalette>,
     pub(crate) exporter: Option<Exporter>,
+    /// The drawing that is being imported.
+    pub importing: Option<ImportDialog>,
     pub(crate) has_help: bool,
     /// The number of the tip that is flown to next.
     pub(crate) tip: usize,
@@ -92,6 +95,7 @@ impl Viewer {
             waiting: std::collections::VecDeque::new(),
             palette: None,
             exporter: None,
+            importing: None,
             has_help: false,
             tip: 0,
             backend,
@@ -223,6 +227,15 @@ impl Viewer {
         self.session.active = 0;
     }
 
+    /// Links two views, the other one at the place of the active one, or lets each have its own.
+    pub(crate) fn link(&mut self) {
+        self.session.linked = !self.session.linked;
+        if self.session.linked {
+            let place = self.session.pane().place;
+            self.session.panes.iter_mut().for_each(|pane| pane.place = place);
+        }
+    }
+
     /// The difference of two views, of which the second one is made if there is none, or its
     /// own values.
     pub(crate) fn minus(&mut self, ctx: &egui::Context) {
@@ -346,11 +359,14 @@ fn pair(context: &mut PanelContext<'_>) {
     }
 }
 
-/// Names what each of two views shows: the file, of a series the step, and the quantity.
+/// Names what each of two views shows: the file, of a series the step, and the quantity; and says
+/// if both move together.
 fn caption(context: &mut PanelContext<'_>) {
     let are_two = context.session.panes.len() > 1;
     for (pane, viewport) in context.session.panes.iter().zip(context.viewports.iter_mut()) {
-        viewport.caption = if are_two { viewport.named(pane) } else { None };
+        let linked = if context.session.linked { " · linked" } else { "" };
+        let named = viewport.named(pane).filter(|_| are_two);
+        viewport.caption = named.map(|name| name + linked);
     }
 }
 

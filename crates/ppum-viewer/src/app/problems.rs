@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use egui::Ui;
 use ppum::dataset::Dataset;
 
 use crate::app::Viewer;
@@ -146,13 +147,18 @@ impl Viewer {
         self.begin_text(ProblemDraft::unchanged(ppum_problem::TEMPLATE.to_owned()), None);
     }
 
-    /// Begins the text of the problem of a drawing, which no file has yet. Saved, it goes
-    /// beside the drawing.
-    pub(super) fn take_drawing(&mut self, path: &Path, text: String) {
+    /// Shows the import of a drawing; once it is confirmed, begins the text of its problem, which
+    /// no file has yet. Saved, it goes into the folder of the drawing.
+    pub(super) fn import(&mut self, ui: &Ui) {
+        let Some(dialog) = &mut self.importing else { return };
+        let Some(done) = dialog.show(ui) else { return };
+        let path = dialog.drawing().path.clone();
+        self.importing = None;
+        let Some(text) = done else { return };
         let folder = path.parent().map(Path::to_owned);
         self.begin_text(ProblemDraft { folder, text, ..ProblemDraft::default() }, None);
         let text = "The drawing is a problem now: add material and loads, then solve it";
-        self.files.tell(path, text, false);
+        self.files.tell(&path, text, false);
     }
 
     /// The text of a problem that was opened, or has changed on disk.

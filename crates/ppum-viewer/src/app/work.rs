@@ -14,6 +14,7 @@ use crate::files::read::{FileContent, ReadFile, Why};
 use crate::files::watch::{Stamp, stamp};
 use crate::files::{SavedFile, name, session_file};
 use crate::page::PageOrder;
+use crate::panels::import::ImportDialog;
 use crate::player;
 use crate::session::{Pane, Session};
 use crate::solving::ComputedDataset;
@@ -51,6 +52,7 @@ impl Viewer {
             Some((Purpose::Save(what), path)) => self.files.save(path, what, &self.session),
             None => {}
         }
+        self.import(ui);
         self.tell_fallbacks();
         self.leave_when_saved(&ctx);
     }
@@ -71,7 +73,8 @@ impl Viewer {
     #[must_use]
     pub fn is_working(&self) -> bool {
         let is_drawing = self.viewports.iter().any(ViewState::is_drawing);
-        is_drawing || self.files.is_working() || self.solving.is_working()
+        let is_importing = self.importing.as_ref().is_some_and(ImportDialog::is_working);
+        is_drawing || is_importing || self.files.is_working() || self.solving.is_working()
     }
 
     /// Opens a file in a pane, which is made if it is the one beside.
@@ -218,7 +221,9 @@ impl Viewer {
                 match content {
                     FileContent::Dataset(dataset) => self.show_dataset(pane, path, dataset, why),
                     FileContent::Problem(text) => self.take_problem(path, text, why),
-                    FileContent::Drawing(text) => self.take_drawing(&path, text),
+                    FileContent::Drawing(drawing) => {
+                        self.importing = Some(ImportDialog::new(drawing));
+                    }
                     FileContent::Session(session) => {
                         self.take_session(ctx, *session);
                         self.files.session = Some(path);

@@ -5,11 +5,14 @@ use std::env;
 use std::fs;
 use std::path::{MAIN_SEPARATOR, MAIN_SEPARATOR_STR, Path, PathBuf};
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
 use egui::{Align2, Key, Modifiers, TextEdit, Ui, Window};
 use ppum::dataset::Dataset;
 
-use super::read::DRAWINGS;
+use super::drawing::DRAWINGS;
 use super::session_file;
 use crate::job::BackgroundJob;
 use crate::page::PageOrder;
@@ -75,7 +78,8 @@ pub struct Dialog {
     target: SaveTarget,
     chosen: Option<usize>,
     listed: BackgroundQuery<PathBuf, Vec<FolderEntry>>,
-    system: Option<BackgroundJob<Option<PathBuf>>>,
+    /// The dialog of the system, and when it was opened.
+    system: Option<(Instant, BackgroundJob<Option<PathBuf>>)>,
 }
 
 /// Something in a folder: its name, and whether it is a folder too.
@@ -148,7 +152,13 @@ impl Dialog {
             taken = taken.or_else(|| fitting.get(self.chosen.unwrap_or(0)).cloned());
         }
         let is_named = enter && self.chosen.is_none();
+        let is_completed = tab && taken.is_some();
         let mut done = taken.and_then(|entry| self.take(ui, entry, !tab));
+        if is_completed && let Some(mut state) = TextEditState::load(ui.ctx(), edit.id) {
+            let end = CCursor::new(self.target.name.chars().count());
+            state.cursor.set_char_range(Some(CCursorRange::one(end)));
+            state.store(ui.ctx(), edit.id);
+        }
         self.target.show_result(ui);
         if (self.buttons(ui) || is_named) && done.is_none() {
             done = self.confirm(&self.path());
@@ -249,11 +259,18 @@ impl Dialog {
         let here = self.shown_folder();
         let folder = here.clone();
         self.listed.ask(&here, false, ui.ctx(), move |_| Some(Ok(entries(&folder))));
-        if let Some(outcome) = self.system.as_ref().and_then(BackgroundJob::poll) {
+        if let Some((since, job)) = &self.system
+            && let Some(outcome) = job.poll()
+        {
+            let since = *since;
             self.system = None;
             match outcome {
                 Ok(Some(path)) => self.target.name = path.display().to_string(),
-                _ => self.target.result = Some(Err(NOTHING_CHOSEN.into())),
+                // nobody cancels a dialog so soon
+                _ if since.elapsed() < QUICK => {
+                    self.target.result = Some(Err(NO_DIALOG.into()));
+                }
+                _ => {}
             }
         }
     }
@@ -265,15 +282,18 @@ impl Dialog {
         }
         let ((title, ends), is_open) = (self.purpose.words(), self.purpose.is_open());
         let folder = self.shown_folder();
-        self.system = Some(BackgroundJob::start(ui.ctx(), move |_| {
+        let job = BackgroundJob::start(ui.ctx(), move |_| {
             let dialog = rfd::FileDialog::new().set_title(title).set_directory(folder);
             let dialog = dialog.add_filter(ends.join(", "), ends);
             if is_open { dialog.pick_file() } else { dialog.save_file() }
-        }));
+        });
+        self.system = Some((Instant::now(), job));
     }
 }
 
-const NOTHING_CHOSEN: &str = "nothing was chosen; a name can be written here";
+const NO_DIALOG: &str = "the system has no dialog for files; write the name here";
+/// A dialog that closes within this time was never open.
+const QUICK: Duration = Duration::from_millis(500);
 
 /// `~` is the folder of the person, as shells have it.
 fn home(text: &str) -> PathBuf {

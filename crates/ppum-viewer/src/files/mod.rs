@@ -1,6 +1,7 @@
 //! Files: read and written in the background, watched while they are open, remembered.
 
 pub mod dialog;
+pub mod drawing;
 pub mod examples;
 pub mod read;
 pub mod session_file;

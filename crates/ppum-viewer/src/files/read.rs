@@ -1,6 +1,5 @@
 //! The content of a file, found in the background.
 
-use std::ffi::OsStr;
 use std::fs::File;
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -9,9 +8,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
 use ppum::dataset::Dataset;
-use ppum_import::{DrawingFormat, ImportOptions};
 use ppum_problem::MAX_LENGTH as MAX_PROBLEM;
 
+use super::drawing::{DRAWINGS, Drawing};
 use super::session_file;
 use super::watch::{Stamp, stamp};
 use crate::job::{BackgroundJob, CancelToken};
@@ -25,8 +24,8 @@ pub enum FileContent {
     Dataset(Arc<Dataset>),
     /// The text of a problem.
     Problem(String),
-    /// The text of a problem that was made of a drawing.
-    Drawing(String),
+    /// A drawing, to be imported.
+    Drawing(Arc<Drawing>),
     /// The session of a window.
     Session(Box<Session>),
 }
@@ -104,15 +103,9 @@ impl FileRead {
 /// Signature at the start of an HDF5 file; a block of the user's may stand before it.
 const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
 
-/// Ends of the names of drawings and meshes that bodies are read from.
-pub const DRAWINGS: &[&str] = &["dxf", "svg", "msh", "geo"];
-
-/// Longest drawing, in bytes.
-const MAX_DRAWING: u64 = 1 << 28;
-
 fn read(path: &Path, counted: &AtomicU64, stop: &CancelToken) -> Result<FileContent, String> {
     if has_extension(path, DRAWINGS) {
-        return drawing(path).map(FileContent::Drawing);
+        return Drawing::read(path).map(Arc::new).map(FileContent::Drawing);
     }
     match is_text(path) {
         Err(error) => Err(error.to_string()),
@@ -132,24 +125,6 @@ fn is_text(path: &Path) -> io::Result<bool> {
     let mut head = Vec::new();
     ppum_file::open(path, u64::MAX)?.take(HDF5.len() as u64).read_to_end(&mut head)?;
     Ok(head != HDF5 && std::str::from_utf8(&head).is_ok())
-}
-
-/// The problem of a drawing, as `ppum import` writes it.
-fn drawing(path: &Path) -> Result<String, String> {
-    let name = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
-    let format = DrawingFormat::of_extension(&name(path.extension()));
-    let bytes = ppum_file::read(path, MAX_DRAWING).map_err(|error| error.to_string())?;
-    let body =
-        format.and_then(|format| ppum_import::read(&bytes, format, &ImportOptions::default()));
-    let body = body.map_err(|error| error.to_string())?;
-    let text = body.problem_file(&name(path.file_stem()), &name(path.file_name()));
-    match text.len() as u64 > MAX_PROBLEM {
-        true => Err(
-            "its problem would be too long; import it by `ppum import`, with a larger --tolerance"
-                .into(),
-        ),
-        false => Ok(text),
-    }
 }
 
 /// A session or a problem.

@@ -8,6 +8,7 @@ pub mod export;
 pub mod files;
 pub mod functions;
 pub mod help;
+pub mod import;
 pub mod overlays;
 pub mod palette;
 pub mod parts;
@@ -17,8 +18,9 @@ pub mod quantity;
 pub mod start;
 pub mod top;
 
-use egui::{CollapsingHeader, RichText, ScrollArea, Ui};
+use egui::{Button, CollapsingHeader, RichText, ScrollArea, Ui};
 
+use crate::actions::{self, Action};
 use crate::frames::FaultOrigin;
 use crate::panel_context::PanelContext;
 use crate::viewport::ViewState;
@@ -37,6 +39,8 @@ pub fn side(ui: &mut Ui, context: &mut PanelContext<'_>) {
         ("Compare", compare::show, false),
         ("Functions", functions::show, false),
     ];
+    modes(ui, context);
+    ui.separator();
     let wanted = context.active().1.controls.panel_to_open.take();
     ScrollArea::vertical().show(ui, |ui| {
         for (name, show, is_open) in ALL {
@@ -45,6 +49,32 @@ pub fn side(ui: &mut Ui, context: &mut PanelContext<'_>) {
             header.show_unindented(ui, |ui| show(ui, context));
         }
     });
+}
+
+/// Switches of what is shown in place of the plate as it is, and of how two views are related:
+/// their state is seen wherever the panels are.
+fn modes(ui: &mut Ui, context: &mut PanelContext<'_>) {
+    let session = &context.session;
+    let (pane, is_split) = (session.pane(), session.panes.len() > 1);
+    let all = [
+        ("Deformed", pane.scene.deformed.is_some(), Action::Deform),
+        ("Mirrored", pane.scene.mirror.is_some(), Action::Mirror),
+        ("Resampled", pane.compare.is_some(), Action::Compare),
+        ("Linked views", is_split && session.linked, Action::Link),
+        ("Difference", session.minus.is_shown, Action::Minus),
+    ];
+    ui.horizontal_wrapped(|ui| {
+        for (name, is_on, action) in all {
+            let is_possible = is_on || context.is_possible(action);
+            let button = ui.add_enabled(is_possible, Button::selectable(is_on, name));
+            let hint = actions::all().find(|entry| entry.action == action);
+            let hint = hint.map_or(name, |entry| entry.name);
+            if button.on_hover_text(hint).on_disabled_hover_text(hint).clicked() {
+                context.actions.push(action);
+            }
+        }
+    });
+    failure(ui, context.active().1, FaultOrigin::Mirror);
 }
 
 /// The reason why there is no image of what is wanted, where it arose.

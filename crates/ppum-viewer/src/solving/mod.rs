@@ -1,5 +1,6 @@
 //! Problems while they are written, and their solutions: both in the background.
 
+pub mod border;
 pub mod marks;
 pub mod preview;
 
@@ -13,6 +14,7 @@ use ppum_fracture::growth::{GrowthError, grow};
 use ppum_fracture::solve::{Plan, SolveError};
 use ppum_problem::{Problem, ProblemError, ProblemLocation};
 
+use self::border::Border;
 use self::preview::Preview;
 use crate::job::{BackgroundJob, CancelToken};
 use crate::session::ProblemDraft;
@@ -42,8 +44,11 @@ pub struct CheckedText {
     pub text: String,
     /// Its errors, in the order of the text.
     pub marks: Vec<Mark>,
-    /// The geometry of the text; if it has errors, of the last text without any, or the body alone.
+    /// The geometry of the text; if it has errors, of the last text without any, or the body alone,
+    /// as far as it was known.
     pub preview: Option<Arc<Preview>>,
+    /// The parts of the boundary; none if the body cannot be read.
+    pub border: Arc<Border>,
 }
 
 /// The way the last solution has ended.
@@ -87,6 +92,8 @@ pub struct SolverState {
     pub gives_way: bool,
     /// The way the last solution has ended.
     pub outcome: Option<SolutionOutcome>,
+    /// The text that was solved last.
+    pub(crate) solved_text: String,
     /// The place in the text to go to.
     pub jump: Option<[usize; 2]>,
     /// Memory that is free \[bytes\], as far as the system tells.
@@ -172,6 +179,7 @@ impl SolverState {
             origin: None,
             gives_way: false,
             outcome: None,
+            solved_text: String::new(),
             jump: None,
             memory: || None,
             checked: None,
@@ -199,13 +207,15 @@ impl SolverState {
         let broken = |message| CheckedText {
             text: text.clone(),
             marks: vec![Mark { at: None, message }],
-            preview: None,
+            ..CheckedText::default()
         };
         let mut checked = outcome.unwrap_or_else(broken);
         let before = self.checked.as_ref().and_then(|before| before.preview.clone());
         let is_complete = |preview: &Arc<Preview>| preview.is_complete;
         let full = |preview: Option<Arc<Preview>>| preview.filter(is_complete);
-        checked.preview = full(checked.preview.clone()).or(full(before)).or(checked.preview);
+        let latest = checked.preview.take();
+        let complete = full(latest.clone()).or_else(|| full(before.clone()));
+        checked.preview = complete.or(latest).or(before);
         (self.checked, self.checking) = (Some(Arc::new(checked)), None);
     }
 
@@ -216,11 +226,15 @@ impl SolverState {
         if self.checking.is_none() && !is_known {
             let text = self.text(draft);
             let job = BackgroundJob::start(&self.ctx, move |_| {
+                let body = Problem::body_of(&text.text, &text.folder);
                 let (marks, preview) = match text.parse() {
-                    Ok(problem) => (Vec::new(), Some(Arc::new(Preview::new(&problem)))),
-                    Err(error) => (marks(&error), text.body().map(Arc::new)),
+                    Ok(problem) => (Vec::new(), Some(Preview::new(&problem))),
+                    Err(error) => {
+                        (marks(&error), body.as_ref().map(|text| Preview::of_body(&text.body)))
+                    }
                 };
-                CheckedText { text: text.text, marks, preview }
+                let border = Arc::new(body.as_ref().map(Border::new).unwrap_or_default());
+                CheckedText { text: text.text, marks, preview: preview.map(Arc::new), border }
             });
             self.checking = Some((draft.text.clone(), job));
         }
@@ -309,6 +323,7 @@ impl SolverState {
         };
         self.outcome = Some(outcome.clone());
         let RunningSolution { pane, problem, .. } = running;
+        self.solved_text.clone_from(&problem.text);
         let solution = ComputationRecord { problem, outcome };
         dataset.map(|dataset| ComputedDataset { pane, dataset: Arc::new(dataset), solution })
     }
@@ -442,11 +457,6 @@ impl ProblemText {
             None => Problem::parse(&self.text, "problem", &self.folder),
             Some(dataset) => Problem::parse_with(&self.text, dataset),
         }
-    }
-
-    /// The body alone, of a text that is not yet a problem.
-    fn body(&self) -> Option<Preview> {
-        Problem::body_of(&self.text, &self.folder).as_ref().map(Preview::of_body)
     }
 }
 

@@ -26,7 +26,7 @@ const SPACING: f64 = 0.1;
 const MARGIN: f64 = 0.16;
 /// Most cracks and holes that are drawn: more of them are specks, and every image of the window
 /// draws all.
-const MOST: usize = 2000;
+pub(super) const MOST: usize = 2000;
 
 const PLATE: Rgba = [150, 160, 175, 110];
 const BORDER: Rgba = [110, 120, 135, 255];
@@ -76,14 +76,19 @@ impl Preview {
         &self.domain.holes[..count]
     }
 
-    /// Drawn on so many pixels; nothing of a body that has no room there.
-    pub(crate) fn items(&self, pixels: [u32; 2], scale: f64) -> Vec<CanvasItem> {
+    /// The view of the body on so many pixels; none of a body that has no room there.
+    pub(crate) fn view(&self, pixels: [u32; 2]) -> Option<View> {
         let bounds = self.domain.body_bounds();
         let (size, center) = (bounds.size(), bounds.center());
         let [across, up] = pixels.map(|count| f64::from(count) * (1.0 - 2.0 * MARGIN));
         let width = f64::from(pixels[0]) * (size.x / across).max(size.y / up);
-        let Ok(view) = View::new(center, width, pixels) else { return Vec::new() };
-        let mut items = self.body(&view, &bounds, scale);
+        View::new(center, width, pixels).ok()
+    }
+
+    /// Drawn on so many pixels; nothing of a body that has no room there.
+    pub(crate) fn items(&self, pixels: [u32; 2], scale: f64) -> Vec<CanvasItem> {
+        let Some(view) = self.view(pixels) else { return Vec::new() };
+        let mut items = self.body(&view, &self.domain.body_bounds(), scale);
         items.extend(overlay::rims(&view, scale, self.holes(), [None; 2]));
         items.extend(overlay::cracks(&view, scale, &self.cracks));
         items.extend(overlay::supports(&view, scale, &self.supports));
@@ -188,7 +193,7 @@ mod tests {
         let folder = std::path::Path::new(".");
         assert!(Problem::parse(&text, "plate", folder).is_err());
         let body = Problem::body_of(&text, folder).expect("a body");
-        let preview = Preview::of_body(&body);
+        let preview = Preview::of_body(&body.body);
         assert_eq!(preview.counts(), [1, 1, 0, 0]);
         assert!(!preview.is_complete);
         let items = preview.items([300, 300], 1.0);

@@ -62,6 +62,28 @@ fn a_name_that_is_written_is_opened_and_remembered() {
     lab.window.get_by_label("Plate");
 }
 
+/// Tab completes a name, and what is written next goes to its end.
+#[test]
+fn a_name_is_completed_and_written_on() {
+    let mut lab = Lab::new();
+    lab.write("plate.h5", &named("First"));
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    lab.window.run_steps(2);
+    lab.window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    lab.window.step();
+    let begun = lab.path("pla").display().to_string();
+    lab.window.event(egui::Event::Text(begun));
+    show_until(&mut lab.window, "the folder is listed", |window| {
+        window.query_by_label("plate.h5").is_some()
+    });
+    lab.window.key_press(Key::Tab);
+    lab.window.run_steps(2);
+    lab.window.event(egui::Event::Text("X".into()));
+    lab.window.run_steps(2);
+    let shown = lab.window.get_by_label("Name of the file, with its folder").value();
+    assert_eq!(shown, Some(lab.path("plate.h5X").display().to_string()));
+}
+
 #[test]
 fn what_is_not_there_is_told_at_the_name() {
     let mut lab = Lab::new();

@@ -144,10 +144,17 @@ fn two_views_move_together_while_they_are_linked() {
         window.state().session.panes.iter().map(|pane| pane.place).collect::<Vec<_>>()
     };
     assert!(places(&window)[0].is_some() && places(&window)[0] == places(&window)[1]);
-    window.state_mut().session.linked = false;
+    assert_eq!(window.query_all_by_label_contains("· linked").count(), 2);
+    window.get_by_label("Linked views").click();
+    rest(&mut window);
+    assert_eq!(window.query_all_by_label_contains("· linked").count(), 0);
     window.key_press(Key::F);
     rest(&mut window);
     assert!(places(&window)[0].is_none() != places(&window)[1].is_none());
+    let active = places(&window)[window.state().session.active];
+    window.get_by_label("Linked views").click();
+    rest(&mut window);
+    assert_eq!(places(&window), [active; 2]);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use egui::{Key, Modifiers};
 use egui_kittest::Harness;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use ppum::crack::End;
 use ppum::progress::unwatched;
 use ppum_fracture::solve::solve;
@@ -199,8 +199,13 @@ fn what_cannot_be_solved_is_refused_with_the_reason() {
     assert!(error.contains("does not hold") && error.contains("use fewer cells"), "{error}");
     lab.window.get_by_label(&error);
     *draft(&mut lab) = "title = \"none\"\n[domain]\n".into();
+    lab.settle();
+    assert!(lab.window.query_by_label(&error).is_none(), "it was about another text");
+    assert!(lab.window.get_by_label("Solve").accesskit_node().is_disabled());
     let error = solve(&mut lab);
     assert!(error.starts_with("not solved: "), "{error}");
+    // the errors are listed, and said once
+    assert!(lab.window.query_by_label(&error).is_none());
     assert!(lab.dataset(0).is_none());
 }
 

@@ -1,6 +1,7 @@
 //! The drawer below the view: one page at a time.
 
 pub mod plot;
+mod preview;
 pub mod problem;
 pub mod series;
 pub mod series_table;

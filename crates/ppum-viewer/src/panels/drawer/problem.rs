@@ -11,12 +11,11 @@ use egui::{
 use ppum::text::trimmed;
 use ppum_problem::keys::completions;
 
+use super::preview;
 use crate::actions::Action;
 use crate::panel_context::PanelContext;
 use crate::session::ProblemDraft;
-use crate::shapes;
 use crate::solving::marks::HighlightStyle;
-use crate::solving::preview::Preview;
 use crate::solving::{
     Mark, PHASES, RunningSolution, SolutionOutcome, SolverState, editor_id, phase_number,
 };
@@ -58,7 +57,7 @@ pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
             ui.set_width(beside);
             ScrollArea::vertical()
                 .id_salt("told")
-                .show(ui, |ui| solution_panel(ui, &draft, context));
+                .show(ui, |ui| solution_panel(ui, &mut draft, context));
         });
     };
     if is_wide {
@@ -164,7 +163,7 @@ fn still_there(before: &str, now: &str, marks: &[Mark]) -> Vec<Mark> {
 }
 
 /// Buttons for the text, and the state of its solution.
-fn solution_panel(ui: &mut Ui, draft: &ProblemDraft, context: &mut PanelContext<'_>) {
+fn solution_panel(ui: &mut Ui, draft: &mut ProblemDraft, context: &mut PanelContext<'_>) {
     buttons(ui, draft, context);
     texts_aside(ui, context);
     if let Some(running) = context.solving.running() {
@@ -174,7 +173,7 @@ fn solution_panel(ui: &mut Ui, draft: &ProblemDraft, context: &mut PanelContext<
     if let Some(checked) = &checked {
         mistakes(ui, &checked.marks, context.solving);
     }
-    failure(ui, context);
+    failure(ui, draft, context);
     solutions(ui, context);
     let opened = context.active().1.opened.as_ref();
     let solved = opened.and_then(|opened| opened.dataset.problem.as_ref());
@@ -186,8 +185,15 @@ fn solution_panel(ui: &mut Ui, draft: &ProblemDraft, context: &mut PanelContext<
             }
         });
     }
-    if let Some(preview) = checked.as_ref().and_then(|checked| checked.preview.as_deref()) {
-        show_preview(ui, preview);
+    if let Some(checked) = checked {
+        let clicked = preview::show(ui, &checked);
+        if let Some(part) = clicked.filter(|_| checked.text == draft.text) {
+            context.solving.jump = part.condition.or_else(|| {
+                let (text, place) = checked.border.with_condition(&draft.text, part);
+                draft.text = text;
+                Some(place)
+            });
+        }
     }
 }
 
@@ -212,12 +218,18 @@ fn texts_aside(ui: &mut Ui, context: &mut PanelContext<'_>) {
 const LONGEST_NAME: usize = 28;
 
 /// Why the last solution has left nothing.
-fn failure(ui: &mut Ui, context: &PanelContext<'_>) {
-    let Some(outcome) = &context.solving.outcome else { return };
+fn failure(ui: &mut Ui, draft: &ProblemDraft, context: &PanelContext<'_>) {
+    let solving = &*context.solving;
+    let Some(outcome) = &solving.outcome else { return };
+    let is_changed = solving.solved_text != draft.text;
+    if is_changed && matches!(outcome, SolutionOutcome::Failed(_)) {
+        return;
+    }
     let mut shown =
         context.viewports.iter().filter_map(|viewport| viewport.opened.as_ref()?.solution.as_ref());
-    if shown.any(|solution| solution.outcome == *outcome) {
-        // it is told of what is shown
+    let has_marks = solving.checked().is_some_and(|checked| !checked.marks.is_empty());
+    if has_marks || shown.any(|solution| solution.outcome == *outcome) {
+        // it is said at the errors of the text, or of what is shown
         return;
     }
     match outcome {
@@ -293,23 +305,14 @@ fn sentence(place: &str, outcome: Option<&SolutionOutcome>, is_unsaved: bool) ->
     }
 }
 
-/// Draws the geometry of the text: body, holes, cracks, supports and loads.
-fn show_preview(ui: &mut Ui, preview: &Preview) {
-    let width = ui.available_width();
-    let size = vec2(width, (0.8 * width).min(ui.available_height().max(160.0)));
-    let (rect, response) = ui.allocate_exact_size(size, egui::Sense::hover());
-    let [holes, cracks, ..] = preview.counts();
-    let text = format!("The problem as it is written: cracks {cracks}, holes {holes}");
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &text));
-    let items = preview.items([size.x as u32, size.y as u32], 1.0);
-    shapes::draw(&ui.painter_at(rect), shapes::ImagePlacement::new(rect.min, 1.0), &items);
-}
-
 fn buttons(ui: &mut Ui, draft: &ProblemDraft, context: &mut PanelContext<'_>) {
     ui.horizontal_wrapped(|ui| {
         let is_running = context.solving.running().is_some();
-        let solve = ui.add_enabled(!is_running, egui::Button::new("Solve"));
-        if solve.on_hover_text("Ctrl+Enter").clicked() {
+        let checked = context.solving.checked();
+        let is_wrong = checked.is_some_and(|c| c.text == draft.text && !c.marks.is_empty());
+        let solve = ui.add_enabled(!is_running && !is_wrong, egui::Button::new("Solve"));
+        let why = if is_wrong { "The text has errors, see below" } else { "Already solving" };
+        if solve.on_hover_text("Ctrl+Enter").on_disabled_hover_text(why).clicked() {
             context.actions.push(Action::Solve);
         }
         let is_changed = draft.is_changed();
