@@ -33,6 +33,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         page: PageSize::pixels(size),
         choice: if request.figure { ExportChoice::Figure } else { ExportChoice::Image },
         motion: Motion::default(),
+        texts: request.labels,
     };
     let (bytes, notices) = order.bytes(&output, unwatched(), &AtomicUsize::new(0))?;
     std::fs::write(&output, bytes)?;

@@ -23,7 +23,7 @@ use ppum_scene::overlays::Overlay;
 use ppum_scene::page_style::PageStyle;
 use ppum_scene::quantity::DisplayError;
 use ppum_scene::region::ViewRegion;
-use ppum_scene::request::Request;
+use ppum_scene::request::{FigureTexts, Request};
 use ppum_scene::scene::SceneRequest;
 use ppum_scene::subject::ImageSubject;
 
@@ -188,6 +188,8 @@ pub struct ImageExport {
     pub choice: ExportChoice,
     /// The motion of an animation.
     pub motion: Motion,
+    /// The texts of a figure that are not automatic.
+    pub texts: FigureTexts,
 }
 
 type Failure = Box<dyn Error>;
@@ -254,7 +256,8 @@ impl ImageExport {
         let mut scene = self.scene.clone();
         let is_page = self.choice != ExportChoice::Image;
         scene.overlays.no_cracks = is_page && !scene.overlays.shown.contains(&Overlay::Cracks);
-        Request::from(scene)
+        let labels = if is_page { self.texts.clone() } else { FigureTexts::default() };
+        Request { labels, ..Request::from(scene) }
     }
 
     fn still(&self, path: &Path, engine: &Engine<'_>) -> Result<Vec<u8>, Failure> {

@@ -62,7 +62,8 @@ fn choices(field: &Field<'_>) -> Vec<ChooserItem> {
     let of_cells = cells::names(field).into_iter().map(|name| {
         let is_taken = all.iter().any(|choice| choice.value == name);
         let of = if cells::exist(field) { "cell" } else { "patch" };
-        let about = format!("{}, of each {of}", cells::label(&name));
+        let label = if name == INDICATOR { "estimated error" } else { &cells::label(&name) };
+        let about = format!("{label}, of each {of}");
         let value = if is_taken { format!("{OF_PATCHES}{name}") } else { name };
         ChooserItem { value, about, group: "Values of cells" }
     });
@@ -73,15 +74,18 @@ fn choices(field: &Field<'_>) -> Vec<ChooserItem> {
 }
 
 const PARTITION: &str = "Partition of unity";
+/// The attribute of datasets that an adaptation refines by.
+const INDICATOR: &str = "indicator";
 
 /// Groups of quantities, in their order.
-const GROUPS: [&str; 8] = [
+const GROUPS: [&str; 9] = [
     "Of the file",
     "Field",
     "Stress",
     "Strain",
     "Derivatives",
-    "Energy and error",
+    "Energy",
+    "Error",
     PARTITION,
     "Values of cells",
 ];
@@ -91,7 +95,8 @@ fn group(quantity: &Quantity) -> &'static str {
         Quantity::Component(_) | Quantity::Magnitude => "Field",
         Quantity::Derivative(..) | Quantity::GradientNorm => "Derivatives",
         Quantity::Divergence | Quantity::Curl | Quantity::Strain(..) => "Strain",
-        Quantity::EnergyDensity | Quantity::Error => "Energy and error",
+        Quantity::EnergyDensity => "Energy",
+        Quantity::Error => "Error",
         Quantity::WeightSum | Quantity::Overlap | Quantity::PartitionFunction(_) => PARTITION,
         _ => "Stress",
     }

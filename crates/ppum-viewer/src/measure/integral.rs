@@ -57,16 +57,18 @@ impl CircleIntegral {
         (*key == asked).then(|| answer.as_ref().clone().map(Arc::new))
     }
 
-    /// Describes the results on the circle. They belong to the dataset and the step of the request,
-    /// also if another one is shown since.
-    pub fn words(&mut self) -> String {
+    /// The factors of the circle in words, and as rows of a table: what, on the circle, and as
+    /// stored, if they are. They belong to the dataset and the step of the request, also if another
+    /// one is shown since. The reason alone if there are none.
+    pub(crate) fn table(&mut self) -> (String, Vec<[String; 3]>) {
         let found = self.newest_factors();
         match (found, &self.asked) {
             (Some(Ok(factors)), Some(Ok(asked))) => {
-                factors_text(&asked.dataset, asked.step, &factors)
+                let rows = rows(&asked.dataset, asked.step, &factors);
+                (text(&rows), rows)
             }
-            (Some(Err(reason)), _) => reason,
-            _ => "K …".into(),
+            (Some(Err(reason)), _) => (reason, Vec::new()),
+            _ => ("K …".into(), Vec::new()),
         }
     }
 
@@ -144,27 +146,32 @@ pub(crate) fn usual_radius(dataset: &Dataset, step: usize, tip: TipId) -> Option
 /// Part of a tip's clearance that the solver's preferred ring has.
 const PREFERRED: f64 = 0.9;
 
-/// `K_I = 1.23, K_II = 0, T = …, G = …, angle …` of the circle, and below it the factors that the
-/// solver stored for the tip, with their estimated error. The field of the circle has that
-/// error too.
-pub(crate) fn factors_text(dataset: &Dataset, index: usize, factors: &TipIntensity) -> String {
-    let Some(step) = dataset.steps.get(index) else { return String::new() };
-    let line = |factors: &TipIntensity| {
-        let words = Tip::new(dataset, index, factors).words();
-        let known = HEADS.iter().zip(&words).take(5).filter(|(_, word)| *word != "–");
-        let all = known.map(|(head, word)| match *head {
-            "angle" => format!("angle {word}"),
-            head => format!("{head} = {word}"),
-        });
-        let error = if factors.error.is_some() {
-            format!("; estimated error {}", words[5])
-        } else {
-            String::new()
-        };
-        format!("{}{error}", all.collect::<Vec<_>>().join(", ")).replace('-', "−")
+/// Rows of the factors on the circle, and of those that the solver stored for the tip, with their
+/// estimated error. The field of the circle has that error too.
+fn rows(dataset: &Dataset, index: usize, factors: &TipIntensity) -> Vec<[String; 3]> {
+    let words = |factors: &TipIntensity| {
+        Tip::new(dataset, index, factors).words().map(|word| word.replace('-', "−"))
     };
-    match step.intensities.iter().find(|known| known.tip == factors.tip) {
-        Some(known) => format!("{}\nstored: {}", line(factors), line(known)),
-        None => line(factors),
+    let stored = dataset.steps.get(index).into_iter().flat_map(|step| &step.intensities);
+    let stored = stored.filter(|known| known.tip == factors.tip).map(words).next();
+    let (own, mut rows) = (words(factors), Vec::new());
+    for (k, head) in HEADS.iter().enumerate().take(6) {
+        let stored = stored.as_ref().map_or(String::new(), |stored| stored[k].clone());
+        if own[k] != "–" || !matches!(&*stored, "" | "–") {
+            rows.push([(*head).to_owned(), own[k].clone(), stored]);
+        }
+    }
+    rows
+}
+
+/// `K_I = 1.23, K_II = 0, …`, and below it the stored factors.
+fn text(rows: &[[String; 3]]) -> String {
+    let line = |column: usize| {
+        let known = rows.iter().filter(|row| !matches!(&*row[column], "" | "–"));
+        known.map(|row| format!("{} = {}", row[0], row[column])).collect::<Vec<_>>().join(", ")
+    };
+    match line(2) {
+        stored if stored.is_empty() => line(1),
+        stored => format!("{}\nstored: {stored}", line(1)),
     }
 }

@@ -10,6 +10,8 @@ use ppum_scene::owner::{MeshElement, Owner};
 /// Digits of values, and of those that stand beside them.
 pub const DIGITS: usize = 7;
 const FEWER: usize = 5;
+/// Digits of values at marks.
+const SHORT: usize = 4;
 
 /// A value with its unit.
 pub(crate) fn value(value: f64, unit: &str) -> String {
@@ -50,6 +52,18 @@ pub(crate) fn values_to(probed: &ProbeReading, name: &str, unit: &str, digits: u
             None => format!("{name} = {}", of(only)),
         },
         _ => String::new(),
+    }
+}
+
+/// The values at a point in few letters, for its mark: `0.9871`, `219.7 above, 222 below`.
+pub(crate) fn short_values(probed: &ProbeReading) -> String {
+    let of = |sided: &SideValue| {
+        let side = sided.side.map_or(String::new(), |side| format!(" {}", side.name()));
+        number(sided.value, SHORT) + &side
+    };
+    match probed.is_outside() {
+        true => "outside".into(),
+        false => probed.sides.iter().map(of).collect::<Vec<_>>().join(", "),
     }
 }
 

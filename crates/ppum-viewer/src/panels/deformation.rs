@@ -4,15 +4,15 @@ use egui::{Slider, Ui};
 use ppum::text::trimmed_to;
 use ppum_scene::help::tooltip;
 use ppum_scene::magnification::{Magnification, words};
-use ppum_scene::mirror::Mirror;
 
-use super::{failure, note};
+use super::failure;
 use crate::controls::Controls;
 use crate::controls::deformation_animation::DeformationAnimation;
 use crate::frames::FaultOrigin;
 use crate::panel_context::PanelContext;
 use crate::session::Pane;
 use crate::viewport::ViewState;
+use crate::widgets::note_of;
 
 /// Shows it.
 pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
@@ -21,26 +21,18 @@ pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     let is_off = pane.scene.deformed.is_none();
     ui.add_enabled_ui(is_elastic || !is_off, |ui| {
         kinds(ui, pane, &viewport.controls);
-        if pane.scene.deformed.is_some() {
+        // rows that are always there: nothing moves when the plate is deformed
+        ui.add_enabled_ui(!is_off, |ui| {
             factor(ui, pane, &viewport.controls);
             motion(ui, pane, &mut viewport.controls);
-        }
+        });
     });
     if !is_elastic && is_off {
         ui.weak("A potential has no displacements");
+    } else {
+        factor_note(ui, viewport);
     }
-    mirror(ui, pane);
-    factor_note(ui, viewport);
     failure(ui, viewport, FaultOrigin::Deformed);
-    failure(ui, viewport, FaultOrigin::Mirror);
-}
-
-/// The whole of a half or quarter model.
-fn mirror(ui: &mut Ui, pane: &mut Pane) {
-    let mut is_on = pane.scene.mirror.is_some();
-    if ui.checkbox(&mut is_on, "mirrored").on_hover_text(tooltip("mirror")).changed() {
-        pane.scene.mirror = is_on.then_some(Mirror::Auto);
-    }
 }
 
 fn kinds(ui: &mut Ui, pane: &mut Pane, controls: &Controls) {
@@ -107,11 +99,10 @@ fn motion(ui: &mut Ui, pane: &mut Pane, controls: &mut Controls) {
 /// The factor of the image.
 fn factor_note(ui: &mut Ui, viewport: &ViewState) {
     let factor = viewport.frames.newest().and_then(|frame| frame.factor);
-    if let Some(factor) = factor {
-        // a factor in motion has no digits that one could read
-        let shown = if viewport.controls.swing.is_some() { rounded(factor) } else { factor };
-        ui.label(note(ui, words(shown)));
-    }
+    // a factor in motion has no digits that one could read
+    let is_moving = viewport.controls.swing.is_some();
+    let shown = factor.map(|factor| if is_moving { rounded(factor) } else { factor });
+    note_of(ui, &shown.map(words).unwrap_or_default(), 1);
 }
 
 fn rounded(factor: f64) -> f64 {

@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use egui::{ComboBox, DragValue, Grid, Key, Modifiers, TextEdit, Ui, Window};
 use ppum_scene::help::tooltip;
+use ppum_scene::request::FigureTexts;
 
 use crate::export::{ExportChoice, ImageExport, LengthUnit, Motion, PageSize};
 use crate::frames::RenderedFrame;
@@ -24,6 +25,7 @@ pub struct Exporter {
     /// The page of the other kinds.
     other: PageSize,
     motion: Motion,
+    texts: FigureTexts,
     job: Option<BackgroundJob<Result<String, String>>>,
     /// Images of an animation that were worked on, in both passes.
     done: Arc<AtomicUsize>,
@@ -54,7 +56,8 @@ impl Exporter {
         };
         let target = SaveTarget::new(viewport.opened.as_ref().map_or(String::new(), beside));
         let done = Arc::default();
-        Self { what, target, page, other, motion, job: None, done, is_new: true }
+        let texts = FigureTexts::default();
+        Self { what, target, page, other, motion, texts, job: None, done, is_new: true }
     }
 
     /// Shows the choice; false once it is closed.
@@ -90,6 +93,7 @@ impl Exporter {
         let is_entered = grid.show(ui, |ui| self.fields(ui, frame, file)).inner;
         let kind = (self.what, self.motion);
         let Some(order) = viewport.export(pane, kind, Some(self.page)) else { return };
+        let order = ImageExport { texts: self.texts.clone(), ..order };
         let path = self.path(order.file.as_deref());
         let refused = SaveTarget::refusal(&path, self.what.ends(), order.file.as_deref());
         ui.horizontal(|ui| {
@@ -161,6 +165,9 @@ impl Exporter {
             ui.end_row();
         }
         size(ui, &mut self.page, self.what == ExportChoice::Figure);
+        if self.what != ExportChoice::Image {
+            texts(ui, &mut self.texts, width);
+        }
         if self.what.is_moving() {
             ui.label("Images a second");
             ui.add(DragValue::new(&mut self.motion.rate).range(0.1..=60.0).speed(0.1));
@@ -228,6 +235,24 @@ impl Exporter {
             let notices = notices.iter().map(|notice| format!("\n{}", notice.line()));
             Ok(format!("Saved {}{}", path.display(), notices.collect::<String>()))
         }));
+    }
+}
+
+/// The rows of the texts of a figure.
+fn texts(ui: &mut Ui, texts: &mut FigureTexts, width: f32) {
+    for (name, text) in [
+        ("Title", &mut texts.title),
+        ("x axis", &mut texts.x),
+        ("y axis", &mut texts.y),
+        ("Colour bar", &mut texts.bar),
+    ] {
+        let label = ui.label(name);
+        let mut written = text.clone().unwrap_or_default();
+        let field = TextEdit::singleline(&mut written).hint_text("automatic");
+        if ui.add(field.desired_width(width)).labelled_by(label.id).changed() {
+            *text = Some(written).filter(|text| !text.is_empty());
+        }
+        ui.end_row();
     }
 }
 

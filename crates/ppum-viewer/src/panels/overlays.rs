@@ -16,12 +16,15 @@ use crate::viewport::ViewState;
 /// Distances of arrows and crosses \[pixels\].
 const SPACINGS: std::ops::RangeInclusive<f64> = 8.0..=400.0;
 
+/// Columns of overlays: all of them are full.
+const COLUMNS: usize = 3;
+
 /// Shows it.
 pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     let (pane, viewport) = context.active();
-    ui.columns(2, |columns| {
+    ui.columns(COLUMNS, |columns| {
         for (number, overlay) in Overlay::ALL.into_iter().enumerate() {
-            switch(&mut columns[number % 2], pane, &viewport.controls, overlay);
+            switch(&mut columns[number % COLUMNS], pane, &viewport.controls, overlay);
         }
     });
     let is_elastic = viewport.controls.facts.is_elastic;

@@ -51,18 +51,22 @@ impl CommandPalette {
 
 const TITLE: &str = "Find an action";
 
-/// The actions whose names, or other words for them, have all words of a text; those of that
-/// name first.
+/// The actions whose names, or other words for them, have all words of a text. First are names that
+/// begin with the text, then those with words that do, with the text in them, and other words.
 fn matching_actions(text: &str) -> Vec<&'static ActionEntry> {
-    let text = text.to_lowercase();
+    let text = text.trim().to_lowercase();
+    let begins = |words: &str| words.split(' ').any(|word| word.starts_with(&text));
     let has_all = |words: &str| text.split_whitespace().all(|word| words.contains(word));
-    let is_named = |entry: &&ActionEntry| has_all(&entry.name.to_lowercase());
-    let is_meant = |entry: &&ActionEntry| {
-        has_all(&format!("{} {}", entry.name.to_lowercase(), entry.synonyms))
+    let rank = |entry: &&'static ActionEntry| match entry.name.to_lowercase() {
+        name if name.starts_with(&text) => Some(0),
+        name if begins(&name) => Some(1),
+        name if has_all(&name) => Some(2),
+        _ if begins(entry.synonyms) => Some(3),
+        name => has_all(&format!("{name} {}", entry.synonyms)).then_some(4),
     };
-    let (mut all, others): (Vec<_>, Vec<_>) = all().filter(is_meant).partition(is_named);
-    all.extend(others);
-    all
+    let mut found: Vec<_> = all().filter_map(|entry| Some((rank(&entry)?, entry))).collect();
+    found.sort_by_key(|(rank, _)| *rank);
+    found.into_iter().map(|(_, entry)| entry).collect()
 }
 
 #[cfg(test)]
@@ -100,6 +104,18 @@ mod tests {
         }
         assert!(matching_actions("gibberish").is_empty());
         // what has the name itself is first
-        assert_eq!(matching_actions("tip")[0].action, Action::NextTip);
+        for (words, action) in [
+            ("fly", Action::NextTip),
+            ("open", Action::Open),
+            ("new", Action::NewProblem),
+            ("dxf", Action::Import),
+            ("link", Action::Link),
+            ("contact", Action::Drawer(DrawerPage::Solver)),
+            ("mesh", Action::Overlays),
+            ("solve", Action::Solve),
+            ("save", Action::Save(ExportChoice::Image)),
+        ] {
+            assert_eq!(matching_actions(words)[0].action, action, "{words}");
+        }
     }
 }

@@ -50,6 +50,10 @@ pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
                     removed = Some(k);
                 }
             });
+            let texts = pane.probes[k].texts();
+            if texts.iter().any(|text| text.chars().count() > LONGEST) {
+                lines(ui, &[format!("({}, {})", texts[0], texts[1])]);
+            }
             if let Some(probed) = viewport.tools.probes.get(k) {
                 probe_lines(ui, probed, &names);
             }
@@ -74,6 +78,9 @@ pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     });
 }
 
+/// Letters of a coordinate that its field shows.
+const LONGEST: usize = 9;
+
 /// The quantity's name and unit.
 fn names(viewport: &mut ViewState) -> Option<[String; 2]> {
     let frame = viewport.frame().cloned()?;
@@ -82,11 +89,16 @@ fn names(viewport: &mut ViewState) -> Option<[String; 2]> {
 }
 
 fn probe_lines(ui: &mut Ui, probed: &ProbeReading, [name, unit]: &[String; 2]) {
-    let mut lines = vec![words::values(probed, name, unit)];
-    lines.extend(words::terms(probed));
-    lines.extend(words::gradients(probed));
+    let mut all = vec![words::values(probed, name, unit)];
+    all.extend(words::terms(probed));
+    all.extend(words::gradients(probed));
     let owner = [words::owner(probed), words::patches(probed)];
-    lines.push(owner.into_iter().flatten().collect::<Vec<_>>().join("; "));
+    all.push(owner.into_iter().flatten().collect::<Vec<_>>().join("; "));
+    lines(ui, &all);
+}
+
+/// Small lines, the first of which is strong.
+fn lines(ui: &mut Ui, lines: &[String]) {
     for (k, line) in lines.iter().enumerate().filter(|(_, line)| !line.is_empty()) {
         let text = RichText::new(line).size(11.5);
         ui.add(egui::Label::new(if k == 0 { text.strong() } else { text }).wrap());

@@ -1,16 +1,17 @@
 //! The quantity: chosen by its name, or written as a formula.
 
-use egui::{Button, RichText, Ui};
+use egui::{Button, RichText, Ui, vec2};
 use ppum::quantity::Quantity;
 use ppum_scene::quantity::{DisplayedQuantity, default_quantity};
 
-use super::failure;
+use super::{failure, wrong};
 use crate::field::OwnedField;
 use crate::frames::FaultOrigin;
 use crate::panel_context::PanelContext;
 use crate::shapes::plain;
 use crate::widgets::chooser::named;
 use crate::widgets::editor::{EditedText, TextDiagnostic};
+use crate::widgets::lines_of;
 use std::borrow::Cow;
 use std::sync::Arc;
 
@@ -40,21 +41,29 @@ pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
         version: version(field.as_ref()),
     };
     let check = |text: &str| check(text, field.as_deref());
-    let written = controls.editor("quantity").show(ui, &subject, check);
-    chosen = chosen.or(written);
-    if let Some(text) = formula_of(&current, field.as_deref())
-        && ui
-            .small_button("Show its formula")
-            .on_hover_text("As a formula, it can be changed")
-            .clicked()
-    {
-        chosen = Some(text);
-    }
+    let editor = controls.editor("quantity");
+    chosen = chosen.or(editor.show_text(ui, &subject, check));
+    // nothing below moves when there is an error or no formula
+    let size = vec2(ui.available_width(), ROW);
+    ui.allocate_ui(size, |ui| {
+        ui.set_min_height(ROW);
+        if let Some(error) = editor.error() {
+            return lines_of(ui, error, wrong(ui), 2);
+        }
+        let Some(text) = formula_of(&current, field.as_deref()) else { return };
+        let button = ui.button("Show its formula");
+        if button.on_hover_text("As a formula, it can be changed").clicked() {
+            chosen = Some(text);
+        }
+    });
     if let Some(text) = chosen {
         pane.scene.quantity = (text != default).then_some(text);
     }
     failure(ui, viewport, FaultOrigin::Quantity);
 }
+
+/// Height of the row below the text, in which two lines of an error have room \[points\].
+const ROW: f32 = 28.0;
 
 /// Another number for another field.
 pub(super) fn version(field: Option<&Arc<OwnedField>>) -> usize {

@@ -1,8 +1,10 @@
 //! The start page, while no dataset is open: files of before, and examples.
 
+use std::sync::Arc;
+
 use egui::{
-    Label, Rect, RichText, Role, ScrollArea, Sense, StrokeKind, Ui, UiBuilder, Vec2, WidgetInfo,
-    pos2, vec2,
+    Galley, Label, Rect, RichText, Role, ScrollArea, Sense, StrokeKind, TextStyle, TextWrapMode,
+    Ui, Vec2, WidgetInfo, WidgetText, vec2,
 };
 
 use crate::actions::Action;
@@ -16,7 +18,7 @@ pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     let room = ui.available_width();
     ui.painter().rect_filled(ui.max_rect(), 0.0, ui.visuals().panel_fill);
     ScrollArea::vertical().id_salt("start").auto_shrink([false; 2]).show(ui, |ui| {
-        let width = (room - 32.0).clamp(200.0, 760.0);
+        let width = (room - 32.0).clamp(200.0, WIDEST);
         ui.add_space(16.0);
         ui.horizontal(|ui| {
             ui.add_space((0.5 * (room - width)).max(12.0));
@@ -54,26 +56,48 @@ fn page(ui: &mut Ui, context: &mut PanelContext<'_>) {
     ui.add_space(4.0);
     context.files.find_previews();
     let gap = ui.spacing().item_spacing.x;
-    let columns = (((ui.available_width() + gap) / (TILE.x + gap)) as usize).max(1);
-    for row in 0..examples::ALL.len().div_ceil(columns) {
+    let columns = (((ui.available_width() + gap) / (TILE + gap)) as usize).max(1);
+    let width = (ui.available_width() + gap) / columns as f32 - gap;
+    let numbers: Vec<usize> = (0..examples::ALL.len()).collect();
+    for row in numbers.chunks(columns) {
+        let texts: Vec<_> = row.iter().map(|number| texts(ui, *number, width)).collect();
+        let heights = texts.iter().map(|[title, about]| title.size().y + about.size().y);
+        let height = (heights.fold(PICTURE.y, f32::max) + 2.0 * ROOM).ceil();
         ui.horizontal(|ui| {
-            let last = examples::ALL.len().min((row + 1) * columns);
-            (row * columns..last).for_each(|number| tile(ui, context, number));
+            for (number, texts) in row.iter().zip(texts) {
+                tile(ui, context, (*number, texts), vec2(width, height));
+            }
         });
     }
 }
 
-/// Size of a tile, and of the image in it.
-const TILE: Vec2 = vec2(240.0, 64.0);
+/// Width of the page, least width of a tile, size of the image in it, and room around it.
+const WIDEST: f32 = 1240.0;
+const TILE: f32 = 240.0;
 const PICTURE: Vec2 = vec2(76.0, 56.0);
+const ROOM: f32 = 6.0;
+
+/// The title of an example and a line about it, wrapped behind its image.
+fn texts(ui: &Ui, number: usize, width: f32) -> [Arc<Galley>; 2] {
+    let example = &examples::ALL[number];
+    let room = width - PICTURE.x - 3.0 * ROOM;
+    let title = RichText::new(example.title()).strong();
+    [title, note(ui, example.about)].map(|text| {
+        let text = WidgetText::from(text);
+        text.into_galley(ui, Some(TextWrapMode::Wrap), room, TextStyle::Body)
+    })
+}
 
 /// An example: its body, its title, and a line about it.
-fn tile(ui: &mut Ui, context: &mut PanelContext<'_>, number: usize) {
-    let example = &examples::ALL[number];
-    let (rect, response) = ui.allocate_exact_size(TILE, Sense::click());
-    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, example.title()));
-    let text = format!("{}: {}", example.title(), example.about);
-    let response = response.on_hover_text(text);
+fn tile(
+    ui: &mut Ui,
+    context: &mut PanelContext<'_>,
+    (number, [title, about]): (usize, [Arc<Galley>; 2]),
+    size: Vec2,
+) {
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let name = examples::ALL[number].title();
+    response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
     if response.gained_focus() {
         response.scroll_to_me(None);
     }
@@ -85,19 +109,18 @@ fn tile(ui: &mut Ui, context: &mut PanelContext<'_>, number: usize) {
     }
     let visuals = ui.style().interact(&response);
     ui.painter().rect(rect, 4.0, visuals.weak_bg_fill, visuals.bg_stroke, StrokeKind::Inside);
-    let picture = Rect::from_min_size(rect.min + vec2(4.0, 4.0), PICTURE);
+    let picture = Rect::from_min_size(rect.min + vec2(ROOM, ROOM), PICTURE);
     if let Some(preview) = context.files.previews.of(number) {
         let items =
             preview.items([2.0 * PICTURE.x, 2.0 * PICTURE.y].map(|n| n as u32), 2.0 * LINES);
         shapes::draw(&ui.painter_at(picture), ImagePlacement::new(picture.min, 0.5), &items);
     }
-    let text = Rect::from_min_max(pos2(picture.right() + 8.0, rect.top()), rect.max);
-    let layout = egui::Layout::top_down(egui::Align::Min);
-    let mut ui =
-        ui.new_child(UiBuilder::new().max_rect(text.shrink2(vec2(0.0, 8.0))).layout(layout));
-    ui.add(Label::new(RichText::new(example.title()).strong()).truncate().selectable(false));
-    let about = note(&ui, example.about);
-    ui.add(Label::new(about).selectable(false).wrap());
+    let mut corner = picture.right_top() + vec2(ROOM, 0.0);
+    for text in [title, about] {
+        let place = Rect::from_min_size(corner, text.size());
+        corner.y = place.bottom();
+        ui.put(place, Label::new(text).selectable(false));
+    }
 }
 
 /// Widths of lines and signs in parts of those of images.

@@ -3,11 +3,9 @@
 
 use std::sync::Arc;
 
-use egui::Rect;
-use egui::{Align2, Color32, FontId, Painter, Pos2, Stroke, Ui, vec2};
+use egui::{Align2, Color32, FontId, Galley, Painter, Pos2, Rect, Stroke, Ui, Vec2, vec2};
 use ppum::crack::Crack;
 use ppum::dataset::{Dataset, TipIncrement, TipStatus};
-use ppum::vec2::Vec2;
 use ppum_render::extrema::Extremum;
 
 use super::ViewState;
@@ -17,6 +15,7 @@ use crate::frames::RenderedFrame;
 use crate::measure::probe::ProbeReading;
 use crate::measure::words;
 use crate::session::Pane;
+use crate::widgets::symbol;
 use ppum_scene::location::Location;
 
 const INK: Color32 = Color32::from_rgb(214, 88, 0);
@@ -25,7 +24,7 @@ const HALO: Color32 = Color32::from_rgba_premultiplied(225, 225, 225, 225);
 impl ViewState {
     /// Marks over the view: the patches at the pointer, the curve with its handles, probes,
     /// extrema.
-    pub(super) fn marks(&mut self, ui: &mut Ui, sight: &HoverGeometry, pane: &Pane) {
+    pub(super) fn marks(&mut self, ui: &Ui, sight: &HoverGeometry, pane: &Pane) {
         let painter = ui.painter_at(sight.rect);
         let cracks = self.cracks(pane);
         let cracks = cracks.as_deref().unwrap_or_default();
@@ -43,7 +42,9 @@ impl ViewState {
         }
         for (k, spot) in pane.probes.iter().enumerate() {
             let is_selected = self.tools.selected == Some(k);
-            probe(&painter, sight, spot, &(k + 1).to_string(), is_selected);
+            let values = self.tools.probes.get(k).map(words::short_values);
+            let label = format!("{}  {}", k + 1, values.unwrap_or_default());
+            probe(&painter, sight, spot, label.trim_end(), is_selected);
         }
         if let Some(at) = self.tools.marked.and_then(|spot| sight.position(&spot)) {
             painter.circle(at, 5.0, INK, Stroke::new(1.5, Color32::WHITE));
@@ -57,31 +58,37 @@ impl ViewState {
             pane.scene.subject.step_of(&opened.dataset) + 1 == opened.dataset.steps.len()
         });
         for (end, reason) in opened.map_or_else(Vec::new, |o| growth_ends(&o.dataset)) {
-            if let Some(at) = sight.position(&Location::new(end, Vec2::ZERO)) {
+            if let Some(at) = sight.position(&Location::new(end, ppum::vec2::Vec2::ZERO)) {
                 lettered(&painter, at + vec2(8.0, -8.0), Align2::LEFT_BOTTOM, &reason);
             }
         }
-        self.told_integral(ui, sight, pane, cracks);
+        self.factors(ui, sight, pane, cracks);
     }
 
-    /// K beside the circle, or the reason why there is none.
-    fn told_integral(&mut self, ui: &mut Ui, sight: &HoverGeometry, pane: &Pane, cracks: &[Crack]) {
+    /// K outside of the circle, or the reason why there is none.
+    fn factors(&mut self, ui: &Ui, sight: &HoverGeometry, pane: &Pane, cracks: &[Crack]) {
         let Some(along) = &pane.curve else { return };
         if !self.tools.integral.is_asked() || self.tools.grip.is_some() {
             return;
         }
-        let text = self.tools.integral.words();
+        let (text, rows) = self.tools.integral.table();
         let seen: Vec<Pos2> =
             outline(along, cracks, None).iter().filter_map(|spot| sight.position(spot)).collect();
-        let Some(top) = seen.into_iter().min_by(|a, b| a.y.total_cmp(&b.y)) else { return };
-        beside(ui, sight.rect, top, &text);
+        if seen.is_empty() {
+            return;
+        }
+        let cells = match rows.is_empty() {
+            true => vec![[galley(ui, text.clone().into(), 260.0), None, None]],
+            false => table(ui, &rows),
+        };
+        show_table(ui, sight.rect, Rect::from_points(&seen), (&cells, &text));
     }
 }
 
 /// Returns the ends of cracks that grow no further after the last step of a series whose growth has
 /// ended, each with the reason.
 #[must_use]
-pub fn growth_ends(dataset: &Dataset) -> Vec<(Vec2, String)> {
+pub fn growth_ends(dataset: &Dataset) -> Vec<(ppum::vec2::Vec2, String)> {
     let Some((last, before)) = dataset.steps.split_last() else { return Vec::new() };
     let Some((growth, stop)) = last.growth.as_ref().and_then(|g| Some((g, g.stop?))) else {
         return Vec::new();
@@ -104,27 +111,71 @@ pub fn growth_ends(dataset: &Dataset) -> Vec<(Vec2, String)> {
 /// Labels of more ends would cover the body.
 const LABELS: usize = 12;
 
-/// Shows a text on its own background above a position, inside a rectangle.
-fn beside(ui: &mut Ui, within: Rect, at: Pos2, text: &str) {
-    let width = (within.width() - 24.0).min(420.0);
-    let font = egui::TextStyle::Body.resolve(ui.style());
-    let color = ui.visuals().strong_text_color();
-    // a number stays beside its name
-    let joined = text.replace(" = ", "\u{a0}=\u{a0}");
-    let galley = ui.painter().layout(joined, font, color, width);
-    let size = galley.size() + vec2(12.0, 8.0);
-    let room = (within.size() - size).max(egui::Vec2::ZERO);
-    let corner = at - vec2(0.5 * size.x, size.y + 8.0) - within.min;
-    let corner = within.min + corner.max(egui::Vec2::ZERO).min(room);
-    let rect = Rect::from_min_size(corner, size);
-    ui.painter_at(within).rect_filled(rect, 4.0, ui.visuals().panel_fill.gamma_multiply(0.92));
-    // a label, so that it is read aloud too; in a child, since the view's own space is given away
-    let builder = egui::UiBuilder::new().max_rect(rect.shrink2(vec2(6.0, 4.0)));
-    let mut child = ui.new_child(builder);
-    child.set_clip_rect(within);
-    let label = child.add(egui::Label::new(galley).selectable(false));
-    label.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
+/// A row of a small table.
+type Row = [Option<Arc<Galley>>; 3];
+
+fn galley(ui: &Ui, text: egui::WidgetText, width: f32) -> Option<Arc<Galley>> {
+    let wrap = Some(egui::TextWrapMode::Wrap);
+    Some(text.into_galley(ui, wrap, width, egui::TextStyle::Body))
 }
+
+/// The rows of a table of factors, without a column that has none.
+fn table(ui: &Ui, rows: &[[String; 3]]) -> Vec<Row> {
+    let has_stored = rows.iter().any(|row| !row[2].is_empty());
+    let cell = |text: &str| galley(ui, egui::RichText::new(text).strong().into(), f32::INFINITY);
+    let head = [None, cell("circle"), cell("stored").filter(|_| has_stored)];
+    let row = |[name, own, stored]: &[String; 3]| {
+        let name = galley(ui, symbol(ui, name).into(), f32::INFINITY);
+        [name, cell(own), cell(stored).filter(|_| has_stored)]
+    };
+    std::iter::once(head).chain(rows.iter().map(row)).collect()
+}
+
+/// Shows a table on its own background: where it hides least of a circle, inside the view.
+fn show_table(ui: &Ui, within: Rect, circle: Rect, (rows, text): (&[Row], &str)) {
+    let size = |cell: &Option<Arc<Galley>>| cell.as_ref().map_or(Vec2::ZERO, |cell| cell.size());
+    let widths = [0, 1, 2].map(|k| rows.iter().map(|row| size(&row[k]).x).fold(0.0, f32::max));
+    let height = rows.iter().flatten().map(|cell| size(cell).y).fold(0.0, f32::max);
+    let used = widths.iter().filter(|width| **width > 0.0).count().max(1) as f32;
+    let all = widths.iter().sum::<f32>() + GAP * (used - 1.0);
+    let rect = placed(within, circle, vec2(all, height * rows.len() as f32) + 2.0 * ROOM);
+    let painter = ui.painter_at(within);
+    painter.rect_filled(rect, 4.0, ui.visuals().panel_fill.gamma_multiply(0.92));
+    for (number, row) in rows.iter().enumerate() {
+        let mut at = rect.min + ROOM + vec2(0.0, number as f32 * height);
+        for (cell, width) in row.iter().zip(widths) {
+            if let Some(cell) = cell {
+                painter.galley(at, Arc::clone(cell), ui.visuals().strong_text_color());
+            }
+            at.x += if width > 0.0 { width + GAP } else { 0.0 };
+        }
+    }
+    // read aloud too
+    let response = ui.interact(rect, ui.scope_id().with("factors"), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, text));
+}
+
+/// Room between the columns of a table, and around it \[points\].
+const GAP: f32 = 12.0;
+const ROOM: Vec2 = Vec2::new(6.0, 4.0);
+
+/// A rectangle outside of a circle and inside of a view if one has room: above, below, on the right
+/// or left; else in the corner of the view.
+fn placed(within: Rect, circle: Rect, size: Vec2) -> Rect {
+    let (c, half) = (circle.center(), 0.5 * size);
+    let corners = [
+        egui::pos2(c.x - half.x, circle.top() - size.y - APART),
+        egui::pos2(c.x - half.x, circle.bottom() + APART),
+        egui::pos2(circle.right() + APART, c.y - half.y),
+        egui::pos2(circle.left() - size.x - APART, c.y - half.y),
+    ];
+    let inside = within.shrink(4.0);
+    let all = corners.map(|corner| Rect::from_min_size(corner, size));
+    let corner = Rect::from_min_size(inside.min, size);
+    all.into_iter().find(|rect| inside.contains_rect(*rect)).unwrap_or(corner)
+}
+
+const APART: f32 = 8.0;
 
 /// The supports of the patches, the more strongly the more they count.
 fn patches(
@@ -138,8 +189,8 @@ fn patches(
         let support = field.step.partition.support(*patch as usize);
         let bounds = field.domain.bounds;
         let (a, b) = (support.min.max(bounds.min), support.max.min(bounds.max));
-        let corners = [a, Vec2 { x: b.x, y: a.y }, b, Vec2 { x: a.x, y: b.y }, a];
-        let spots = corners.map(|corner| Location::new(corner, Vec2::ZERO));
+        let corners = [a, ppum::vec2::vec2(b.x, a.y), b, ppum::vec2::vec2(a.x, b.y), a];
+        let spots = corners.map(|corner| Location::new(corner, ppum::vec2::Vec2::ZERO));
         let strength = (30.0 + 130.0 * phi.clamp(0.0, 1.0)) as u8;
         for line in sight.lines(&spots) {
             painter.line_segment(line, Stroke::new(2.0, Color32::from_black_alpha(strength / 2)));
@@ -192,6 +243,8 @@ fn lettered(painter: &Painter, at: Pos2, align: Align2, text: &str) {
     }
     let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(12.0), INK);
     let rect = align.anchor_size(at, galley.size());
+    let over = (rect.right() + 3.0 - painter.clip_rect().right()).max(0.0);
+    let rect = rect.translate(vec2(-over, 0.0));
     painter.rect_filled(rect.expand2(vec2(3.0, 0.0)), 3.0, HALO);
     painter.galley(rect.min, galley, INK);
 }

@@ -30,6 +30,7 @@ use ppum_scene::location::Location;
 use ppum_scene::overlays::Overlay;
 use ppum_scene::owner::Owner;
 use ppum_scene::quantity::default_quantity;
+use ppum_scene::request::FigureTexts;
 use ppum_scene::scene::SceneRequest;
 use ppum_scene::subject::scene_bounds;
 
@@ -152,6 +153,7 @@ impl ViewState {
             page: page.unwrap_or(PageSize::pixels(view.pixels)),
             choice,
             motion: Motion { factor: frame.factor, ..motion },
+            texts: FigureTexts::default(),
         })
     }
 

@@ -67,18 +67,33 @@ impl Editor {
         subject: &EditedText<'_>,
         check: impl FnOnce(&str) -> Result<(), TextDiagnostic>,
     ) -> Option<String> {
+        let new = self.show_text(ui, subject, check);
+        if let Some(error) = self.error() {
+            ui.label(RichText::new(error).color(wrong(ui)));
+        }
+        new
+    }
+
+    /// Returns the error in what is written.
+    pub(crate) fn error(&self) -> Option<&str> {
+        self.mistake().map(|mistake| mistake.message.as_str())
+    }
+
+    /// Shows it without the message of its error; returns a text that is new and right.
+    pub(crate) fn show_text(
+        &mut self,
+        ui: &mut Ui,
+        subject: &EditedText<'_>,
+        check: impl FnOnce(&str) -> Result<(), TextDiagnostic>,
+    ) -> Option<String> {
         if self.base.as_deref() != Some(subject.current) {
             self.base = Some(subject.current.to_owned());
             self.draft = subject.current.to_owned();
         }
         let mark = self.mistake().and_then(|mistake| mistake.place.clone());
         let is_changed = self.edit(ui, subject, mark);
-        let mistake = self.check(subject.version, check);
-        if let Some(mistake) = mistake {
-            ui.label(RichText::new(&mistake.message).color(wrong(ui)));
-            return None;
-        }
-        if !is_changed || self.draft == subject.current {
+        let is_wrong = self.check(subject.version, check).is_some();
+        if is_wrong || !is_changed || self.draft == subject.current {
             return None;
         }
         self.base = Some(self.draft.clone());

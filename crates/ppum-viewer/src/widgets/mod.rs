@@ -7,7 +7,7 @@ pub mod entry;
 
 use std::path::Path;
 
-use egui::text::LayoutJob;
+use egui::text::{LayoutJob, TextFormat};
 use egui::{Color32, FontId, Label, RichText, Stroke, Ui, Visuals, vec2};
 
 /// A button with a sign, which has a name too.
@@ -77,8 +77,13 @@ fn pale(ui: &Ui) -> Color32 {
 /// Shows a note in a space that is always so many lines high, for words that change all the time; a
 /// tooltip has the text that does not fit.
 pub(crate) fn note_of(ui: &mut Ui, text: &str, lines: usize) {
+    lines_of(ui, text, pale(ui), lines);
+}
+
+/// The same in any colour.
+pub(crate) fn lines_of(ui: &mut Ui, text: &str, color: Color32, lines: usize) {
     let width = ui.available_width();
-    let mut job = LayoutJob::simple(text.to_owned(), FontId::proportional(NOTE), pale(ui), width);
+    let mut job = LayoutJob::simple(text.to_owned(), FontId::proportional(NOTE), color, width);
     job.wrap.max_rows = lines;
     let galley = ui.painter().layout_job(job);
     let row = galley.rows.first().map_or(0.0, |row| row.rect().height());
@@ -91,6 +96,33 @@ pub(crate) fn note_of(ui: &mut Ui, text: &str, lines: usize) {
             label.on_hover_text(text);
         }
     });
+}
+
+/// A symbol such as `K_I` with what follows `_` below the line, smaller.
+pub(crate) fn symbol(ui: &Ui, text: &str) -> LayoutJob {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let color = ui.visuals().strong_text_color();
+    let (main, below) = text.split_once('_').unwrap_or((text, ""));
+    let mut job = LayoutJob::default();
+    job.append(main, 0.0, TextFormat::simple(font.clone(), color));
+    let small = FontId::new(0.72 * font.size, font.family);
+    let low = TextFormat { valign: egui::Align::BOTTOM, ..TextFormat::simple(small, color) };
+    job.append(below, 0.0, low);
+    job
+}
+
+/// Aligns the numbers of each column at their points, in letters of one width.
+pub(crate) fn align_points<const N: usize>(rows: &mut [[String; N]]) {
+    let digits = |text: &str| text.chars().take_while(|c| matches!(c, '0'..='9' | '−')).count();
+    for column in 0..N {
+        let cells = rows.iter_mut().map(|row| &mut row[column]);
+        let cells = cells.map(|cell| (*cell = cell.replace('-', "−"), cell).1);
+        let numbers: Vec<_> = cells.filter(|cell| digits(cell) > 0).collect();
+        let most = numbers.iter().map(|cell| digits(cell)).max().unwrap_or(0);
+        for cell in numbers {
+            cell.insert_str(0, &" ".repeat(most - digits(cell)));
+        }
+    }
 }
 
 /// Says in which folder a file of some name goes; all of the name on hover.
@@ -107,6 +139,14 @@ const NOTE: f32 = 11.5;
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn points_of_numbers_are_below_each_other() {
+        let mut rows =
+            [["1.5", "a"], ["-120.25", "7"], ["–", "12"]].map(|row| row.map(str::to_owned));
+        align_points(&mut rows);
+        assert_eq!(rows, [["   1.5", "a"], ["−120.25", " 7"], ["–", "12"]]);
+    }
 
     /// The luminance of a colour as WCAG 2 defines it.
     fn luminance(color: Color32) -> f32 {

@@ -21,6 +21,7 @@ use ppum_render::scatter::render;
 use ppum_scene::colors::ColorOptions;
 use ppum_scene::location::Location;
 use ppum_scene::magnification::Magnification;
+use ppum_scene::request::FigureTexts;
 use ppum_scene::values::RasterValues;
 use ppum_testkit::random::Random;
 use ppum_testkit::synthetic::growing;
@@ -440,6 +441,7 @@ fn pictures_of_differences_are_saved() {
         page: PageSize::pixels(frame.drawn.view.pixels),
         choice: ppum_viewer::export::ExportChoice::Image,
         motion: ppum_viewer::export::Motion::default(),
+        texts: FigureTexts { title: Some("Coarse against fine".into()), ..FigureTexts::default() },
     };
     let (bytes, _) = order
         .bytes(Path::new("apart.png"), unwatched(), &AtomicUsize::new(0))
@@ -456,6 +458,7 @@ fn pictures_of_differences_are_saved() {
         .expect("it is drawn");
     let text = String::from_utf8_lossy(&bytes);
     assert!(text.contains("right − left"), "{}", &text[..text.len().min(3000)]);
+    assert!(text.contains("Coarse against fine"), "a title of one's own");
     assert!(figure.command(Path::new("apart.png")).is_err_and(|why| why.contains("no command")));
     window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::C);
     settle(&mut window);

@@ -183,6 +183,26 @@ fn a_circle_without_factors_says_why() {
     }
 }
 
+/// The key takes a circle away, also one whose radius was changed.
+#[test]
+fn k_takes_a_circle_away_whatever_its_radius() {
+    let mut window = window(plate(), SIZE);
+    let left = at(&window, v(-0.4, 0.2));
+    window.hover_at(left);
+    settle(&mut window);
+    let own = Some(ProfileCurve::Around { tip: 0, radius: Some(0.0625) });
+    window.state_mut().session.panes[0].curve = own;
+    window.key_press(Key::K);
+    settle(&mut window);
+    assert_eq!(curve(&window), None);
+    // one around another tip is moved
+    window.state_mut().session.panes[0].curve =
+        Some(ProfileCurve::Around { tip: 1, radius: Some(0.0625) });
+    window.key_press(Key::K);
+    settle(&mut window);
+    assert!(matches!(curve(&window), Some(ProfileCurve::Around { tip: 0, .. })));
+}
+
 #[test]
 fn k_draws_the_circle_that_the_solver_takes() {
     let dataset = plate();

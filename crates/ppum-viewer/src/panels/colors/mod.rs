@@ -129,6 +129,7 @@ fn words(frame: &RenderedFrame, facts: &Facts) -> String {
         None => RangeLocations::new(dataset, field),
     };
     let text = telling.colors(&frame.colored);
+    let text = format!("{}{}", text[..1].to_uppercase(), &text[1..]);
     match frame.drawn.undefined() {
         [0, _] => text,
         [without, all] => format!("{text}; no value at {without} of {all} pixels"),

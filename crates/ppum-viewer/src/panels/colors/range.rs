@@ -1,6 +1,6 @@
 //! The range of the colours: found, of the whole body, fixed.
 
-use egui::{Button, Checkbox, DragValue, Response, RichText, TextStyle, Ui};
+use egui::{Button, Checkbox, DragValue, Label, Response, RichText, TextStyle, Ui};
 use ppum::text::trimmed_to;
 use ppum_render::range::RangeChoice;
 use ppum_scene::colors::ColorOptions;
@@ -29,12 +29,14 @@ pub(super) fn show(ui: &mut Ui, pane: &mut Pane, viewport: &mut ViewState) {
     } else {
         fixed(ui, colors, viewport, bounds);
     }
-    ui.horizontal_wrapped(|ui| {
-        let colors = &mut pane.scene.colors;
-        let is_symmetric = ui.checkbox(&mut colors.symmetric, "symmetric about zero");
-        if is_symmetric.on_hover_text(tooltip("symmetric")).changed() && colors.symmetric {
-            mirror(colors);
-        }
+    let colors = &mut pane.scene.colors;
+    let is_symmetric = ui.checkbox(&mut colors.symmetric, "symmetric about zero");
+    if is_symmetric.on_hover_text(tooltip("symmetric")).changed() && colors.symmetric {
+        mirror(colors);
+    }
+    // a row of its own, which is never broken: nothing moves when a range is found
+    ui.horizontal(|ui| {
+        ui.label(note(ui, "range of the"));
         whole(ui, pane, viewport);
     });
 }
@@ -93,12 +95,13 @@ fn fixed(ui: &mut Ui, colors: &mut ColorOptions, viewport: &mut ViewState, bound
             let response = ui.add(value.custom_parser(parse)).accessible_name(name);
             changed = changed.or(response.changed().then_some(end));
         }
+        if let Some(refused) = &viewport.controls.refused {
+            let text = RichText::new(refused).color(wrong(ui));
+            ui.add(Label::new(text).truncate()).on_hover_text(refused);
+        }
     });
     if let Some(end) = changed {
         viewport.controls.refused = set(colors, ends, end).err();
-    }
-    if let Some(refused) = &viewport.controls.refused {
-        ui.label(RichText::new(refused).color(wrong(ui)));
     }
 }
 

@@ -8,6 +8,7 @@ use ppum_scene::facts::increment;
 use ppum_scene::table::{Column, NumberTable};
 
 use crate::panel_context::PanelContext;
+use crate::widgets::{align_points, symbol};
 
 /// A tip of a step, or a step without tips.
 struct TipRow<'a> {
@@ -36,12 +37,15 @@ pub(super) fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     area.show_rows(ui, height, rows.len() + 1, |ui, seen| {
         Grid::new("steps").min_row_height(height).spacing([18.0, 3.0]).show(ui, |ui| {
             for head in ["step", "load"].into_iter().chain(HEADS) {
-                ui.strong(head);
+                ui.label(symbol(ui, head));
             }
             ui.end_row();
             let last = seen.end.saturating_sub(1).min(rows.len());
-            for row in rows.iter().take(last).skip(seen.start) {
-                if row.show(ui, shown) {
+            let rows = &rows[seen.start..last.max(seen.start)];
+            let mut cells: Vec<_> = rows.iter().map(TipRow::texts).collect();
+            align_points(&mut cells);
+            for (row, cells) in rows.iter().zip(&cells) {
+                if row.show(ui, cells, shown) {
                     pane.scene.subject.step = Some(row.number);
                 }
             }
@@ -82,7 +86,7 @@ impl TipRow<'_> {
     }
 
     /// True if its step was clicked.
-    fn show(&self, ui: &mut Ui, shown: usize) -> bool {
+    fn show(&self, ui: &mut Ui, cells: &[String], shown: usize) -> bool {
         let mut is_clicked = false;
         if self.is_first {
             let text = RichText::new(self.number.to_string()).monospace();
@@ -90,24 +94,24 @@ impl TipRow<'_> {
             let step = ui.selectable_label(is_shown, text).on_hover_text(&name);
             step.widget_info(|| WidgetInfo::selected(Role::Button, true, is_shown, &name));
             is_clicked = step.clicked();
-            ui.monospace(trimmed(self.step.load).replace('-', "−"));
         } else {
             ui.label("");
-            ui.label("");
         }
-        for text in self.texts() {
-            ui.monospace(text.replace('-', "−"));
+        for text in cells {
+            ui.monospace(text);
         }
         ui.end_row();
         is_clicked
     }
 
-    fn texts(&self) -> [String; 5] {
+    /// The load, once for its step, and the columns of the tip.
+    fn texts(&self) -> [String; 6] {
         let name = self.tip.map(|tip| format!("{} {}", tip.crack, tip.end.name()));
         let [k1, k2] = [0, 1].map(|k| self.factors().map(|tip| short([tip.k1, tip.k2][k])));
         let grown = self.growth().map(|tip| short(tip.extension));
         let next = self.growth().map(increment);
-        [name, k1, k2, grown, next].map(|text| text.unwrap_or_else(|| "–".into()))
+        let load = if self.is_first { trimmed(self.step.load) } else { String::new() };
+        [Some(load), name, k1, k2, grown, next].map(|text| text.unwrap_or_else(|| "–".into()))
     }
 
     fn numbers(&self) -> [f64; 10] {

@@ -1,7 +1,7 @@
 //! The solver's report of a step: its numbers, the seconds of its phases, its warnings; and values
 //! of patches as colours.
 
-use egui::{Grid, ScrollArea, Ui, vec2};
+use egui::{Grid, Label, ScrollArea, Ui, vec2};
 use ppum::dataset::{Dataset, Record, Step, Warning};
 use ppum::quantity::Quantity;
 use ppum::text::trimmed;
@@ -32,7 +32,10 @@ pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
             numbers(ui, step, room);
             warnings(ui, context, &dataset, step, room);
             if step.record(STOP).is_some() && dataset.steps.len() == 1 {
-                ui.allocate_ui(vec2(180.0, room), |ui| ui.label(ONE_STEP));
+                ui.vertical(|ui| {
+                    ui.set_max_width(WIDEST);
+                    ui.add(Label::new(ONE_STEP).wrap());
+                });
             }
             for (name, plot) in plots(&dataset, step) {
                 chart(ui, name, &plot, vec2(WIDTH, (room - 14.0).max(120.0)));

@@ -11,7 +11,7 @@ use super::series_table::end;
 use crate::actions::Action;
 use crate::measure::words::number;
 use crate::panel_context::PanelContext;
-use crate::widgets::button;
+use crate::widgets::{align_points, button, symbol};
 
 /// Shows the table; a click on a line flies to its tip.
 pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
@@ -47,15 +47,19 @@ fn rows(ui: &mut Ui, context: &mut PanelContext<'_>, places: &LocationText, tips
         let last = seen.end.saturating_sub(1).min(tips.len());
         grid.min_row_height(height).spacing([18.0, gap]).show(ui, |ui| {
             for head in ["tip", "crack", "position", "direction"].into_iter().chain(shown(HEADS)) {
-                ui.strong(head).on_hover_text(MEANING);
+                ui.label(symbol(ui, head)).on_hover_text(MEANING);
             }
             ui.end_row();
-            for (number, tip) in tips.iter().enumerate().take(last).skip(seen.start) {
+            let seen = seen.start..last.max(seen.start);
+            let texts = |tip: &Tip| texts(tip, places.show(tip.at.into()));
+            let mut cells: Vec<_> = tips[seen.clone()].iter().map(texts).collect();
+            align_points(&mut cells);
+            for (number, cells) in seen.zip(&cells) {
                 let name = format!("Fly to tip {number}");
                 if button(ui, &number.to_string(), &name).clicked() {
                     context.actions.push(Action::Tip(number));
                 }
-                row(ui, tip, &places.show(tip.at.into()));
+                row(ui, &tips[number], cells);
             }
         });
     });
@@ -66,14 +70,18 @@ fn shown<T>(columns: [T; 8]) -> impl Iterator<Item = T> {
     columns.into_iter().take(6)
 }
 
-fn row(ui: &mut Ui, tip: &Tip, at: &str) {
+/// Crack, position and direction of a tip, and its factors.
+fn texts(tip: &Tip, at: String) -> [String; 9] {
     let angle = format!("{}°", number(tip.angle.to_degrees(), 4));
-    let words = tip.words();
-    let [.., spread, balance] = &words;
+    let [k1, k2, t, g, growth, error, ..] = tip.words();
+    [tip.crack.to_string(), at, angle, k1, k2, t, g, growth, error]
+}
+
+fn row(ui: &mut Ui, tip: &Tip, cells: &[String]) {
+    let [.., spread, balance] = &tip.words();
     let checks = format!("spread {spread}, J/G-1 {balance}: checks alone").replace('-', "−");
-    let cells = [&tip.crack.to_string(), at, &angle].map(str::to_owned);
-    for text in cells.into_iter().chain(shown(words)) {
-        ui.label(RichText::new(text.replace('-', "−")).monospace()).on_hover_text(&checks);
+    for text in cells {
+        ui.label(RichText::new(text).monospace()).on_hover_text(&checks);
     }
     ui.end_row();
 }

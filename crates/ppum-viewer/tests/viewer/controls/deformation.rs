@@ -4,7 +4,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use ppum_scene::magnification::Magnification;
 
-use super::{click, frame, open, plate_window, scene};
+use super::{click, frame, open, plate_window, scene, write};
 use crate::kit::{plate, settle, show_until, window};
 
 #[test]
@@ -24,6 +24,36 @@ fn a_factor_is_chosen() {
     assert!(frame(&window).layers.items.len() > without);
     click(&mut window, "off");
     assert_eq!(frame(&window).factor, None);
+}
+
+/// What is below does not move when the plate is deformed or a range found, nor for an error in
+/// a formula: what the pointer is over stays there.
+#[test]
+fn panels_stand_still() {
+    let mut window = plate_window();
+    open(&mut window, "Deformation");
+    let place = |window: &super::Window, label: &str| window.get_by_label(label).rect();
+    let before = place(&window, "Functions");
+    click(&mut window, "automatic");
+    window.run_steps(30);
+    assert_eq!(place(&window, "Functions"), before);
+    click(&mut window, "off");
+    let rows = ["contrast beyond the range", "linear"].map(|label| (label, place(&window, label)));
+    for text in ["ux +", "sxx"] {
+        write(&mut window, "Quantity or formula", text);
+        window.key_press(Key::Escape);
+        settle(&mut window);
+        for (label, before) in rows {
+            assert_eq!(place(&window, label), before, "{label} after {text}");
+        }
+    }
+    click(&mut window, "whole plate");
+    show_until(&mut window, "the range is found", |window| {
+        matches!(scene(window).colors.range, ppum_render::range::RangeChoice::Fixed(..))
+    });
+    settle(&mut window);
+    let (label, before) = rows[0];
+    assert_eq!(place(&window, label), before);
 }
 
 /// A factor in motion is no change of settings: nothing is undone of it, and the session keeps
