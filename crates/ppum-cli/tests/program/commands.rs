@@ -18,7 +18,7 @@ use ppum_scene::magnification::Magnification;
 use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays};
 use ppum_scene::page_style::PageStyle;
 use ppum_scene::region::ViewRegion;
-use ppum_scene::request::Request;
+use ppum_scene::request::{FigureTexts, Request};
 use ppum_scene::scene::{SceneRequest, Subject};
 use ppum_scene::subject::ImageSubject;
 use ppum_testkit::random::Random;
@@ -179,6 +179,7 @@ fn the_window_saves_what_its_command_draws() {
             page,
             choice,
             motion: Motion::default(),
+            texts: FigureTexts { title: Some("One's own".into()), ..FigureTexts::default() },
         };
         let own =
             order.bytes("own.png".as_ref(), ppum::progress::unwatched(), &AtomicUsize::new(0));

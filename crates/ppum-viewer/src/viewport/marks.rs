@@ -81,7 +81,9 @@ impl ViewState {
             true => vec![[galley(ui, text.clone().into(), 260.0), None, None]],
             false => table(ui, &rows),
         };
-        show_table(ui, sight.rect, Rect::from_points(&seen), (&cells, &text));
+        let mut within = sight.rect;
+        within.max.x -= super::bar::width(within);
+        show_table(ui, within, Rect::from_points(&seen), (&cells, &text));
     }
 }
 
