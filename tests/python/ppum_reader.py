@@ -169,6 +169,10 @@ POISSON = {
     "magnitude": "abs(u)",
     "gradient": "sqrt(du_dx^2 + du_dy^2)",
     "energy": "conductivity*(du_dx^2 + du_dy^2)/2",
+    "temperature": "u",
+    "qx": "-conductivity*du_dx",
+    "qy": "-conductivity*du_dy",
+    "flux": "conductivity*sqrt(du_dx^2 + du_dy^2)",
 }
 
 

@@ -75,7 +75,7 @@ pub(crate) fn quantity(field: &Field<'_>, given: &str) -> anyhow::Result<Quantit
         refuse_cells(field, given.text.trim())?;
     }
     let quantity = given.explain(found)?;
-    quantity.check(field)?;
+    quantity.check_at_points(field)?;
     Ok(quantity)
 }
 

@@ -240,12 +240,20 @@ pub const HOOP_STRAIN: Definition = ("ehoop", "if(x == 0, dux_dx, ux/x)");
 /// the place of.
 pub const STRAINS: usize = 7;
 
-/// Quantities of a field with the one component u.
-pub const POISSON: [Definition; 3] = [
+/// Quantities of a field with the one component u, the last [`HEAT`] of them by the names of heat:
+/// q = −κ ∇u.
+pub const POISSON: [Definition; 7] = [
     ("magnitude", "abs(u)"),
     ("gradient", "sqrt(du_dx^2 + du_dy^2)"),
     ("energy", "conductivity*(du_dx^2 + du_dy^2)/2"),
+    ("temperature", "u"),
+    ("qx", "-conductivity*du_dx"),
+    ("qy", "-conductivity*du_dy"),
+    ("flux", "conductivity*sqrt(du_dx^2 + du_dy^2)"),
 ];
+
+/// Number of the last quantities of [`POISSON`] that have names of heat.
+pub const HEAT: usize = 4;
 
 /// The weight function of a name.
 #[must_use]

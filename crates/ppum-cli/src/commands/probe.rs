@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use ppum::field::Field;
-use ppum::quantity::Quantity;
+use ppum::quantity::{Quantity, face_names};
 use ppum::sample::SidedPoint;
 use ppum::sides::Segments;
 use ppum::vec2::Vec2;
@@ -43,6 +43,7 @@ Examples:
   ppum probe plate.h5 --at 0.25,-0.1
   ppum probe plate.h5 --at -0.5,0 --at 0.5,0 -q ux,uy,von-mises
   ppum probe plate.h5 --at 0,0                         on the crack: both sides
+  ppum probe plate.h5 --at 0,0 -q normal-traction,shear-traction,opening,sliding,closed
   ppum probe plate.h5 --at 0.2,0.1 -q 'sxx + syy,max(s1, 0)'
   ppum probe plate.h5 --at 0,0 --part jump            only the blocks of sides of cracks
   ppum probe plate.h5 --at 0.5,0 --offset 1e-12,1e-13  near a tip";
@@ -86,10 +87,16 @@ impl ProbeArgs {
         let dataset = self.step.open()?;
         let field = self.step.field(&dataset)?;
         let quantities = quantities(&field, &self.quantity)?;
+        let faces = self.faces(&field)?;
         let segments = Segments::new(&field.step.cracks);
         let offset = self.offset.unwrap_or_default();
         let places = self.at.iter().flat_map(|&at| SidedPoint::sides(&segments, at, offset));
-        let points: Vec<_> = places.map(|place| self.row(&field, &quantities, &place)).collect();
+        let row = |place: SidedPoint| {
+            let faces = faces.iter().filter(|_| place.on.is_some());
+            let all: Vec<_> = quantities.iter().chain(faces).collect();
+            self.row(&field, &all, &place)
+        };
+        let points: Vec<_> = places.map(row).collect();
         if self.json {
             json(out, &ProbeReport { points })?;
         } else {
@@ -98,15 +105,25 @@ impl ProbeArgs {
         Ok(())
     }
 
+    /// The quantities of faces, which points of cracks have where none are asked for.
+    fn faces(&self, field: &Field<'_>) -> anyhow::Result<Vec<(String, Quantity)>> {
+        let names: Vec<_> = face_names(field).map(str::to_owned).collect();
+        match names[..] {
+            [] => Ok(Vec::new()),
+            _ if !self.quantity.is_empty() => Ok(Vec::new()),
+            _ => quantities(field, &names),
+        }
+    }
+
     /// The values at a point on a side.
     fn row(
         &self,
         field: &Field<'_>,
-        quantities: &[(String, Quantity)],
+        quantities: &[&(String, Quantity)],
         place: &SidedPoint,
     ) -> ProbeRow {
         let mut local = place.seen(field);
-        let value = |(name, quantity): &(String, Quantity)| {
+        let value = |(name, quantity): &&(String, Quantity)| {
             (name.clone(), JsonNumber(quantity.at(&mut local, place.offset, place.side)))
         };
         let values = NamedValues(quantities.iter().map(value).collect());

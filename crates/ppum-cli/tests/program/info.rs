@@ -33,7 +33,7 @@ fn json_has_the_documented_shape() {
         json!({ "kind": "elasticity", "young": 1.0, "poisson": 0.3, "state": "plane-strain" });
     assert_eq!(info["equation"], elasticity);
     let step = &info["steps"][0];
-    let expected = "attributes cell_values cells cracks energy fields functions growth history intensities levels load \
+    let expected = "attributes cell_values cells cracks energy face_quantities fields functions growth history intensities levels load \
                     orders patches points quantities reactions solver step tips unknowns warnings weight weight_breakpoints \
                     weight_formula";
     assert_eq!(keys(step).join(" "), expected);

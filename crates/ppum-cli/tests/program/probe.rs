@@ -42,6 +42,16 @@ fn both_sides_of_a_crack() {
     assert!(opening > 4.0 * 0.91 * 0.24f64.sqrt() && opening < 4.0, "{opening}");
     let text = lab.run("probe plate.h5 --at 0.1,0 -q uy");
     assert!(text.contains("above the crack") && text.contains("below the crack"), "{text}");
+    // without -q cracks have the quantities of their faces, and other points do not
+    let report = lab.json("probe plate.h5 --at 0.1,0 --at 0.6,0");
+    let faces = ["normal-traction", "shear-traction", "opening", "sliding", "closed"];
+    let [above, .., away] = &report["points"].as_array().unwrap()[..] else { panic!("{report}") };
+    assert!(faces.iter().all(|name| keys(&above["values"]).iter().any(|key| key == name)));
+    assert_eq!(value(above, "normal-traction"), value(above, "syy"));
+    assert!((value(above, "opening") - opening).abs() < 1e-14 && value(above, "closed") == 0.0);
+    assert!(away["values"].get("opening").is_none());
+    let error = lab.fail("render plate.h5 -o plate.png -q closed");
+    assert!(error.contains("on the faces of cracks only: sample or plot it"), "{error}");
 }
 
 /// The digits of points on an oblique crack are off it by some 1e-17, on either side.

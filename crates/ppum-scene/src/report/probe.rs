@@ -3,7 +3,7 @@
 
 use ppum::crack::{SegmentId, Side};
 use ppum::field::{Field, LocalField};
-use ppum::quantity::{QuantityGradient, Reflection, ValueChange};
+use ppum::quantity::{Quantity, QuantityGradient, Reflection, ValueChange, face_names};
 use ppum::sides::Segments;
 use ppum::vec2::{Vec2, vec2};
 
@@ -26,6 +26,9 @@ pub struct ProbeReading {
     pub sides: Vec<SideValue>,
     /// The patch that it belongs to; none outside the body.
     pub owner: Option<Owner>,
+    /// On a crack the quantities of its faces by their symbols, with a value above and one below,
+    /// or one alone of both.
+    pub faces: Vec<(String, Vec<f64>)>,
     /// The patches of a cover that cover it, with their φ.
     pub patches: Vec<(u32, f64)>,
     /// True in an image of a body that is mirrored: patch and tip are those at the point whose
@@ -85,7 +88,7 @@ impl ProbeReading {
         let count = self.sides.len().max(left.sides.len());
         let of = |sides: &[SideValue], k: usize| sides[k.min(sides.len() - 1)];
         let sides = (0..count).map(|k| of(&self.sides, k).minus(&of(&left.sides, k))).collect();
-        Self { sides, crack: self.crack.or(left.crack), ..self }
+        Self { sides, crack: self.crack.or(left.crack), faces: Vec::new(), ..self }
     }
 
     /// The value above a crack minus that below.
@@ -102,6 +105,7 @@ impl ProbeReading {
 pub struct PointReader {
     shown: DisplayedQuantity,
     gradient: Option<QuantityGradient>,
+    faces: Vec<Quantity>,
     images: Vec<ImageReader>,
 }
 
@@ -136,9 +140,19 @@ impl ImageReader {
             spot: *spot,
             sides,
             is_mirrored: true,
+            faces: Vec::new(),
             ..read
         })
     }
+}
+
+/// The symbol of a quantity of faces, and its values above and below, or one of both.
+fn on_faces(face: &Quantity, local: &mut LocalField<'_>, offset: Vec2) -> (String, Vec<f64>) {
+    let mut values = vec![face.at(local, offset, Side::Above)];
+    if matches!(face, Quantity::Face(face) if face.is_sided()) {
+        values.push(face.at(local, offset, Side::Below));
+    }
+    (face.symbol(&[]), values)
 }
 
 /// Most segments of cracks that are looked through for one that a point lies on.
@@ -151,7 +165,9 @@ impl PointReader {
         let gradient = shown.quantity().and_then(|one| QuantityGradient::new(one, field).ok());
         let image = |by| ImageReader::new(field, shown, by);
         let images = lines.reflections().filter_map(image).collect();
-        Self { shown: shown.clone(), gradient, images }
+        let faces =
+            face_names(field).filter_map(|name| Quantity::parse(name, field).ok()).collect();
+        Self { shown: shown.clone(), gradient, faces, images }
     }
 
     /// The values at a point of the body or of an image.
@@ -188,6 +204,8 @@ impl PointReader {
             SideValue { side, value, gradient, terms: None }
         });
         let sides = sides.collect();
+        let faces = self.faces.iter().filter(|_| on.is_some());
+        let faces = faces.map(|face| on_faces(face, &mut local, spot.offset())).collect();
         let phi = |patch: &u32| {
             let phi = local.partition_function::<0>(*patch as usize, spot.offset());
             (*patch, phi.map_or(f64::NAN, |jet| jet.v))
@@ -195,7 +213,7 @@ impl PointReader {
         let is_cover = field.step.partition.mesh().is_none();
         let patches = patches.iter().filter(|_| is_cover).map(phi).collect();
         let (spot, crack) = (*spot, on.map(|segment| segment.crack));
-        ProbeReading { spot, tip, crack, sides, owner, patches, is_mirrored: false }
+        ProbeReading { spot, tip, crack, sides, owner, faces, patches, is_mirrored: false }
     }
 
     /// Value and gradient on a side; of a value of cells that of the point's own.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use ppum::equation::TEMPERATURE;
 use ppum::field::Field;
 use ppum::formula::function_names;
-use ppum::quantity::{Quantity, Vocabulary, names};
+use ppum::quantity::{Quantity, Vocabulary, available};
 use ppum_render::cells;
 use ppum_scene::quantity::OF_PATCHES;
 
@@ -50,12 +50,12 @@ fn choices(field: &Field<'_>) -> Vec<ChooserItem> {
         about: ppum::formula::one_line(&named.text),
         group: "Of the file",
     });
-    let all = names(field.equation, &field.data.components).into_iter();
-    let usable = all.filter(|(_, quantity)| quantity.check(field).is_ok());
-    let usable = usable.map(|(value, quantity)| ChooserItem {
-        about: about(&quantity, &field.data.components),
-        group: group(&quantity),
-        value,
+    let is_named = |name: &String| field.quantities.iter().any(|named| named.name == *name);
+    let all = available(field).into_iter().filter(|name| !is_named(name));
+    let usable = all.filter_map(|value| {
+        let quantity = Quantity::parse(&value, field).ok()?;
+        let (about, group) = (about(&quantity, &field.data.components), group(&value, &quantity));
+        Some(ChooserItem { value, about, group })
     });
     let phi = ChooserItem { value: "phi:0".into(), about: meaning_of_phi(), group: PARTITION };
     let mut all: Vec<ChooserItem> = named.chain(usable).chain([phi]).collect();
@@ -90,8 +90,12 @@ const GROUPS: [&str; 9] = [
     "Values of cells",
 ];
 
-fn group(quantity: &Quantity) -> &'static str {
+fn group(name: &str, quantity: &Quantity) -> &'static str {
     match quantity {
+        Quantity::Formula(_) if HEAT.contains(&name) || name == "magnitude" => "Field",
+        Quantity::Formula(_) if name == "gradient" => "Derivatives",
+        Quantity::Formula(_) if STRAINS.contains(&name) => "Strain",
+        Quantity::Formula(_) if name == "energy" => "Energy and error",
         Quantity::Component(_) | Quantity::Magnitude => "Field",
         Quantity::Derivative(..) | Quantity::GradientNorm => "Derivatives",
         Quantity::Divergence | Quantity::Curl | Quantity::Strain(..) => "Strain",
@@ -101,6 +105,10 @@ fn group(quantity: &Quantity) -> &'static str {
         _ => "Stress",
     }
 }
+
+/// Quantities that are formulas of the library, and are no stresses.
+const HEAT: [&str; 4] = [TEMPERATURE, "qx", "qy", "flux"];
+const STRAINS: [&str; 7] = ["elastic-xx", "elastic-yy", "elastic-xy", "e11", "e22", "e12", "ehoop"];
 
 fn meaning_of_phi() -> String {
     "φ of a patch, by its number".into()

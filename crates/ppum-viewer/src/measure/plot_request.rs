@@ -84,7 +84,7 @@ impl PlotRequest {
         let table = self.along.table(field, &named, self.count, watcher)?.table;
         let drawn = self.along.drawn(field, &named, self.count.min(DRAWN), watcher)?;
         let (variable, jumps) = (self.along.variable(), self.quantities.is_empty());
-        let curves = columns(&drawn.table, variable, jumps);
+        let curves = columns(&drawn.table, variable, jumps, &named);
         let label = if jumps { "displacement jump".into() } else { value_label(&named, field) };
         let unit = unit(&named, field);
         Ok(CurveValues { table, drawn, variable, curves, label, unit })
@@ -108,7 +108,7 @@ enum PlotFault {
 fn named(field: &Field<'_>, list: &str) -> Result<Vec<(String, Quantity)>, PlotFault> {
     let parsed = |text: &str| {
         let quantity = Quantity::parse(text, field)
-            .and_then(|quantity| quantity.check(field).map(|()| quantity))
+            .and_then(|quantity| quantity.check_at_points(field).map(|()| quantity))
             .map_err(|error| PlotFault::Quantity(text.to_owned(), Box::new(error)))?;
         Ok((text.to_owned(), quantity))
     };

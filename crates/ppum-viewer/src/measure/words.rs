@@ -5,6 +5,7 @@ pub use ppum_scene::location::{LocationFormat, number};
 use ppum::mesh::Shape;
 
 use super::probe::{ProbeReading, SideValue};
+use crate::shapes::plain;
 use ppum_scene::owner::{MeshElement, Owner};
 
 /// Digits of values, and of those that stand beside them.
@@ -12,6 +13,7 @@ pub const DIGITS: usize = 7;
 const FEWER: usize = 5;
 /// Digits of values at marks.
 const SHORT: usize = 4;
+const FACES: usize = 4;
 
 /// A value with its unit.
 pub(crate) fn value(value: f64, unit: &str) -> String {
@@ -89,6 +91,22 @@ pub(crate) fn gradients(probed: &ProbeReading) -> Option<String> {
     (is_known && !probed.is_outside()).then(|| format!("gradient {}", all.join(", ")))
 }
 
+/// The quantities of a crack's faces, above / below: `closed`, `σn −0.49 / −0.5`, `opening 0`.
+pub(crate) fn faces(probed: &ProbeReading) -> Vec<String> {
+    let (closed, others): (Vec<_>, Vec<_>) =
+        probed.faces.iter().partition(|(symbol, _)| symbol == "closed");
+    let state = |(_, values): &(String, Vec<f64>)| match values[..] {
+        [1.0] => "closed".to_owned(),
+        _ => "open".to_owned(),
+    };
+    let face = |(symbol, values): &(String, Vec<f64>)| {
+        let mut numbers: Vec<String> = values.iter().map(|v| number(*v, FACES)).collect();
+        numbers.dedup();
+        format!("{} {}", plain(symbol), numbers.join(" / "))
+    };
+    closed.into_iter().map(state).chain(others.into_iter().map(face)).collect()
+}
+
 /// The owner: `cell 312, level 6`; `patch 12` without cells; `element 7, curved triangle, order 4,
 /// part 12` of a mesh.
 pub(crate) fn owner(probed: &ProbeReading) -> Option<String> {
@@ -163,6 +181,10 @@ pub fn all(probed: &ProbeReading, name: &str, unit: &str) -> String {
     }
     if let Some(jump) = probed.jump() {
         lines.push(format!("  jump = {jump:?}"));
+    }
+    for (symbol, values) in &probed.faces {
+        let values: Vec<_> = values.iter().map(|value| format!("{value:?}")).collect();
+        lines.push(format!("  {} = {}", plain(symbol), values.join(" above, ")));
     }
     lines.extend(owner(probed).map(|text| format!("  {text}")));
     lines.extend(patches(probed).map(|text| format!("  {text}")));

@@ -91,6 +91,7 @@ fn names(viewport: &mut ViewState) -> Option<[String; 2]> {
 fn probe_lines(ui: &mut Ui, probed: &ProbeReading, [name, unit]: &[String; 2]) {
     let mut all = vec![words::values(probed, name, unit)];
     all.extend(words::terms(probed));
+    all.push(words::faces(probed).join(", "));
     all.extend(words::gradients(probed));
     let owner = [words::owner(probed), words::patches(probed)];
     all.push(owner.into_iter().flatten().collect::<Vec<_>>().join("; "));

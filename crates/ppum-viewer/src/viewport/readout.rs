@@ -168,6 +168,7 @@ impl ViewState {
         let digits = digits([norm.min(), norm.max()], words::DIGITS);
         parts.push(words::values_to(&probed, &reader.name, &reader.unit, digits));
         parts.extend(words::terms(&probed));
+        parts.extend(words::faces(&probed));
         parts.extend([words::gradients(&probed), words::owner(&probed)].into_iter().flatten());
         (parts, words::shorter(&probed))
     }

@@ -99,6 +99,23 @@ fn on_a_crack_both_sides_are_read() {
     assert_eq!(read.jump(), Some(above - below));
     assert!(above > below, "the crack is open");
     assert!(has_label(&window, "jump"));
+    // the quantities of its faces
+    let faces = |name: &str| {
+        read.faces.iter().find(|(symbol, _)| symbol == name).expect("a face").1.clone()
+    };
+    let mut on = |name: &str| {
+        let quantity = Quantity::parse(name, &field).expect("a quantity");
+        [Side::Above, Side::Below].map(|side| quantity.at(&mut local, read.spot.offset(), side))
+    };
+    let m = (crack.points[1] - crack.points[0]).unit().left();
+    let ([xx, yy, xy], [ux, uy]) = (["sxx", "syy", "sxy"].map(&mut on), ["ux", "uy"].map(&mut on));
+    let opening = v(ux[0] - ux[1], uy[0] - uy[1]).dot(m);
+    for (k, traction) in faces("σ_{n}").into_iter().enumerate() {
+        let exact = v(xx[k] * m.x + xy[k] * m.y, xy[k] * m.x + yy[k] * m.y).dot(m);
+        assert!((traction - exact).abs() < 1e-12, "{traction} {exact}");
+    }
+    assert!((faces("opening")[0] - opening).abs() < 1e-14 && faces("closed") == [0.0]);
+    assert!(has_label(&window, "σn ") && has_label(&window, "open"));
     // far from it, and close to it with Shift, there is one value
     window.hover_at(beside + vec2(0.0, 30.0));
     settle(&mut window);

@@ -26,6 +26,8 @@ pub struct LocalField<'f> {
     heights: [f64; 2],
     /// The hole whose rim it is seen on, which then belongs to the domain.
     touched_hole: Option<usize>,
+    /// The segment that it is seen on.
+    pub(crate) segment: Option<SegmentId>,
     /// The side of the segment that it is seen on that lies outside of the domain, if one does.
     pub(super) outer: Option<Side>,
     /// A way of a few roundings from the segment that it is seen on to the side above it; zero if
@@ -89,7 +91,7 @@ impl Field<'_> {
         let along = if edge.is_arc() { edge.tangent_towards(anchor) } else { edge.chord().unit() };
         let above = along.left() * (ASIDE * extent);
         let outer = line.map(|line| line.outer_side([edge.from, edge.to]));
-        LocalField { outer, above, touched_hole, ..local }
+        LocalField { segment: Some(segment), outer, above, touched_hole, ..local }
     }
 }
 
@@ -104,6 +106,7 @@ impl<'f> LocalField<'f> {
             domain,
             heights,
             touched_hole,
+            segment: None,
             outer,
             above,
             functions,

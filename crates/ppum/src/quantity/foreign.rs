@@ -1,7 +1,7 @@
 //! Names that other programs give to quantities, for messages about unknown names.
 
 /// Names of Abaqus, Ansys, Code_Aster, NGSolve and formulas in letters, in lower case, with ours.
-const FOREIGN: [(&[&str], &str); 18] = [
+const FOREIGN: [(&[&str], &str); 26] = [
     (&["mises", "vonmises", "von_mises_stress", "s_mises", "seqv", "vmis"], "von-mises"),
     (&["s11", "sx", "sixx", "sigma_xx", "sigmaxx", "sig_xx", "stress_xx", "stressxx"], "sxx"),
     (&["s22", "sy", "siyy", "sigma_yy", "sigmayy", "sig_yy", "stress_yy", "stressyy"], "syy"),
@@ -20,6 +20,17 @@ const FOREIGN: [(&[&str], &str); 18] = [
     (&["sener", "eners", "strain_energy", "energy_density"], "energy"),
     (&["temp", "nt11"], "temperature"),
     (&["grad", "gradu", "grad_u"], "gradient"),
+    (&["hfl1", "flux_x", "heat_flux_x", "fluxx"], "qx"),
+    (&["hfl2", "flux_y", "heat_flux_y", "fluxy"], "qy"),
+    (&["hfl", "heat_flux", "heatflux", "q"], "flux"),
+    (
+        &["sn", "sigma_n", "sigman", "cpress", "contact_pressure", "pressure", "traction"],
+        "normal-traction",
+    ),
+    (&["tau", "sigma_t", "cshear1"], "shear-traction"),
+    (&["gap", "copen", "jeu", "cod"], "opening"),
+    (&["slip", "cslip1"], "sliding"),
+    (&["contact", "cstatus", "status"], "closed"),
 ];
 
 /// Returns our name of a quantity that another program calls `name`.

@@ -190,7 +190,14 @@ impl<'a> Vocabulary<'a> {
             Equation::Poisson { .. } => [&POISSON, &[]],
             Equation::None => [&[], &[]],
         };
+        // a dataset may have quantities and tables of these names itself
+        let is_free = |name: &str| {
+            let mut named = self.named.iter().map(|q| q.name.replace('-', "_"));
+            named.all(|known| known != name) && self.tables.iter().all(|table| table.name() != name)
+        };
+        let is_heat = matches!(self.equation, Equation::Poisson { .. });
         let library = library.into_iter().flatten();
+        let library = library.filter(move |(name, _)| !is_heat || is_free(name));
         let is_round = is_solution && self.equation.is_axisymmetric();
         let is_round = is_round && self.equation.elastic().is_some();
         let library = library.map(move |&(name, text)| match (is_round, name) {

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use super::face::{FaceQuantity, face_names};
 use super::foreign::own_name;
 use super::formula::{QuantityFormula, QuantityFormulaError, Vocabulary};
 use super::sample::{Sample, Source};
@@ -12,7 +13,7 @@ use crate::dataset::NamedQuantity;
 use crate::equation::{Equation, Moduli, TEMPERATURE};
 use crate::field::{Field, LocalField};
 use crate::jet::Jet;
-use crate::library::ANISOTROPY;
+use crate::library::{ANISOTROPY, HEAT};
 use crate::text::hint;
 use crate::vec2::Vec2;
 use ppum_formula::real::Real;
@@ -61,6 +62,8 @@ pub enum Quantity {
     Overlap,
     /// φ_i of patch i: `phi:7`.
     PartitionFunction(u32),
+    /// A quantity of the faces of cracks: `normal-traction`, …
+    Face(Arc<FaceQuantity<Quantity>>),
     /// A formula of the others: `sqrt(ux^2 + uy^2)`.
     Formula(Arc<QuantityFormula>),
 }
@@ -99,6 +102,11 @@ pub enum QuantityError {
         /// Number of patches.
         count: usize,
     },
+    /// Has values on faces of cracks alone.
+    #[error(
+        "`{0}` has values on the faces of cracks only: sample or plot it along a crack, or probe a point of one"
+    )]
+    Face(&'static str),
     /// A formula is wrong.
     #[error("{0}")]
     Formula(#[from] QuantityFormulaError),
@@ -137,6 +145,10 @@ pub(super) const ELASTIC: [NamedRow; 15] = [
     ("direction", "direction of σ_{1}", Q::PrincipalDirection),
     ("hydrostatic", "hydrostatic stress", Q::Hydrostatic),
 ];
+
+/// Names and symbols of the quantities of heat, which are formulas of the library.
+const HEAT_SYMBOLS: [(&str, &str); HEAT] =
+    [("temperature", "T"), ("qx", "q_{x}"), ("qy", "q_{y}"), ("flux", "|q|")];
 
 /// The quantities of [`ELASTIC`] before those of stresses.
 const STRAINS_ALONE: usize = 5;
@@ -185,7 +197,10 @@ pub fn available(field: &Field<'_>) -> Vec<String> {
     let stresses = ANISOTROPY.iter().map(|(name, _)| *name).filter(|_| is_anisotropic);
     let is_round = has_formulas && field.equation.is_axisymmetric();
     let around = ["ehoop", "shoop"].into_iter().filter(|_| is_round);
-    let sizes = sizes.chain(stresses).chain(around);
+    let is_heat = is_named && matches!(field.equation, Equation::Poisson { .. });
+    let is_free = |name: &&str| field.quantities.iter().all(|named| named.name != **name);
+    let heat = HEAT_SYMBOLS.iter().map(|(name, _)| *name).filter(|_| is_heat).filter(is_free);
+    let sizes = sizes.chain(stresses).chain(around).chain(heat);
     let named = field
         .quantities
         .iter()
@@ -202,6 +217,13 @@ pub fn available(field: &Field<'_>) -> Vec<String> {
 fn underscored(text: &str) -> Cow<'_, str> {
     let is_name = ELASTIC.iter().any(|(name, ..)| *name == text);
     if is_name { text.replace('-', "_").into() } else { text.into() }
+}
+
+/// Symbol and unit of a quantity of heat.
+fn heat_label<'f>(text: &str, field: &Field<'f>) -> Option<(&'static str, &'f str)> {
+    let is_heat = matches!(field.equation, Equation::Poisson { .. });
+    let (name, symbol) = *HEAT_SYMBOLS.iter().find(|(name, _)| is_heat && *name == text)?;
+    Some((symbol, if name == TEMPERATURE { &field.data.unit } else { "" }))
 }
 
 impl QuantityError {
@@ -261,6 +283,9 @@ impl Quantity {
             let formula = QuantityFormula::new(text, &vocabulary)?.named(name, unit);
             return Ok(Self::Formula(Arc::new(formula)));
         }
+        if let Some(face) = FaceQuantity::parse(text, field, |name| Self::parse(name, field).ok()) {
+            return Ok(Self::Face(Arc::new(face)));
+        }
         let is_name = text.starts_with(char::is_alphabetic)
             && text.chars().all(|c| c.is_alphanumeric() || "_-:".contains(c));
         match QuantityFormula::new(&underscored(text), &vocabulary) {
@@ -272,8 +297,17 @@ impl Quantity {
                     None => formula,
                 })))
             }
-            Ok(formula) => Ok(Self::Formula(Arc::new(formula))),
-            Err(_) if is_name => Err(QuantityError::unknown(text, available(field))),
+            Ok(formula) => Ok(Self::Formula(Arc::new(match heat_label(text, field) {
+                Some((symbol, unit)) => formula.named(symbol, unit),
+                None => formula,
+            }))),
+            Err(_) if is_name => {
+                let faces = face_names(field).map(str::to_owned);
+                Err(QuantityError::unknown(
+                    text,
+                    available(field).into_iter().chain(faces).collect(),
+                ))
+            }
             Err(error) => Err(error.into()),
         }
     }
@@ -349,11 +383,23 @@ impl Quantity {
         }
     }
 
-    /// Checks that the field has what the quantity needs.
+    /// Checks that the field has what the quantity needs, and values everywhere in the body.
+    ///
+    /// # Errors
+    /// No exact solution, no such patch; a quantity of the faces of cracks.
+    pub fn check(&self, field: &Field<'_>) -> Result<(), QuantityError> {
+        match self {
+            Q::Face(face) => Err(QuantityError::Face(face.name())),
+            _ => self.check_at_points(field),
+        }
+    }
+
+    /// Checks that the field has what the quantity needs, of which some points have values, maybe
+    /// those on faces of cracks only.
     ///
     /// # Errors
     /// No exact solution, no such patch.
-    pub fn check(&self, field: &Field<'_>) -> Result<(), QuantityError> {
+    pub fn check_at_points(&self, field: &Field<'_>) -> Result<(), QuantityError> {
         let count = field.step.partition.len();
         match *self {
             Q::Error if !field.has_exact() => Err(QuantityError::NoExact("error".into())),
@@ -373,10 +419,11 @@ impl Quantity {
             Source::Gradient => local.evaluate::<1>(offset, side, &mut u),
             Source::Values | Source::Exact => local.evaluate::<0>(offset, side, &mut u),
         };
-        if !inside {
-            return f64::NAN;
+        match self {
+            _ if !inside => f64::NAN,
+            Q::Face(face) => face.of_jets(local, offset, &u, Self::of_values),
+            _ => self.of_values(local, offset, &u),
         }
-        self.of_values(local, offset, &u)
     }
 
     /// A quantity of the partition; `None` outside the domain and for other quantities.
@@ -397,6 +444,7 @@ impl Quantity {
     pub fn unit<'q>(&'q self, field: &'q Field<'_>) -> &'q str {
         match self {
             Q::Component(_) | Q::Magnitude => &field.data.unit,
+            Q::Face(face) if face.is_jump() => &field.data.unit,
             Q::Formula(formula) => formula.unit(),
             _ => "",
         }
@@ -418,6 +466,7 @@ impl Quantity {
         };
         match self {
             Q::Formula(formula) => formula.label(),
+            Q::Face(face) => face.symbol().to_owned(),
             Q::Component(c) => component(*c),
             Q::Derivative(c, axis) => format!("∂{}/∂{}", component(*c), axis.name()),
             Q::PartitionFunction(patch) => format!("φ_{{{patch}}}"),

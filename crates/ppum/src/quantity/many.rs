@@ -104,6 +104,9 @@ impl Quantity {
         if !local.has_values(offset, jets) {
             return f64::NAN;
         }
+        if let Self::Face(face) = self {
+            return face.of_jets(local, offset, jets, Self::of_values);
+        }
         self.of_values(local, offset, jets)
     }
 

@@ -6,6 +6,7 @@
 //! Quantities have names, or are [formulas](QuantityFormula) of those that have;
 //! [`QuantityGradient`] has their exact gradients.
 
+mod face;
 mod foreign;
 mod formula;
 mod gradient;
@@ -17,6 +18,7 @@ mod reflection;
 mod sample;
 mod tensors;
 
+pub use face::{FaceQuantity, face_names};
 pub use formula::{
     QuantityBlock, QuantityFormula, QuantityFormulaError, QuantityInput, Vocabulary,
 };

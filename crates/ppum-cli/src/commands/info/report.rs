@@ -6,7 +6,7 @@ use ppum::crack::{self, tips};
 use ppum::dataset::{self, BoxPartition, Dataset, FieldData, Step};
 use ppum::field::{Field, FieldError};
 use ppum::mesh::{Mesh, Shape};
-use ppum::quantity::available;
+use ppum::quantity::{available, face_names};
 use ppum::text::LocationText;
 use ppum_render::cells;
 use ppum_scene::facts::{CommonFacts, CrackFacts, RecordFacts, ResultFacts};
@@ -63,6 +63,9 @@ pub(super) struct StepReport {
     pub(super) families: Vec<Family>,
     pub(super) fields: Vec<FieldRow>,
     pub(super) quantities: Vec<String>,
+    /// Quantities of the faces of cracks.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(super) face_quantities: Vec<&'static str>,
     pub(super) attributes: Vec<String>,
     /// The values that `render` draws on the cells.
     pub(super) cell_values: Vec<String>,
@@ -181,6 +184,7 @@ impl StepReport {
             families: families(functions, &blocks),
             fields: field.step.fields.iter().map(field_row).collect(),
             quantities: available(&field),
+            face_quantities: face_names(&field).collect(),
             attributes: attributes.iter().map(attribute).collect(),
             cell_values: cells::names(&field),
             results: ResultFacts::new(dataset, index),

@@ -54,6 +54,7 @@ impl NamedLines<'_> {
         self.lines("history", step.other_history.iter().cloned())?;
         self.lines("growth", results.growth.iter().flat_map(GrowthFacts::lines))?;
         self.lines("quantities", wrapped(&step.quantities))?;
+        self.lines("of faces", wrapped(&step.face_quantities))?;
         let owners = if step.cells > 0 { "of cells" } else { "of patches" };
         self.lines(owners, wrapped(&step.cell_values))?;
         if let Some(solver) = &results.solver {
@@ -119,9 +120,9 @@ fn joined(parts: impl Iterator<Item = String>) -> String {
 }
 
 /// Lines of names, as long as they fit the screen.
-fn wrapped(names: &[String]) -> Vec<String> {
+fn wrapped(names: &[impl AsRef<str>]) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for name in names {
+    for name in names.iter().map(AsRef::as_ref) {
         if lines.last().is_none_or(|line| line.len() + name.len() > 78 - NamedLines::NAME) {
             lines.push(String::new());
         }

@@ -69,6 +69,7 @@ const EXAMPLES: &str = "\
 Examples:
   ppum plot plate.h5 --line -1,0.1,1,0.1 -q syy,sxx -o line.svg
   ppum plot plate.h5 --crack 0 -o opening.svg
+  ppum plot plate.h5 --crack 0 -q normal-traction,shear-traction -o tractions.svg
   ppum plot plate.h5 --tip 1 --radius 1e-6 -q sxx,syy,sxy -o around.png
   ppum plot plate.h5 --tip 1 --angle 0 -q syy -o singularity.pdf
   ppum plot coarse.h5 plate.h5 --circle 0,0,0.7 -q von-mises -o circle.svg

@@ -41,7 +41,7 @@ impl<'d> Profiles<'d> {
         quantities: &profile::NamedQuantities,
         table: &NumberTable,
     ) {
-        for (name, points) in columns(table, self.variable, self.jumps) {
+        for (name, points) in columns(table, self.variable, self.jumps, quantities) {
             let name = label(self.several, named.name, &name);
             self.plot.curves.push(curve(name, points, self.variable));
         }

@@ -21,6 +21,10 @@ pub(super) fn table(
     let cracks = &field.step.cracks;
     let stations = u32::try_from(index).ok().and_then(|k| SamplePoints::along(cracks, k, parts));
     let stations = stations.ok_or(ProfileError::Crack { index, count: cracks.len() })?;
+    // opening and sliding have columns of their own
+    let is_asked =
+        |quantity: &Quantity| !matches!(quantity, Quantity::Face(face) if face.is_jump());
+    let quantities: Vec<_> = quantities.iter().filter(|(_, q)| is_asked(q)).cloned().collect();
     let components = (0..).map(Quantity::Component).take(field.data.components.len());
     let asked = quantities.iter().map(|(_, quantity)| quantity.clone());
     let wanted: Vec<_> = asked.chain(components).collect();
@@ -34,10 +38,10 @@ pub(super) fn table(
         .all()
         .iter()
         .zip(sides)
-        .flat_map(|(station, sides)| row((field, station), sides, quantities.len()))
+        .flat_map(|(station, sides)| row((field, station), sides, &quantities))
         .collect();
     let places = stations.all().iter().map(|station| station.place(Side::Above)).collect();
-    let table = NumberTable::new(columns(field, quantities), rows);
+    let table = NumberTable::new(columns(field, &quantities), rows);
     Ok(Profile { table, places, undefined: Vec::new() })
 }
 
@@ -58,7 +62,10 @@ fn columns(field: &Field<'_>, quantities: &[(String, Quantity)]) -> Vec<Column> 
     for (name, quantity) in quantities {
         let sided =
             |side: Side| Column::new(&format!("{name}_{}", side.name()), quantity.unit(field));
-        columns.extend([Side::Above, Side::Below].map(sided));
+        match is_sided(quantity) {
+            true => columns.extend([Side::Above, Side::Below].map(sided)),
+            false => columns.push(Column::new(name, quantity.unit(field))),
+        }
     }
     let components = &field.data.components;
     columns.extend(components.iter().map(|name| Column::new(&format!("jump_{name}"), unit)));
@@ -68,18 +75,25 @@ fn columns(field: &Field<'_>, quantities: &[(String, Quantity)]) -> Vec<Column> 
     columns
 }
 
+/// True if each face has a value of its own.
+fn is_sided(quantity: &Quantity) -> bool {
+    !matches!(quantity, Quantity::Face(face) if !face.is_sided())
+}
+
 /// Position, the quantities on both sides, the jumps of the components that follow them; normal to
 /// the crack and along it.
 fn row(
     (field, station): (&Field<'_>, &SamplePoint),
     (above, below): (&[f64], &[f64]),
-    quantities: usize,
+    quantities: &[(String, Quantity)],
 ) -> Vec<f64> {
     let p = station.point();
     let pairs = || above.iter().zip(below);
-    let jumps: Vec<f64> = pairs().skip(quantities).map(|(a, b)| a - b).collect();
+    let jumps: Vec<f64> = pairs().skip(quantities.len()).map(|(a, b)| a - b).collect();
     let mut row = vec![station.s, p.x, p.y];
-    row.extend(pairs().take(quantities).flat_map(|(a, b)| [a, b]));
+    for ((_, quantity), (a, b)) in quantities.iter().zip(pairs()) {
+        row.extend([a, b].into_iter().take(if is_sided(quantity) { 2 } else { 1 }));
+    }
     row.extend(&jumps);
     if let ([x, y], _) | ([x, y, _], true) = (&jumps[..], field.is_displacement()) {
         let (x, y) = (*x, *y);

@@ -23,22 +23,24 @@ pub fn axis(variable: Variable) -> PlotAxis {
     }
 }
 
-/// The curves of a table: of a crack without quantities opening and sliding, or the jump; else
-/// all quantities.
+/// The curves of a table of quantities: of a crack with `jumps` opening and sliding, or the jump;
+/// else all quantities.
 #[must_use]
 pub fn columns(
     table: &NumberTable,
     variable: Variable,
     jumps: bool,
+    quantities: &NamedQuantities,
 ) -> Vec<(String, Vec<[f64; 2]>)> {
     let Some(first) = table.column(variable.name()) else { return Vec::new() };
     let names: Vec<&str> = table.names().collect();
     let is_jump = |name: &str| name == "opening" || name == "sliding" || name.starts_with("jump_");
     let is_elastic = names.contains(&"opening");
+    let is_asked = |name: &str| quantities.iter().any(|(asked, _)| asked == name);
     let is_wanted = |name: &&&str| match jumps {
         true if is_elastic => **name == "opening" || **name == "sliding",
         true => is_jump(name),
-        false => !PLACES.contains(*name) && !is_jump(name),
+        false => !PLACES.contains(*name) && (!is_jump(name) || is_asked(name)),
     };
     let sides = table.column("side").filter(|_| variable != Variable::Distance);
     let points = |name: &&str| {
