@@ -7,7 +7,7 @@ use numpy::{PyArray2, PyReadonlyArray1, PyReadwriteArray1};
 use ppum::crack::Side;
 use ppum::dataset::Dataset as Data;
 use ppum::field::Field;
-use ppum::quantity::{Quantity, QuantityGradient};
+use ppum::quantity::{Quantity, QuantityGradient, face_names};
 use ppum::sample::SampledQuantity;
 use ppum::vec2::Vec2;
 use ppum_scene::profile::ProfileCurve;
@@ -75,7 +75,7 @@ impl PyField {
         let field = self.field();
         let found = Quantity::parse(&self.spelled(name), field);
         let found = found.map_err(quantity)?;
-        found.check(field).map_err(quantity)?;
+        found.check_at_points(field).map_err(quantity)?;
         Ok(found)
     }
 
@@ -184,6 +184,11 @@ impl PyField {
     /// All quantities that have a name.
     fn known(&self) -> PyResult<Vec<QuantityFacts>> {
         guard(|| Ok(quantities(self.field())))
+    }
+
+    /// Names of the quantities of the faces of cracks.
+    fn of_faces(&self) -> Vec<&'static str> {
+        face_names(self.field()).collect()
     }
 
     /// Symbol and unit of a quantity.

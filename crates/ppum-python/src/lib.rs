@@ -43,7 +43,7 @@ mod _core {
         moving::animation,
         picture::{
             check_request, colormap, colormaps, default_request, extrema_in, figure,
-            foreign_options, frame, option_texts, render, rgba,
+            foreign_options, frame, option_texts, render, rgba, whole,
         },
         plot::{Curves, profiles, reports},
         probe::probe,

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use numpy::{PyArray1, PyArray3, PyArrayMethods as _};
 use ppum::progress::Watcher;
-use ppum::vec2::Vec2;
+use ppum::vec2::{Rect, Vec2};
 use ppum_figure::canvas::Canvas;
 use ppum_figure::figure::bare;
 use ppum_figure::form::PageFormat;
@@ -74,6 +74,19 @@ pub(crate) fn check_request(this: &PyField, request: &Bound<'_, PyAny>) -> PyRes
     }
     panels.check(&scene).map_err(render_error)?;
     scene.colors.map(None).map(drop).map_err(render_error)
+}
+
+/// The lower left and upper right corner of what a request shows, of a mirrored body the whole.
+#[pyfunction]
+pub(crate) fn whole(
+    this: &PyField,
+    request: &Bound<'_, PyAny>,
+) -> PyResult<((f64, f64), (f64, f64))> {
+    let request = this.request(request)?;
+    let lines = this.subject(&request)?.lines(&request.scene);
+    let lines = lines.map_err(|error| picture(error.into()))?;
+    let Rect { min, max } = lines.whole(this.field().domain.bounds);
+    Ok(((min.x, min.y), (max.x, max.y)))
 }
 
 /// A `ppum.View`.

@@ -2,7 +2,10 @@
 
 import builtins
 import io
+import os
+import pathlib
 import pickle
+import sys
 
 import numpy as np
 import ppum
@@ -186,6 +189,74 @@ def test_tables_keep_their_words(ds):
         tips[2]
     assert [tip.end for tip in tips] == ["start", "end"]
     assert "unknowns 6600" in repr(ds.history)
+
+
+def test_points_in_rows_and_tensors(ds, f):
+    points = np.random.default_rng(1).uniform(-0.9, 0.9, (4, 5, 2))
+    rows, both = f.at(points), ds.at(points, side="both")
+    assert np.array_equal(rows.ux, f.at(points[..., 0], points[..., 1]).ux)
+    assert np.array_equal(rows.displacement, np.stack([rows.ux, rows.uy], -1))
+    for tensor, letter in ((rows.stress, "s"), (rows.strain, "e")):
+        assert tensor.shape == (4, 5, 2, 2) and np.array_equal(tensor, np.swapaxes(tensor, -1, -2))
+        assert np.array_equal(tensor[..., 0, 1], rows[f"{letter}xy"]) and np.array_equal(tensor[..., 1, 1], rows[f"{letter}yy"])
+    # ½ σ:ε
+    assert np.allclose(0.5 * (rows.stress * rows.strain).sum((-1, -2)), rows.energy, rtol=1e-12)
+    assert both.stress.shape == (4, 5, 2, 2, 2) and f.at(0.5, 0.5).stress.shape == (2, 2)
+    for wrong in (3.0, [1.0, 2.0, 3.0], np.zeros((2, 3))):
+        with pytest.raises(TypeError, match=r"give x and y, or points of the shape \(\.\.\., 2\)"):
+            f.at(wrong)
+
+
+def test_datasets_have_what_their_last_field_has(grown):
+    last = grown.steps[-1].field
+    assert grown.at(0.1, 0.2).ux == last.at(0.1, 0.2).ux
+    assert np.array_equal(grown.draw.render("ux", size=(8, 4)), last.draw.render("ux", size=(8, 4)))
+    assert grown.evaluate([0.1], [0.2], ["ux"]).shape == (1, 1) and grown.intensities(0) == last.intensities(0)
+    for name, meant in (("plot", "draw.plot"), ("render", "draw.render"), ("line", "sample.line"), ("to_html", "export.to_html")):
+        with pytest.raises(AttributeError, match=f"Dataset has no attribute '{name}'; there is `{meant}`"):
+            getattr(grown, name)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="counts open files")
+def test_files_are_closed(grown, tmp_path):
+    grown.save(tmp_path / "grown.h5")
+    files = lambda: sum(str(tmp_path) in os.path.realpath(link) for link in pathlib.Path("/proc/self/fd").iterdir())
+    before = files()
+    with ppum.open(tmp_path / "grown.h5") as ds:
+        value = ds.at(0.1, 0.2).ux
+        assert files() == before + 1
+    assert files() == before and value == grown.at(0.1, 0.2).ux
+    assert repr(ds) == "<ppum.Dataset, closed>"
+    for use in (lambda: ds.field, lambda: ds.to_bytes(), lambda: ds.steps[1].field):
+        with pytest.raises(ValueError, match="the dataset is closed; open it again"):
+            use()
+    ds.close()
+
+
+def test_colour_maps_of_matplotlib_in_figures(f):
+    look = {"center": (0, 1), "width": 0.2, "size": (256, 1), "clim": (-0.1, 0.1)}
+    for cmap in ("RdBu", plt.get_cmap("RdBu"), plt.get_cmap("cubehelix_r")):
+        image = f.draw.image("x", cmap=cmap, **look)[0, :, :3].astype(int)
+        colors = plt.get_cmap(cmap)(np.linspace(0, 1, 256), bytes=True)[:, :3].astype(int)
+        assert np.abs(image - colors).max() <= 4 and np.ptp(image, axis=0).min() > 50
+    figure = f.draw.figure("ux", cmap=plt.get_cmap("RdBu"), size=(300, 300))
+    assert pickle.loads(pickle.dumps(figure)).png() == figure.png() == f.draw.figure("ux", cmap="RdBu", size=(300, 300)).png()
+    with pytest.raises(TypeError, match="a map of matplotlib"):
+        f.draw.figure("ux", cmap=3)
+    with pytest.raises(ppum.RenderError, match="no colour map is named `RdBux`"):
+        f.draw.figure("ux", cmap="RdBux")
+
+
+def test_images_show_the_whole_of_a_half():
+    half = ppum.Problem(((0, -1), (1, 1)), ppum.Elastic(1.0, 0.3)).boundary("left", symmetry=True).boundary("bottom", traction=(0, -1))
+    f = half.boundary("top", traction=(0, 1)).discretization(level=2).solve().field
+    image = f.draw.image("abs(ux)", mirror=True, size=(100, 100))
+    # the whole, from -1 to 1, fills the image and is symmetric
+    assert (image[..., 3] == 255).all() and np.abs(image.astype(int) - image[:, ::-1].astype(int)).max() <= 1
+    alone = f.draw.image("abs(ux)", size=(100, 100))
+    assert (alone[:, :20, 3] == 0).all() and (alone[:, 30:70, 3] == 255).all()
+    near = f.draw.image("abs(ux)", mirror=True, size=(100, 100), center=(0.5, 0), width=0.5)
+    assert (near[..., 3] == 255).all()
 
 
 def test_shared_blocks_are_refused(ds, tmp_path):

@@ -8,7 +8,7 @@ import os
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, lru_cache, partial
 from pathlib import Path
-from typing import IO, TYPE_CHECKING, Any, ClassVar, Unpack
+from typing import IO, TYPE_CHECKING, Any, ClassVar, Unpack, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +21,15 @@ from ._options import passes
 from ._styles import ViewerOptions
 from ._tables import History, Numbered, Table
 from ._text import plural
+from ._values import Values
+from ._warnings import NAMES
 
 if TYPE_CHECKING:
+    from ._compare import Compare
+    from ._draw import Draw
+    from ._export import Export
     from ._problem import Problem
+    from ._sample import Sample
     from ._weights import Weight
     from ._widget import Viewer
 
@@ -34,6 +40,23 @@ def _fact(name: str, doc: str, kind: Callable[[Any], Any] = lambda value: value)
 
 def _of_last_step(name: str) -> Any:
     return property(lambda self: operator.attrgetter(name)(self.steps[-1]), doc=f"`Step.{name}` of the last step.")
+
+
+def _of_field(name: str) -> Any:
+    return property(lambda self: getattr(self.field, name), doc=f"`Field.{name}` of the field of the last step.")
+
+
+class _Closed:
+    """Takes the place of the data of a dataset that is closed."""
+
+    def __getattr__(self, name: str) -> Any:
+        raise ValueError("the dataset is closed; open it again with `ppum.open`")
+
+    def __len__(self) -> int:
+        return int(self.steps)
+
+    def __call__(self, number: int) -> Field:
+        return cast(Field, self.field)
 
 
 class Step:
@@ -199,6 +222,13 @@ class Dataset:
     warnings: Table[Warning] = _of_last_step("warnings")
     history: History = _of_last_step("history")
     quantities: Mapping[str, Any] = _of_last_step("field.quantities")
+    at: Callable[..., Values] = _of_field("at")
+    evaluate: Callable[..., Any] = _of_field("evaluate")
+    intensities: Callable[..., Any] = _of_field("intensities")
+    sample: Sample = _of_field("sample")
+    draw: Draw = _of_field("draw")
+    export: Export = _of_field("export")
+    compare: Compare = _of_field("compare")
 
     @passes(ViewerOptions)
     def view(self, quantity: str | None = None, *, step: int = -1, **options: Unpack[ViewerOptions]) -> Viewer:
@@ -236,6 +266,32 @@ class Dataset:
             raise ValueError(f"{path.name}: a dataset is an HDF5 file, end its name in .h5; {remedy}")
         self._core.save(path)
 
+    def close(self) -> None:
+        """Close the file of a series, of which no more steps can be read; ``with`` does this at its end.
+
+        Fields that are in use keep what they need, and the file open, until they are gone.
+
+        Example:
+            >>> ds.save("plate.h5")
+            >>> with ppum.open("plate.h5") as again:
+            ...     print(again.title)
+            Slanted crack
+        """
+        self._core = self._field = cast(Any, _Closed())
+
+    def __enter__(self) -> Dataset:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:
+            place = NAMES["Field"].get(name)
+            meant = f"; there is `{place}`" if place else ""
+            raise AttributeError(f"Dataset has no attribute {name!r}{meant}", name=name, obj=self)
+
     def to_bytes(self) -> bytes:
         """Return the bytes of a file."""
         return self._core.to_bytes()
@@ -253,6 +309,8 @@ class Dataset:
         return hash((self.title, self.equation, plain))
 
     def __repr__(self) -> str:
+        if isinstance(self._core, _Closed):
+            return "<ppum.Dataset, closed>"
         last = self.steps[-1]
         counts = plural(len(self.steps), "step"), plural(last.patches, "patch", "patches"), plural(len(last.tips), "tip")
         return f"<ppum.Dataset {self.title!r}, {self.equation}, {', '.join(counts)}>"

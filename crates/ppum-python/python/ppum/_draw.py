@@ -16,7 +16,7 @@ from ._styles import (
 )  # fmt: skip
 from ._text import plural
 from ._units import milliseconds, pixels
-from ._views import SIZE, RasterOptions
+from ._views import SIZE, PlaceOptions, RasterOptions, view_at
 from ._warnings import warn
 
 if TYPE_CHECKING:
@@ -124,6 +124,8 @@ class Draw:
         view = self._field._seen(options)
         scene: Any = {name: value for name, value in options.items() if name != "size"}
         asked = checked_request(self._field, request(self._field, quantity, scene, view))
+        if all(options.get(name) is None for name in PlaceOptions.__annotations__):
+            view = view_at(_core.whole(self._field._core, asked), view.size)
         colors, messages = _core.rgba(self._field._core, asked, view)
         warn(*messages)
         return colors

@@ -14,7 +14,7 @@ from ._facts import Tip, tips_of
 from ._options import passes, takes
 from ._styles import ViewerOptions
 from ._tables import Table
-from ._units import Floats, pixels
+from ._units import Floats, floats, pixels
 from ._values import Quantities, Quantity, SideName, Values
 from ._views import SIZE, PixelOptions, PlaceOptions, View, checked_view, view_at
 from ._warnings import warn, with_old_names
@@ -76,13 +76,29 @@ class Field:
         """Named quantities; formulas of them are quantities too."""
         return Quantities([Quantity(*q) for q in self._core.known()])
 
-    def at(self, x: ArrayLike, y: ArrayLike, *, side: SideName = "above", anchor: ArrayLike | None = None) -> Values:
+    @cached_property
+    def face_quantities(self) -> tuple[str, ...]:
+        """Quantities that only points of cracks have: tractions, opening, sliding and whether the faces are closed.
+
+        Example:
+            >>> f.face_quantities
+            ('normal-traction', 'shear-traction', 'opening', 'sliding', 'closed')
+            >>> face = f.at(0.0, 0.0)
+            >>> bool(abs(face.normal_traction) < 0.02 and face.opening > 0), float(face.closed)
+            (True, 0.0)
+        """
+        return tuple(self._core.of_faces())
+
+    def at(
+        self, x: ArrayLike, y: ArrayLike | None = None, *, side: SideName = "above", anchor: ArrayLike | None = None
+    ) -> Values:
         """Return the field at points.
 
         A value depends on its point alone, to the last bit, whatever other points there are.
 
         Args:
-            x, y: Coordinates, lengths; numbers or arrays, which are broadcast against each other.
+            x, y: Coordinates, lengths; numbers or arrays, which are broadcast against each other. Without y, x has the points
+                in rows: shape (..., 2).
             side: Side of points on a crack: ``above`` is left of its direction, ``both`` adds a last axis.
             anchor: Origin of x and y, to which they are never added: 1e-20 from a tip is as exact as 1.
 
@@ -93,10 +109,17 @@ class Field:
         Example:
             >>> f.at(0.0, 0.0, side="both").uy.shape
             (2,)
+            >>> f.at([(0.0, 0.5), (0.1, 0.5), (0.2, 0.5)]).uy.shape
+            (3,)
             >>> near = f.at(1e-20, 0.0, anchor=ds.tips[1].xy)
             >>> bool(near.von_mises > 1e9)
             True
         """
+        if y is None:
+            points = floats(x)
+            if points.shape[-1:] != (2,):
+                raise TypeError(f"give x and y, or points of the shape (..., 2), not {points.shape}")
+            x, y = points[..., 0], points[..., 1]
         return Values(self, x, y, side, anchor)
 
     def evaluate(

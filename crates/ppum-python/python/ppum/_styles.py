@@ -3,6 +3,7 @@
 import math
 import os
 import re
+import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypedDict
@@ -27,11 +28,17 @@ Overlay = Literal["cracks", "cells", "patches", "boxes", "points", "centers", "r
 Ends = tuple[float | str | None, float | str | None]
 
 
-def _colormap(cmap: Any) -> str:
+def colormap(cmap: Any) -> str:
+    """Return a name, a path, or the colours of a map of matplotlib as the text of a table."""
+    if isinstance(cmap, str) and cmap.removesuffix("_r") not in _core.colormaps() and not os.path.exists(cmap):
+        maps: Any = getattr(sys.modules.get("matplotlib"), "colormaps", {})
+        cmap = maps[cmap] if cmap in maps else cmap
+    if callable(cmap) and hasattr(cmap, "N"):
+        return "".join("{:.6f} {:.6f} {:.6f}\n".format(*color) for color in cmap(np.linspace(0, 1, 256))[:, :3])
     if not isinstance(cmap, (str, os.PathLike)):
         raise TypeError(
-            f"cmap: a name such as 'viridis', or the path of a table of colours, is needed, not {type(cmap).__name__}; maps of "
-            "matplotlib are for `field.draw.plot`"
+            "cmap: a name such as 'viridis', a map of matplotlib, or the path of a table of colours is needed, not "
+            f"{type(cmap).__name__}"
         )
     return str(os.fspath(cmap))
 
@@ -120,7 +127,7 @@ class RangeOptions(TypedDict, total=False):
 class ColorOptions(RangeOptions, total=False):
     """Colours, and the deformed plate."""
 
-    cmap: Annotated[str | os.PathLike[str] | None, Option(None, at="colors.colormap", written=_colormap)]
+    cmap: Annotated[Any, Option(None, more="or a map of matplotlib", at="colors.colormap", written=colormap)]
     norm: Annotated[Norm, Option("linear", at="colors.scale")]
     deformed: Annotated[Literal["auto"] | float | None, Option(None, at="deformed", written=str)]
 

@@ -61,7 +61,8 @@ class Values:
     """The values of a field at points, evaluated when they are asked for. Made by `Field.at`.
 
     Attributes are quantities with ``_`` for ``-``, items are quantities and formulas of them. Results have the
-    shape of the points, with one axis more for ``side="both"``: above, below. They are NaN outside the domain.
+    shape of the points, with one axis more for ``side="both"``: above, below. They are NaN outside the domain. On cracks
+    there are also the quantities of `Field.face_quantities`, such as `normal_traction`; NaN elsewhere.
 
     Example:
         >>> v = f.at([0.0, 0.5], [1.0, 0.25])
@@ -110,6 +111,37 @@ class Values:
             (2, 2)
         """
         return self._evaluate([quantity], True, None)[..., 0, 1:]
+
+    @property
+    def displacement(self) -> Floats:
+        """Displacement (ux, uy): shape (..., 2).
+
+        Example:
+            >>> f.at([0.1, 0.2], 0.5).displacement.shape
+            (2, 2)
+        """
+        return self._tensor([["ux", "uy"]])[..., 0, :]
+
+    @property
+    def strain(self) -> Floats:
+        """Strain tensor in the plane: shape (..., 2, 2), of which [..., 0, 1] is ε_xy, half the engineering shear strain."""
+        return self._tensor([["exx", "exy"], ["exy", "eyy"]])
+
+    @property
+    def stress(self) -> Floats:
+        """Stress tensor in the plane: shape (..., 2, 2).
+
+        Example:
+            >>> stress = f.at([0.1, 0.2], 0.5).stress
+            >>> np.allclose(np.linalg.eigvalsh(stress)[:, 1], f.at([0.1, 0.2], 0.5).s1)
+            True
+        """
+        return self._tensor([["sxx", "sxy"], ["sxy", "syy"]])
+
+    def _tensor(self, rows: list[list[str]]) -> Floats:
+        """Return the components of a tensor on two axes behind those of the points."""
+        found = self._evaluate([name for row in rows for name in row], False, None)
+        return found.reshape((*found.shape[:-1], len(rows), 2))
 
     def _evaluate(self, names: list[str], gradient: bool, out: Floats | None) -> Floats:
         """Return shape (..., q), or (..., q, 3) with gradients; both sides have an axis of two before these."""

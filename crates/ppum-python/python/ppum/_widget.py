@@ -23,7 +23,7 @@ from ._draw import Figure
 from ._errors import PpumError
 from ._field import KEPT
 from ._options import passes, takes
-from ._styles import FigureOptions, Norm, ViewerOptions, request, span
+from ._styles import FigureOptions, Norm, ViewerOptions, colormap, request, span
 from ._text import plural
 from ._views import ZOOM, PlaceOptions, View, view_at
 
@@ -112,7 +112,7 @@ class Viewer(anywidget.AnyWidget):
         view = seen or self._whole()
         name = quantity or field._core.default_quantity()
         own: dict[str, Any] = {key: options[key] for key in ("norm", "deformed", "cracks", "height")}
-        own["cmap"] = "auto" if options["cmap"] is None else os.fspath(options["cmap"])
+        own["cmap"] = "auto" if options["cmap"] is None else colormap(options["cmap"])
         own["clim"] = _clim(field, name, options, view)
         place = {"center": view.center, "width": view.width, "step": field._number}
         super().__init__(quantity=name, **place, **own, _offers=_offers(field))

@@ -159,12 +159,15 @@ pub enum MapError {
     },
 }
 
-/// The map of a file, or the built-in one of that name. Any other existing path is read as a file
-/// too, to say why it cannot be.
+/// The map of a file, or the built-in one of that name; a text of several lines is a map itself.
+/// Any other existing path is read as a file too, to say why it cannot be.
 ///
 /// # Errors
 /// An unknown name; a file that cannot be read, or holds no map.
 pub fn map(name: &str) -> Result<Colormap, MapError> {
+    if name.contains('\n') {
+        return Ok(Colormap::from_text("colormap", name)?);
+    }
     let path = Path::new(name);
     match Colormap::named(name) {
         Ok(map) if !path.is_file() => return Ok(map),
