@@ -5,7 +5,6 @@ use std::fs;
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, TouchPhase, vec2};
 use egui_kittest::kittest::Queryable as _;
-use ppum::dataset::Attribute;
 use ppum::vec2::{Vec2, vec2 as v};
 use ppum_render::view::View;
 use ppum_scene::overlays::Overlay;
@@ -70,12 +69,7 @@ fn a_new_view_shows_the_cracks() {
 /// Quantities of errors are found by that word, and others are not.
 #[test]
 fn the_error_is_found_by_its_name() {
-    let mut lab = Lab::new();
-    let mut dataset = plate();
-    let values = vec![0.5; dataset.steps[0].partition.len()];
-    dataset.steps[0].attributes.push(Attribute { name: "indicator".into(), values });
-    let path = lab.write("plate.h5", &dataset);
-    lab.open(&path);
+    let mut lab = lab();
     lab.window.key_press(Key::Q);
     lab.window.run_steps(3);
     lab.window.get_by_label("Search quantities").type_text("error");

@@ -331,8 +331,8 @@ fn each_of_two_views_bears_its_name() {
     lab.settle();
     lab.window.step();
     shot(&mut lab, "manners-names");
-    assert!(lab.window.query_by_label("plate.h5 · von-mises").is_some());
-    assert!(lab.window.query_by_label("plate.h5 · syy").is_some());
+    assert!(lab.window.query_by_label("plate.h5 · von-mises · linked").is_some());
+    assert!(lab.window.query_by_label("plate.h5 · syy · linked").is_some());
 }
 
 #[test]
