@@ -169,7 +169,7 @@ mod tests {
         let field = Field::new(&dataset, 0).unwrap();
         let profile = ProfileCurve::Crack { index: 0 };
         let table = profile.drawn(&field, &[], 61, unwatched()).unwrap().table;
-        let curves = columns(&table, Variable::Length, true);
+        let curves = columns(&table, Variable::Length, true, &[]);
         let at = first.length();
         for (name, points) in &curves {
             let pieces: Vec<_> = points.split(|p| p[1].is_nan()).collect();
