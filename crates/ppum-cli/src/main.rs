@@ -1,4 +1,4 @@
-//! The program `ppum`: what `ppum_cli` runs, with graphics cards and the window if it was built with
+//! The program `ppum`: that of `ppum_cli`, with graphics cards and the window if it was built with
 //! them.
 
 #[cfg(feature = "gpu")]

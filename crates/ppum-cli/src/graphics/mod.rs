@@ -11,7 +11,7 @@ use ppum_scene::engine::DrawOnCard;
 
 pub use adapter::Adapter;
 
-/// What draws beside the processor.
+/// The drawing devices of a program, and its window.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Graphics {
     /// Graphics cards; without them the processor draws.
@@ -59,7 +59,7 @@ pub(crate) fn have(graphics: Graphics) {
     let _ = GRAPHICS.set(graphics);
 }
 
-/// What the program was built with.
+/// Returns what the program was built with.
 pub(crate) fn graphics() -> Graphics {
     GRAPHICS.get().copied().unwrap_or_default()
 }

@@ -352,7 +352,7 @@ fn is_another(before: &Dataset, now: &Dataset) -> bool {
     is_renamed || before.domain.bounds != now.domain.bounds
 }
 
-/// What is said of a file that has another body now.
+/// Returns the message about a file that has another body now.
 fn another_body(dataset: &Dataset) -> String {
     let title = dataset.title.split_whitespace().collect::<Vec<_>>().join(" ");
     format!("another body is in this file now, “{title}”, and is shown; {OTHER_NAME}")

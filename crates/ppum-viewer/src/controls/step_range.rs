@@ -14,7 +14,7 @@ use crate::viewport::OpenDataset;
 /// The range of all steps, found in the background.
 #[derive(Default)]
 pub struct StepRange {
-    /// What it is looked for, and since when that is so \[s\].
+    /// Its question, and since when that is asked \[s\].
     asked: Option<(FrameRequest, f64)>,
     search: Option<Whole>,
     found: Option<(FrameRequest, Option<RangeChoice>)>,

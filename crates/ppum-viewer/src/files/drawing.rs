@@ -16,7 +16,7 @@ const LONGEST: u64 = 1 << 28;
 
 /// A drawing or mesh as it was read.
 #[derive(Clone, Debug)]
-pub struct Drawing {
+pub struct DrawingSource {
     /// The file.
     pub path: PathBuf,
     /// The names of its layers, groups or labels.
@@ -32,11 +32,11 @@ pub struct ImportedProblem {
     pub text: String,
     /// The body.
     pub preview: Option<Preview>,
-    /// What was not read or was changed, with its place in the file.
+    /// The notes on curves that were not read or were changed, with their places in the file.
     pub notices: Vec<String>,
 }
 
-impl Drawing {
+impl DrawingSource {
     /// Reads a file.
     ///
     /// # Errors

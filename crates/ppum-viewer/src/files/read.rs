@@ -10,7 +10,7 @@ use std::time::Instant;
 use ppum::dataset::Dataset;
 use ppum_problem::MAX_LENGTH as MAX_PROBLEM;
 
-use super::drawing::{DRAWINGS, Drawing};
+use super::drawing::{DRAWINGS, DrawingSource};
 use super::session_file;
 use super::watch::{Stamp, stamp};
 use crate::job::{BackgroundJob, CancelToken};
@@ -25,7 +25,7 @@ pub enum FileContent {
     /// The text of a problem.
     Problem(String),
     /// A drawing, to be imported.
-    Drawing(Arc<Drawing>),
+    Drawing(Arc<DrawingSource>),
     /// The session of a window.
     Session(Box<Session>),
 }
@@ -105,7 +105,7 @@ const HDF5: &[u8] = b"\x89HDF\r\n\x1a\n";
 
 fn read(path: &Path, counted: &AtomicU64, stop: &CancelToken) -> Result<FileContent, String> {
     if has_extension(path, DRAWINGS) {
-        return Drawing::read(path).map(Arc::new).map(FileContent::Drawing);
+        return DrawingSource::read(path).map(Arc::new).map(FileContent::Drawing);
     }
     match is_text(path) {
         Err(error) => Err(error.to_string()),

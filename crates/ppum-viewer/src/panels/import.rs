@@ -6,7 +6,7 @@ use egui::{Align2, Key, Label, Modifiers, RichText, ScrollArea, Sense, Ui, Windo
 use ppum_import::ImportOptions;
 
 use super::{note, wrong};
-use crate::files::drawing::{Drawing, ImportedProblem};
+use crate::files::drawing::{DrawingSource, ImportedProblem};
 use crate::query::BackgroundQuery;
 use crate::shapes::{self, ImagePlacement};
 use crate::solving::preview::Preview;
@@ -15,7 +15,7 @@ use crate::widgets::entry::entry;
 /// A drawing while it is imported.
 #[derive(Debug)]
 pub struct ImportDialog {
-    drawing: Arc<Drawing>,
+    drawing: Arc<DrawingSource>,
     /// True for each layer that is taken.
     taken: Vec<bool>,
     tolerance: f64,
@@ -25,7 +25,7 @@ pub struct ImportDialog {
 impl ImportDialog {
     /// Takes all layers, with the tolerance of `ppum import`.
     #[must_use]
-    pub fn new(drawing: Arc<Drawing>) -> Self {
+    pub fn new(drawing: Arc<DrawingSource>) -> Self {
         let taken = vec![true; drawing.layers.len()];
         let (ImportOptions { tolerance, .. }, found) = Default::default();
         Self { drawing, taken, tolerance, found }
@@ -33,7 +33,7 @@ impl ImportDialog {
 
     /// The drawing.
     #[must_use]
-    pub fn drawing(&self) -> &Drawing {
+    pub fn drawing(&self) -> &DrawingSource {
         &self.drawing
     }
 

@@ -19,7 +19,7 @@ const ENLARGED: f64 = 2.5;
 /// The body as the map shows it: its holes and cracks, drawn once.
 pub struct Locator {
     map: View,
-    /// What is drawn on the ground of a light and of a dark window.
+    /// The colours on the ground of a light and of a dark window.
     items: [Vec<CanvasItem>; 2],
 }
 

@@ -80,7 +80,7 @@ pub(crate) fn note_of(ui: &mut Ui, text: &str, lines: usize) {
     lines_of(ui, text, pale(ui), lines);
 }
 
-/// The same in any colour.
+/// Draws it in any colour.
 pub(crate) fn lines_of(ui: &mut Ui, text: &str, color: Color32, lines: usize) {
     let width = ui.available_width();
     let mut job = LayoutJob::simple(text.to_owned(), FontId::proportional(NOTE), color, width);

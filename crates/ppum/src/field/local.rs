@@ -149,7 +149,7 @@ impl<'f> LocalField<'f> {
         side: Side,
         out: &mut [Jet<f64>],
     ) -> bool {
-        // entries that are not generic: kernels are compiled here, and not in every crate that calls
+        // entries that are not generic: kernels are compiled here, not where they are called
         match D {
             0 => self.values(offset, side, out),
             1 => self.gradients(offset, side, out),

@@ -95,7 +95,7 @@ impl<'m, 'f> ElementField<'m, 'f> {
     /// # Panics
     /// If `out` is shorter than the number of components.
     pub fn evaluate<const D: usize>(&self, place: (Vec2, Vec2), side: Side, out: &mut [Jet<f64>]) {
-        // entries that are not generic: kernels are compiled here, and not in every crate that calls
+        // entries that are not generic: kernels are compiled here, not where they are called
         match D {
             0 => self.values(place, side, out),
             1 => self.gradients(place, side, out),

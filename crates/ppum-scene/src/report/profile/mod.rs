@@ -16,6 +16,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::report::table::{Column, NumberTable};
+use plot::BESIDE;
 pub use plot::{NamedQuantities, Variable, axis, columns, curve, unit, value_label};
 
 /// A curve that values are looked at along.
@@ -128,9 +129,6 @@ pub const MOST: usize = 20_000_000;
 
 /// Values of a curve's variable that are the same except for rounding, in parts of its range.
 const SAME: f64 = 1e-12;
-
-/// Distance of points from a crack's vertices, in parts of its length.
-const BESIDE: f64 = 1e-9;
 
 /// The smallest distance of a ray from its tip, in parts of the largest.
 const NEAREST: f64 = 1e-6;

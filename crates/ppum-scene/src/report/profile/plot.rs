@@ -74,9 +74,12 @@ fn broken(points: &[[f64; 2]], sides: &[f64]) -> Vec<[f64; 2]> {
     all
 }
 
+/// Distance of points from a crack's vertices, in parts of its length.
+pub(super) const BESIDE: f64 = 1e-9;
+
 /// The points of a crack with a gap at each vertex, before and behind which there is one.
 fn broken_at_vertices(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
-    let least = 3.0 * super::BESIDE * points.last().map_or(0.0, |last| last[0]);
+    let least = 3.0 * BESIDE * points.last().map_or(0.0, |last| last[0]);
     let is_apart = |a: &[f64; 2], b: &[f64; 2]| b[0] - a[0] > least;
     let pieces: Vec<&[[f64; 2]]> = points.chunk_by(is_apart).collect();
     pieces.join(&[[f64::NAN; 2]][..])
