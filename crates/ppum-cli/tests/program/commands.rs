@@ -18,7 +18,7 @@ use ppum_scene::magnification::Magnification;
 use ppum_scene::overlays::{IsolineLevels, Overlay, Overlays};
 use ppum_scene::page_style::PageStyle;
 use ppum_scene::region::ViewRegion;
-use ppum_scene::request::{FigureTexts, Request};
+use ppum_scene::request::Request;
 use ppum_scene::scene::{SceneRequest, Subject};
 use ppum_scene::subject::ImageSubject;
 use ppum_testkit::random::Random;
@@ -154,6 +154,7 @@ fn the_command_of_a_picture_draws_it_again() {
 fn the_window_saves_what_its_command_draws() {
     use std::sync::atomic::AtomicUsize;
 
+    use ppum_scene::request::FigureTexts;
     use ppum_viewer::export::{ExportChoice, ImageExport, Motion, PageSize};
     use ppum_viewer::field::OwnedField;
 
