@@ -62,7 +62,7 @@ fn choices(field: &Field<'_>) -> Vec<ChooserItem> {
     let of_cells = cells::names(field).into_iter().map(|name| {
         let is_taken = all.iter().any(|choice| choice.value == name);
         let of = if cells::exist(field) { "cell" } else { "patch" };
-        let label = if name == INDICATOR { "estimated error" } else { &cells::label(&name) };
+        let label = if name == INDICATOR { "estimated error" } else { cells::label(&name) };
         let about = format!("{label}, of each {of}");
         let value = if is_taken { format!("{OF_PATCHES}{name}") } else { name };
         ChooserItem { value, about, group: "Values of cells" }
