@@ -13,6 +13,7 @@ use ppum::progress::{Progress, Verdict, Watcher};
 pub struct BackgroundJob<T> {
     receiver: Receiver<Result<T, String>>,
     stop: CancelToken,
+    is_done: Arc<AtomicBool>,
 }
 
 /// A token that is set when its job is cancelled.
@@ -42,14 +43,16 @@ impl<T: Send + 'static> BackgroundJob<T> {
     ) -> Self {
         let (sender, receiver) = mpsc::channel();
         let stop = CancelToken::default();
-        let (theirs, ctx) = (stop.clone(), ctx.clone());
+        let is_done = Arc::new(AtomicBool::new(false));
+        let (theirs, ctx, done) = (stop.clone(), ctx.clone(), Arc::clone(&is_done));
         std::thread::spawn(move || {
             let outcome = catch_unwind(AssertUnwindSafe(|| work(&theirs)));
             // nobody listens if the job was dropped
             let _ = sender.send(outcome.map_err(|panic| words(&*panic)));
+            done.store(true, Ordering::Release);
             ctx.request_repaint();
         });
-        Self { receiver, stop }
+        Self { receiver, stop, is_done }
     }
 
     /// The result, once, when it is there; an error if the work has panicked.
@@ -77,6 +80,13 @@ impl<T: Send + 'static> BackgroundJob<T> {
     /// True once it was asked to stop.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.stop.is_set()
+    }
+}
+
+impl<T> BackgroundJob<T> {
+    /// True once the result is there, taken or not.
+    pub(crate) fn is_done(&self) -> bool {
+        self.is_done.load(Ordering::Acquire)
     }
 }
 

@@ -72,10 +72,10 @@ impl<K: Clone + PartialEq, V: Send + 'static> BackgroundQuery<K, V> {
 }
 
 impl<K, V> BackgroundQuery<K, V> {
-    /// True while work runs.
+    /// True while work runs, also for a question that nobody asks any more.
     #[must_use]
     pub fn is_working(&self) -> bool {
-        self.running.is_some()
+        self.running.as_ref().is_some_and(|(_, job)| !job.is_done())
     }
 }
 
@@ -114,6 +114,20 @@ mod tests {
         // what is known is not asked again
         question.ask(&3, true, &wake, |_| Some(Ok(4)));
         assert_eq!(*answer(&mut question), Ok(3));
+    }
+
+    #[test]
+    fn a_question_that_nobody_asks_any_more_comes_to_rest() {
+        let (wake, mut question) =
+            (egui::Context::default(), BackgroundQuery::<u32, ()>::default());
+        question.ask(&1, false, &wake, |_| Some(Ok(())));
+        for _ in 0..2000 {
+            if !question.is_working() {
+                return;
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        panic!("it works without end");
     }
 
     #[test]

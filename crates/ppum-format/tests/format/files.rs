@@ -75,7 +75,7 @@ fn temperatures_are_stored() {
         assert!(to_bytes(&other).is_err());
         count += 1;
     }
-    assert_eq!(count, 2);
+    assert_eq!(count, 3);
 }
 
 /// A file of the first version, as the program of that time wrote it: every patch has the functions

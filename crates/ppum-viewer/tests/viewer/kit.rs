@@ -55,13 +55,21 @@ pub(crate) fn show_until(
 
 /// Shows the window until nothing is drawn or read.
 pub(crate) fn settle(window: &mut Harness<'static, Viewer>) {
-    show_until(window, "the window comes to rest", |window| {
-        let is_working = |viewport: &ppum_viewer::viewport::ViewState| {
-            viewport.is_drawing() || viewport.tools.is_working()
-        };
-        !window.state().viewports.iter().any(is_working)
-    });
-    window.step();
+    loop {
+        show_until(window, "the window comes to rest", is_at_rest);
+        window.step();
+        // an answer may lead to the next question
+        if is_at_rest(window) {
+            return;
+        }
+    }
+}
+
+fn is_at_rest(window: &Harness<'static, Viewer>) -> bool {
+    let is_working = |viewport: &ppum_viewer::viewport::ViewState| {
+        viewport.is_drawing() || viewport.tools.is_working()
+    };
+    !window.state().viewports.iter().any(is_working)
 }
 
 /// A plate with a crack, solved coarsely.
