@@ -170,7 +170,11 @@ impl PyField {
         let Some(names) = names else { return Ok(suitable) };
         let array = |name: String| match suitable.iter().find(|array| array.name == name) {
             Some(known) => Ok(known.clone()),
-            None => Ok(PointArray::scalar(&name, self.quantity(&name)?)),
+            None => {
+                let wanted = self.quantity(&name)?;
+                wanted.check(self.field()).map_err(quantity)?;
+                Ok(PointArray::scalar(&name, wanted))
+            }
         };
         names.into_iter().map(array).collect()
     }

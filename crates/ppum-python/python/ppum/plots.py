@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 __all__ = ["Plot", "around", "circle", "convergence", "crack", "history", "line", "ray", "series"]
 
-Fields: TypeAlias = "Field | Mapping[str, Field]"
+Fields: TypeAlias = "Field | Dataset | Mapping[str, Field | Dataset]"
 Names = Sequence[str] | None
 Work = Literal["seconds", "bytes", "residuals", "levels"]
 Axis = Literal["step", "load", "length", "extension", "cycles"]
@@ -172,7 +172,9 @@ def convergence(
 
 def _profiles(fields: Any, curve: dict[str, Any], quantities: Names, options: ProfileOptions) -> Plot:
     wanted = None if quantities is None else names_of(quantities)
-    return Plot("profiles", _named(fields), (curve, options["num"], wanted, options["log"]), options["size"])
+    # of a dataset its last field
+    named = [(name, getattr(thing, "field", thing)) for name, thing in _named(fields)]
+    return Plot("profiles", named, (curve, options["num"], wanted, options["log"]), options["size"])
 
 
 def _reports(datasets: Any, kind: dict[str, Any], options: PlotOptions) -> Plot:

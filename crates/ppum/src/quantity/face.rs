@@ -9,7 +9,7 @@
 //!
 //! The normal is the same on both faces: σ_n and τ are continuous where faces press on each other.
 
-use crate::crack::Side;
+use crate::crack::{Crack, CrackEnd, End, Side};
 use crate::field::{Field, LocalField};
 use crate::jet::Jet;
 use crate::vec2::{Vec2, vec2};
@@ -17,6 +17,13 @@ use crate::vec2::{Vec2, vec2};
 /// The length h of the law of contact in parts of the patch's: any h serves in an exact field,
 /// where the opening or the pressure vanishes; a small one keeps faces under a load open near tips.
 const TOUCHING: f64 = 0.1;
+
+/// Distance from a face of the points that stand for it where the material changes across the
+/// crack, in parts of the patch's size.
+const NEAR: f64 = 1e-9;
+
+/// Relative difference of Young's moduli of which one material has none.
+const SAME: f64 = 1e-6;
 
 /// A quantity of the faces of the cracks of an elastic body, with the quantities `Q` of stress.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,39 +98,73 @@ impl<Q> FaceQuantity<Q> {
         matches!(self.kind, FaceKind::NormalTraction | FaceKind::ShearTraction)
     }
 
-    /// The value at a point of a face with the jets on it; NaN away from cracks, at tips, and of
-    /// jumps where only one face is in the body.
+    /// The value at a point of a face with the jets on it; NaN away from cracks, at tips and
+    /// junctions, and of jumps where only one face is in the body. Where the material changes
+    /// across the crack both the law and the derivatives are those next to the face.
     pub(super) fn of_jets(
         &self,
         local: &mut LocalField<'_>,
-        offset: Vec2,
+        (offset, side): (Vec2, Side),
         jets: &[Jet<f64>],
         stress: StressValue<Q>,
     ) -> f64 {
         let Some(on) = local.segment else { return f64::NAN };
-        let edge = local.field.step.cracks[on.crack as usize].edge(on.segment as usize);
+        let cracks = &local.field.step.cracks;
+        if is_junction(cracks, local.anchor + offset) {
+            return f64::NAN;
+        }
+        let edge = cracks[on.crack as usize].edge(on.segment as usize);
         let tangent = edge.tangent_towards(local.anchor + offset);
         let normal = tangent.left();
-        let traction = |local: &LocalField<'_>, jets: &[Jet<f64>]| {
-            let [xx, yy, xy] = self.stress.each_ref().map(|q| stress(q, local, offset, jets));
+        let near = near_faces(local, offset, normal);
+        let traction = |local: &mut LocalField<'_>, side: Side, jets: &[Jet<f64>]| {
+            let place = near.map_or(offset, |near| near[usize::from(side == Side::Below)]);
+            let own = near.map(|_| on_face::<1>(local, place, side));
+            let jets = own.as_deref().unwrap_or(jets);
+            let [xx, yy, xy] = self.stress.each_ref().map(|q| stress(q, local, place, jets));
             let [x, y] = [xx * normal.x + xy * normal.y, xy * normal.x + yy * normal.y];
             if x.is_finite() && y.is_finite() { vec2(x, y) } else { vec2(f64::NAN, f64::NAN) }
         };
         match self.kind {
-            FaceKind::NormalTraction => traction(local, jets).dot(normal),
-            FaceKind::ShearTraction => traction(local, jets).dot(tangent),
+            FaceKind::NormalTraction => traction(local, side, jets).dot(normal),
+            FaceKind::ShearTraction => traction(local, side, jets).dot(tangent),
             FaceKind::Opening => jump(local, offset).dot(normal),
             FaceKind::Sliding => jump(local, offset).dot(tangent),
             FaceKind::Closed => {
                 let on = [Side::Above, Side::Below].map(|side| {
                     let jets = on_face::<1>(local, offset, side);
-                    traction(local, &jets).dot(normal)
+                    traction(local, side, &jets).dot(normal)
                 });
                 let opening = jump(local, offset).dot(normal);
                 closed(local, offset, 0.5 * (on[0] + on[1]), opening)
             }
         }
     }
+}
+
+/// True at the end of a crack on another one, where faces of both meet.
+fn is_junction(cracks: &[Crack], point: Vec2) -> bool {
+    let ends = cracks.iter().flat_map(|crack| {
+        let points = [End::Start, End::Last].map(|end| crack.end_point(end));
+        points.into_iter().zip(crack.ends)
+    });
+    let mut junctions = ends.filter(|(_, kind)| *kind == CrackEnd::Junction);
+    junctions.any(|(end, _)| {
+        let size = end.max_norm().max(point.max_norm());
+        (end - point).max_norm() <= 8.0 * f64::EPSILON * size
+    })
+}
+
+/// Points next to the faces above and below, where the material changes across the crack.
+fn near_faces(local: &LocalField<'_>, offset: Vec2, normal: Vec2) -> Option<[Vec2; 2]> {
+    let body = local.field.equation.elastic()?;
+    body.young.constant().is_none().then_some(())?;
+    let patch = local.owner(offset, Side::Above)?;
+    let step = normal * (NEAR * local.field.step.partition.half(patch).max_norm());
+    let places = [offset + step, offset - step];
+    let [above, below] = places.map(|place| body.young.value(local.anchor + place));
+    let is_same = (above - below).abs() <= SAME * above.abs().max(below.abs());
+    (!is_same).then_some(places)
 }
 
 /// 1 where the faces overlap, or touch under pressure: σ_n + E \[u\]·m / h < 0 with the mean σ_n

@@ -421,7 +421,7 @@ impl Quantity {
         };
         match self {
             _ if !inside => f64::NAN,
-            Q::Face(face) => face.of_jets(local, offset, &u, Self::of_values),
+            Q::Face(face) => face.of_jets(local, (offset, side), &u, Self::of_values),
             _ => self.of_values(local, offset, &u),
         }
     }

@@ -28,19 +28,20 @@ impl Quantity {
         } else {
             local.evaluate_into::<0>(offsets, side, &mut jets);
         }
-        Self::rows(quantities, local, offsets.iter().copied(), &jets)
+        Self::rows(quantities, local, (offsets.iter().copied(), side), &jets)
     }
 
     /// Several quantities of jets at points, a row for each point.
     fn rows(
         quantities: &[Self],
         local: &mut LocalField<'_>,
-        offsets: impl Iterator<Item = Vec2>,
+        (offsets, side): (impl Iterator<Item = Vec2>, Side),
         jets: &[Jet<f64>],
     ) -> Vec<f64> {
         let mut rows = Vec::new();
         for (offset, jets) in offsets.zip(jets.chunks(local.field.components())) {
-            rows.extend(quantities.iter().map(|quantity| quantity.of_jets(local, offset, jets)));
+            let at = (offset, side);
+            rows.extend(quantities.iter().map(|quantity| quantity.of_jets(local, at, jets)));
         }
         rows
     }
@@ -69,7 +70,7 @@ impl Quantity {
                 }
             }
         }
-        Self::rows(quantities, local, offsets.into_iter(), &jets)
+        Self::rows(quantities, local, (offsets.into_iter(), Side::Above), &jets)
     }
 
     /// A quantity of a field on a mesh at the points of a grid, row by row; NaN outside, and of a
@@ -88,14 +89,14 @@ impl Quantity {
             Source::Gradient => local.evaluate_grid::<1>(grid, side, &mut jets),
             _ => local.evaluate_grid::<0>(grid, side, &mut jets),
         }
-        Self::rows(std::slice::from_ref(self), local, grid.offsets(), &jets)
+        Self::rows(std::slice::from_ref(self), local, (grid.offsets(), side), &jets)
     }
 
     /// The quantity where the field is known; NaN outside the domain.
     pub(crate) fn of_jets(
         &self,
         local: &mut LocalField<'_>,
-        offset: Vec2,
+        (offset, side): (Vec2, Side),
         jets: &[Jet<f64>],
     ) -> f64 {
         if self.source() == Source::Partition {
@@ -105,7 +106,7 @@ impl Quantity {
             return f64::NAN;
         }
         if let Self::Face(face) = self {
-            return face.of_jets(local, offset, jets, Self::of_values);
+            return face.of_jets(local, (offset, side), jets, Self::of_values);
         }
         self.of_values(local, offset, jets)
     }

@@ -51,11 +51,17 @@ impl SampledQuantity<'_> {
     }
 
     /// The numbers at a point where the field is known.
-    fn row(&self, local: &mut LocalField<'_>, offset: Vec2, jets: &[Jet<f64>], row: &mut [f64]) {
+    fn row(
+        &self,
+        local: &mut LocalField<'_>,
+        (offset, side): (Vec2, Side),
+        jets: &[Jet<f64>],
+        row: &mut [f64],
+    ) {
         match self {
             Self::Values(quantities) => {
                 for (value, quantity) in row.iter_mut().zip(*quantities) {
-                    *value = quantity.of_jets(local, offset, jets);
+                    *value = quantity.of_jets(local, (offset, side), jets);
                 }
             }
             Self::Slopes(slopes) => {
@@ -206,7 +212,7 @@ impl<'a, 'd> PointChunk<'a, 'd> {
         for ((&key, &offset), jets) in keys.iter().zip(&*offsets).zip(jets.chunks(components)) {
             if local.has_values(offset, jets) {
                 let row = &mut rows[number(key) * width..][..width];
-                wanted.row(local, offset, jets, row);
+                wanted.row(local, (offset, self.place(key).side), jets, row);
             }
         }
     }

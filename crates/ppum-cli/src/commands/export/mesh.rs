@@ -282,7 +282,11 @@ fn arrays(field: &Field<'_>, quantities: Option<&str>) -> anyhow::Result<Vec<Poi
     let Some(list) = quantities else { return Ok(defaults) };
     let array = |text: &str| match defaults.iter().find(|array| array.name == text) {
         Some(known) => Ok(known.clone()),
-        None => Ok(PointArray::scalar(text, quantity(field, text)?)),
+        None => {
+            let quantity = quantity(field, text)?;
+            quantity.check(field)?;
+            Ok(PointArray::scalar(text, quantity))
+        }
     };
     parts(list).into_iter().map(array).collect()
 }
