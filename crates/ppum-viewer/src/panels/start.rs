@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use egui::{
-    Galley, Label, Rect, RichText, Role, ScrollArea, Sense, StrokeKind, TextStyle, TextWrapMode,
-    Ui, Vec2, WidgetInfo, WidgetText, vec2,
+    Galley, Rect, RichText, Role, ScrollArea, Sense, StrokeKind, TextStyle, TextWrapMode, Ui, Vec2,
+    WidgetInfo, WidgetText, vec2,
 };
 
 use crate::actions::Action;
@@ -117,9 +117,9 @@ fn tile(
     }
     let mut corner = picture.right_top() + vec2(ROOM, 0.0);
     for text in [title, about] {
-        let place = Rect::from_min_size(corner, text.size());
-        corner.y = place.bottom();
-        ui.put(place, Label::new(text).selectable(false));
+        let below = corner + vec2(0.0, text.size().y);
+        ui.painter().galley(corner, text, ui.visuals().text_color());
+        corner = below;
     }
 }
 

@@ -68,6 +68,10 @@ impl RowList<'_> {
     }
 }
 
+/// Words for quantities that are not of the whole body.
+const FACES: [&str; 6] =
+    ["normal-traction", "shear-traction", "contact pressure", "opening", "sliding", "closed gap"];
+
 /// Rows that are shown; who looks for others writes more of the name.
 const MOST: usize = 200;
 /// Height of the open list \[points\].
@@ -116,7 +120,11 @@ impl Chooser {
         row: impl Fn(&mut Ui, &ChooserItem, bool) -> Response,
     ) -> Option<String> {
         let found = matching_choices(&self.text, choices);
-        let empty = "nothing has this name; formulas are written below";
+        let text = self.text.to_lowercase();
+        let empty = match FACES.iter().any(|word| word.contains(text.trim())) {
+            true => "on the faces of cracks: page Plot, a crack, Faces",
+            false => "nothing has this name; formulas are written below",
+        };
         self.show_found(ui, [name, empty], current, &found, row)
     }
 

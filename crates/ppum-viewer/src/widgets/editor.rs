@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use egui::text::{CCursor, CharIndex, LayoutJob, TextFormat};
 use egui::{
-    CompletionPopup, FontId, Galley, Key, RectAlign, RichText, Stroke, Suggestion, TextBuffer,
-    TextEdit, Ui,
+    CompletionPopup, FontId, Galley, Key, KeyboardShortcut, Modifiers, RectAlign, RichText, Stroke,
+    Suggestion, TextBuffer, TextEdit, Ui,
 };
 use ppum::formula::FormulaError;
 use ppum::quantity::{QuantityError, QuantityFormulaError};
@@ -125,6 +125,7 @@ impl Editor {
         let edit = TextEdit::multiline(&mut self.draft)
             .desired_rows(rows)
             .desired_width(f32::INFINITY)
+            .return_key(KeyboardShortcut::new(Modifiers::SHIFT, Key::Enter))
             .hint_text(subject.current)
             .layouter(&mut layouter);
         let popup = CompletionPopup::new(ui.make_persistent_id(("editor", subject.name)))
@@ -141,6 +142,10 @@ impl Editor {
             ui.painter().hline(end.left()..=end.left() + 8.0, end.bottom(), stroke);
         }
         text.response.response.clone().accessible_name(subject.name);
+        // Enter ends a formula, Shift+Enter its line
+        if ui.input(|input| input.key_pressed(Key::Enter) && !input.modifiers.shift) {
+            text.response.response.surrender_focus();
+        }
         self.draft != before
     }
 

@@ -25,7 +25,8 @@ pub fn entry(ui: &mut Ui, name: &str, text: &str, hint: &str, width: f32) -> Opt
     if response.lost_focus() {
         ui.data_mut(|data| data.remove::<String>(id));
         let is_given_up = ui.input(|input| input.key_pressed(egui::Key::Escape));
-        return (edited != text && !is_given_up).then_some(edited);
+        // a text that is only shown may be cut off
+        return (is_written && edited != text && !is_given_up).then_some(edited);
     }
     if response.has_focus() {
         ui.data_mut(|data| data.insert_temp(id, if is_written { edited } else { whole }));

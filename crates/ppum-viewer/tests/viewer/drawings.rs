@@ -120,7 +120,11 @@ fn layers_and_tolerance_are_chosen() {
     lab.window.get_by_label("left").click();
     lab.window.get_by_label("Import").click();
     lab.window.run_steps(2);
-    assert!(lab.viewer().session.draft.is_none(), "nothing is imported of what is not known yet");
+    // nothing is imported of what is not known yet, and without the crack if it is known already
+    if let Some(draft) = &lab.viewer().session.draft {
+        assert!(draft.text.contains("[[outline]]") && !draft.text.contains("[[crack]]"));
+        return;
+    }
     lab.settle();
     lab.window.key_press(Key::Escape);
     lab.window.run_steps(2);

@@ -30,10 +30,11 @@ fn the_start_page_shows_the_examples() {
         (0..examples::ALL.len()).all(|number| window.state().files.previews.of(number).is_some())
     });
     shot(&mut lab, "files-start");
-    for example in &examples::ALL[..4] {
-        let tile = lab.window.get_by_role_and_label(Role::Button, example.title()).rect();
+    let tile = |title: &str| lab.window.get_by_role_and_label(Role::Button, title).rect();
+    let tiles: Vec<_> = examples::ALL[..4].iter().map(|example| tile(example.title())).collect();
+    for (k, tile) in tiles.iter().enumerate() {
         assert!(tile.left() >= 0.0 && tile.right() <= 800.0, "{tile:?}");
-        lab.window.get_by_label(example.about);
+        assert!(tiles[..k].iter().all(|other| !other.intersects(*tile)), "{tiles:?}");
     }
 }
 

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use egui::{ComboBox, DragValue, Stroke, Ui, vec2};
 use ppum::crack::{Crack, tips};
+use ppum::field::Field;
+use ppum::quantity::face_names;
 use ppum_figure::plot::{LEAST, Plot, plot};
 use ppum_scene::profile::ProfileCurve;
 
@@ -50,7 +52,7 @@ pub fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     let values = good.as_ref().and_then(|(_, found)| found.as_ref().as_ref().ok());
     let page = values.map(|values| values.plot(pane.plot.log));
     ui.horizontal_wrapped(|ui| {
-        settings(ui, pane);
+        settings(ui, pane, frame.field.field());
         if let (Some(values), Some(page)) = (values, &page) {
             save(ui, viewport, values, page);
         }
@@ -213,10 +215,13 @@ fn with_numbers(along: ProfileCurve, text: &str, before: &[f64]) -> Option<Profi
 }
 
 /// Quantities, axes and points.
-fn settings(ui: &mut Ui, pane: &mut Pane) {
+fn settings(ui: &mut Ui, pane: &mut Pane, field: &Field<'_>) {
     let text = pane.plot.quantities.clone().unwrap_or_default();
     if let Some(text) = entry(ui, "Quantities of the plot", &text, "as on the plate", 150.0) {
         pane.plot.quantities = (!text.trim().is_empty()).then_some(text);
+    }
+    if matches!(pane.curve, Some(ProfileCurve::Crack { .. })) {
+        ui.menu_button("Faces", |ui| add_face_quantity(ui, pane, field));
     }
     let [x, y] = &mut pane.plot.log;
     ui.checkbox(x, "log x");
@@ -225,6 +230,18 @@ fn settings(ui: &mut Ui, pane: &mut Pane) {
     ui.add(points).widget_info(|| {
         egui::WidgetInfo::labeled(egui::Role::SpinButton, true, "Number of points")
     });
+}
+
+/// The quantities of the faces of cracks, of which the one that is clicked is plotted too.
+fn add_face_quantity(ui: &mut Ui, pane: &mut Pane, field: &Field<'_>) {
+    for name in face_names(field) {
+        if ui.button(name).clicked() {
+            let before = pane.plot.quantities.take().filter(|text| !text.trim().is_empty());
+            let both = |before: String| format!("{before}, {name}");
+            pane.plot.quantities = Some(before.map_or_else(|| name.to_owned(), both));
+            ui.close();
+        }
+    }
 }
 
 /// Ends of names of files, and what is written into them.
