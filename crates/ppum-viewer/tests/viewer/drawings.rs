@@ -122,7 +122,8 @@ fn layers_and_tolerance_are_chosen() {
     lab.window.run_steps(2);
     // nothing is imported of what is not known yet, and without the crack if it is known already
     if let Some(draft) = &lab.viewer().session.draft {
-        assert!(draft.text.contains("[[outline]]") && !draft.text.contains("[[crack]]"));
+        let text = &draft.text;
+        assert!(text.contains("[domain.outline]") && !text.contains("[[crack]]"), "{text}");
         return;
     }
     lab.settle();
