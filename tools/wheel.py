@@ -19,11 +19,11 @@ import zipfile
 import zlib
 
 #: Longest compressed module of the build for tests, in bytes: a little more than it has. A sixth of it are kernels, once for each set of
-#: vector instructions, 1.5 MB the evaluator of pages, 2 % generic code that both crates of the solver have, and a quarter of one clap,
-#: which knows the texts of options; foreign crates that compute nothing are not optimised there, which makes them longer.
-LONGEST = 11_000_000
+#: vector instructions, 1.5 MB the evaluator of pages, 2 MB the command `ppum`, 2 % generic code that both crates of the solver have, and a
+#: quarter of one clap, which knows the texts of options; foreign crates that compute nothing are not optimised there, which makes them longer.
+LONGEST = 13_000_000
 #: Longest published wheel: the whole program is optimised at once, so generic code is there once.
-LONGEST_RELEASE = 7_200_000
+LONGEST_RELEASE = 12_000_000
 #: The C library that published wheels need, that of CentOS 7.
 OLDEST = (2, 17)
 LICENSES = ("LICENSE-MIT", "LICENSE-APACHE")
