@@ -1,7 +1,7 @@
 //! The `ppum` program: arguments and messages, nothing else.
 //!
 //! [`run`] is the whole of it but for graphics cards and the window, which the program hands over
-//! as [`Graphics`](graphics::Graphics) if it was built with them. The Python package runs it
+//! as [`Graphics`] if it was built with them. The Python package runs it
 //! without, as its command `ppum`.
 //!
 //! Results go to standard output, everything else to standard error. The exit status is 0 only when
