@@ -22,7 +22,7 @@ const TOUCHING: f64 = 0.1;
 /// crack, in parts of the patch's size.
 const NEAR: f64 = 1e-9;
 
-/// Relative difference of Young's moduli of which one material has none.
+/// Relative difference of stresses of one gradient, of which one material has none.
 const SAME: f64 = 1e-6;
 
 /// A quantity of the faces of the cracks of an elastic body, with the quantities `Q` of stress.
@@ -116,7 +116,7 @@ impl<Q> FaceQuantity<Q> {
         let edge = cracks[on.crack as usize].edge(on.segment as usize);
         let tangent = edge.tangent_towards(local.anchor + offset);
         let normal = tangent.left();
-        let near = near_faces(local, offset, normal);
+        let near = self.near_faces(local, (offset, normal), jets, stress);
         let traction = |local: &mut LocalField<'_>, side: Side, jets: &[Jet<f64>]| {
             let place = near.map_or(offset, |near| near[usize::from(side == Side::Below)]);
             let own = near.map(|_| on_face::<1>(local, place, side));
@@ -142,6 +142,30 @@ impl<Q> FaceQuantity<Q> {
     }
 }
 
+impl<Q> FaceQuantity<Q> {
+    /// Points next to the faces above and below, where the law, its axes or its given strains
+    /// change across the crack: where one gradient has other stresses above than below.
+    fn near_faces(
+        &self,
+        local: &LocalField<'_>,
+        (offset, normal): (Vec2, Vec2),
+        jets: &[Jet<f64>],
+        stress: StressValue<Q>,
+    ) -> Option<[Vec2; 2]> {
+        if local.field.equation.is_uniform() {
+            return None;
+        }
+        let patch = local.owner(offset, Side::Above)?;
+        let step = normal * (NEAR * local.field.step.partition.half(patch).max_norm());
+        let places = [offset + step, offset - step];
+        let [above, below] =
+            places.map(|place| self.stress.each_ref().map(|q| stress(q, local, place, jets)));
+        let size = above.iter().chain(&below).fold(0.0, |size: f64, s| size.max(s.abs()));
+        let differs = |(a, b): (&f64, &f64)| (a - b).abs() > SAME * size;
+        above.iter().zip(&below).any(differs).then_some(places)
+    }
+}
+
 /// True at the end of a crack on another one, where faces of both meet.
 fn is_junction(cracks: &[Crack], point: Vec2) -> bool {
     let ends = cracks.iter().flat_map(|crack| {
@@ -153,18 +177,6 @@ fn is_junction(cracks: &[Crack], point: Vec2) -> bool {
         let size = end.max_norm().max(point.max_norm());
         (end - point).max_norm() <= 8.0 * f64::EPSILON * size
     })
-}
-
-/// Points next to the faces above and below, where the material changes across the crack.
-fn near_faces(local: &LocalField<'_>, offset: Vec2, normal: Vec2) -> Option<[Vec2; 2]> {
-    let body = local.field.equation.elastic()?;
-    body.young.constant().is_none().then_some(())?;
-    let patch = local.owner(offset, Side::Above)?;
-    let step = normal * (NEAR * local.field.step.partition.half(patch).max_norm());
-    let places = [offset + step, offset - step];
-    let [above, below] = places.map(|place| body.young.value(local.anchor + place));
-    let is_same = (above - below).abs() <= SAME * above.abs().max(below.abs());
-    (!is_same).then_some(places)
 }
 
 /// 1 where the faces overlap, or touch under pressure: σ_n + E \[u\]·m / h < 0 with the mean σ_n

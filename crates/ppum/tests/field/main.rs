@@ -7,6 +7,7 @@ mod deep_zoom;
 mod derivatives;
 mod each;
 mod errors;
+mod faces;
 mod formulas;
 mod gradients;
 mod hp_mesh;
